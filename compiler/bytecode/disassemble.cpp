@@ -1,6 +1,7 @@
 #include "compiler/bytecode/disassemble.h"
 
 #include "compiler/bytecode/instructions.h"
+#include "grammar/base/counted_text.h"
 
 #include <fmt/format.h>
 
@@ -60,8 +61,9 @@ private:
         if (bytecode_.generations) {
             line("generations {}", *bytecode_.generations);
         }
-        line("{} rules, {} groups, {} codes of {} bytes", bytecode_.rule_count,
-             bytecode_.group_count, bytecode_.code_count(), code_width(bytecode_.code_count()));
+        line("{}, {}, {} of {}", counted(bytecode_.rule_count, "rule"),
+             counted(bytecode_.group_count, "group"), counted(bytecode_.code_count(), "code"),
+             counted(code_width(bytecode_.code_count()), "byte"));
     }
 
     void symbols() {

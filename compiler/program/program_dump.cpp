@@ -1,6 +1,7 @@
 #include "compiler/program/program_dump.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/counted_text.h"
 
 #include <fmt/format.h>
 
@@ -32,8 +33,8 @@ public:
         out_ += "axiom\n  ";
         word(program_.axiom, nullptr);
         out_ += '\n';
-        out_ += fmt::format("productions: {} rules, {} groups\n", program_.rule_count,
-                            program_.group_count);
+        out_ += fmt::format("productions: {}, {}\n", counted(program_.rule_count, "rule"),
+                            counted(program_.group_count, "group"));
         for (const Production& each : program_.productions) {
             production(each);
         }

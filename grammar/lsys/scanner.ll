@@ -164,7 +164,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (is_hash_comment(session, TEXT)) {
                               BEGIN_COMMENT(LINE_COMMENT);
                           } else {
-                              return start_statement(session, TEXT);
+                              const Token token = start_statement(session, TEXT);
+                              yyless(static_cast<int>(scan.end - scan.begin)); /* the key of a setting */
+                              return token;
                           }
                         }
   {IDENT}               {
@@ -204,9 +206,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 
 <OPENING>{
   ":"                   {
-                          const SourceSpan span = session.token();
-                          after_opening_colon(session);
-                          return Token(Parser::token::TOK_COLON, span);
+                          return opening_colon(session);
                         }
   [=,]                  {
                           return opening_sign(session);
@@ -400,6 +400,12 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
   {IDENT}               {
+                          if (is_word_for_operator(session, TEXT)) {
+                              if (yytext[0] == 'a') {
+                                  OPERATOR(AND);
+                              }
+                              OPERATOR(OR);
+                          }
                           BEGIN_VALUE();
                           const SourceSpan span = session.token();
                           scan.value_before = true;

@@ -17,10 +17,6 @@ namespace {
 constexpr std::size_t kMaxLabels = 8;
 
 void append_place(SourceSpan span, const SourceMap& sources, std::string& out) {
-    if (span.file == kNoFile) {
-        out += "lsc";
-        return;
-    }
     const SourceFile& file = sources.file(span.file);
     const LineColumn place = file.line_column(span.begin);
     rendering::append_visible(file.path(), out);
@@ -32,10 +28,15 @@ void append_place(SourceSpan span, const SourceMap& sources, std::string& out) {
 
 void append_head(const Diagnostic& diagnostic,
                  const SourceMap& sources,
-                 const rendering::Palette& colours,
+                 const RenderOptions& options,
                  std::string& out) {
+    const rendering::Palette& colours = rendering::palette(options.colour);
     out += colours.strong;
-    append_place(diagnostic.span, sources, out);
+    if (diagnostic.span.file == kNoFile) {
+        out += options.program;
+    } else {
+        append_place(diagnostic.span, sources, out);
+    }
     out += ": ";
     out += colours.reset;
     out += rendering::colour_of(diagnostic.severity, colours);
@@ -85,9 +86,10 @@ void append_labels(const std::vector<rendering::Mark>& marks,
 
 void append_human(const Diagnostic& diagnostic,
                   const SourceMap& sources,
-                  const rendering::Palette& colours,
+                  const RenderOptions& options,
                   std::string& out) {
-    append_head(diagnostic, sources, colours, out);
+    const rendering::Palette& colours = rendering::palette(options.colour);
+    append_head(diagnostic, sources, options, out);
     std::vector<rendering::Mark> marks;
     for (const Label& label : diagnostic.labels) {
         if (marks.size() < kMaxLabels) {
@@ -161,13 +163,12 @@ void render(const Diagnostic& diagnostic,
             const SourceMap& sources,
             const RenderOptions& options,
             std::string& out) {
-    const rendering::Palette& colours = rendering::palette(options.colour);
     switch (options.format) {
     case MessageFormat::Human:
-        append_human(diagnostic, sources, colours, out);
+        append_human(diagnostic, sources, options, out);
         break;
     case MessageFormat::Short:
-        append_head(diagnostic, sources, colours, out);
+        append_head(diagnostic, sources, options, out);
         break;
     case MessageFormat::Json:
         rendering::append_json(diagnostic, sources, out);
@@ -193,7 +194,8 @@ void render_all(const Diagnostics& diagnostics,
     if (options.format == MessageFormat::Json) {
         rendering::append_json_rest(rest[2], rest[1], rest[0], out);
     } else {
-        out += "lsc: " + describe_rest(rest) + '\n';
+        out += options.program;
+        out += ": " + describe_rest(rest) + '\n';
     }
 }
 

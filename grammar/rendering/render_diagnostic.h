@@ -20,6 +20,7 @@ struct RenderOptions {
     MessageFormat format = MessageFormat::Human;
     bool colour = false;
     std::uint32_t max_shown = 50; // a last line counts the rest
+    const char* program = "lsc";  // the place of a diagnostic of no file
 };
 
 /// Appends one diagnostic with a line end.

@@ -1,4 +1,5 @@
 #include "compiler/bytecode/module_file.h"
+#include "grammar/base/counted_text.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/fixes.h"
 #include "runtime/pipeline/grammar.h"
@@ -38,9 +39,9 @@ ExitStatus check_text(const std::string& path,
     if (compiled.value().definition_error) {
         return report_error(*compiled.value().definition_error, console);
     }
-    console.detail(fmt::format("`{}`: {} errors, {} warnings", shown_path(path),
-                               diagnostics.count(Severity::Error),
-                               diagnostics.count(Severity::Warning)));
+    console.detail(fmt::format("`{}`: {}, {}", shown_path(path),
+                               counted(diagnostics.count(Severity::Error), "error"),
+                               counted(diagnostics.count(Severity::Warning), "warning")));
     return status;
 }
 

@@ -28,6 +28,42 @@ std::string list_all() {
     return text;
 }
 
+/// Columns of prose: those of a terminal as it opens.
+constexpr std::size_t kColumns = 80;
+
+/// The paragraphs of `text`, which blank lines separate, with lines of at most kColumns characters.
+/// A longer word has a line of its own.
+std::string wrapped(std::string_view text) {
+    std::string out;
+    std::size_t column = 0; // of the current line
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const std::size_t begin = std::min(text.find_first_not_of(" \n", at), text.size());
+        const std::string_view gap = text.substr(at, begin - at);
+        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+        const std::string_view word = text.substr(begin, end - begin);
+        if (word.empty()) {
+            break;
+        }
+        const auto width = static_cast<std::size_t>(
+            std::count_if(word.begin(), word.end(), [](char c) { return (c & '\xC0') != '\x80'; }));
+        if (std::count(gap.begin(), gap.end(), '\n') > 1) {
+            out += "\n\n";
+            column = 0;
+        } else if (column != 0 && column + 1 + width > kColumns) {
+            out += '\n';
+            column = 0;
+        } else if (column != 0) {
+            out += ' ';
+            ++column;
+        }
+        out += word;
+        column += width;
+        at = end;
+    }
+    return out;
+}
+
 /// Appends `text` with each non-empty line indented by four blanks.
 void append_indented(std::string_view text, std::string& out) {
     bool at_start = true;
@@ -41,8 +77,10 @@ void append_indented(std::string_view text, std::string& out) {
 }
 
 std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
-    std::string text = fmt::format("{}: {} ({})\n\n{}\n", row.name, row.meaning,
-                                   severity_name(row.severity), explanation.text);
+    std::string text = fmt::format(
+        "{}\n\n{}\n",
+        wrapped(fmt::format("{}: {} ({})", row.name, row.meaning, severity_name(row.severity))),
+        wrapped(explanation.text));
     for (const Example& example : explanation.examples) {
         text += example.right ? "\nRight" : "\nWrong";
         if (!example.arguments.empty()) {

@@ -300,9 +300,10 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
         command.format ? command.format : format_of_path(command.output);
     if (!format) {
         return report_error(
-            Error{fmt::format("the name `{}` does not tell a format; say which with "
+            Error{fmt::format("the name `{}` does not tell a format: {}; say which with "
                               "--format",
-                              command.output)},
+                              command.output,
+                              format_names("or", [](const FormatTraits&) { return true; }))},
             console);
     }
     if (const std::string conflict = find_conflict(command, *format); !conflict.empty()) {

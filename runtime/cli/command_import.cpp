@@ -1,3 +1,4 @@
+#include "grammar/base/counted_text.h"
 #include "grammar/format/format.h"
 #include "grammar/lsys/parse.h"
 #include "runtime/cli/commands.h"
@@ -197,8 +198,8 @@ Result<void> import_one(const std::string& path,
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
     return console.write(one == ExitStatus::Ok
-                             ? fmt::format("{}: {}, {} warnings, written to {}\n", what, title,
-                                           imported.warnings, to)
+                             ? fmt::format("{}: {}, {}, written to {}\n", what, title,
+                                           counted(imported.warnings, "warning"), to)
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 

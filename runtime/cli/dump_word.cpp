@@ -1,5 +1,6 @@
 #include "runtime/cli/dump_word.h"
 
+#include "grammar/base/counted_text.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/module_lines.h"
 #include "runtime/cli/progress.h"
@@ -150,9 +151,9 @@ ExitStatus derive(Derivation& derivation,
         stop = derivation.resume(std::move(state.value().word), state.value().header.age);
     }
     while (!stop) {
-        console.detail(fmt::format("generation {}: {} modules, {} bytes", derivation.age(),
-                                   derivation.word().module_count(),
-                                   derivation.word().byte_count()));
+        console.detail(fmt::format("generation {}: {}, {}", derivation.age(),
+                                   counted(derivation.word().module_count(), "module"),
+                                   counted(derivation.word().byte_count(), "byte")));
         const bool is_last = derivation.age() == plan.last_age;
         // Only the final word must have balanced brackets.
         if (is_last && derivation.age() == plan.derive.generations) {

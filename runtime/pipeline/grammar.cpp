@@ -30,6 +30,11 @@ Error unknown_dialect(const std::string& path) {
     if (path.ends_with(kModuleExtension)) {
         return Error{fmt::format("`{}` is compiled; this needs the grammar itself", path)};
     }
+    if (path.ends_with(".toml")) {
+        return Error{fmt::format("`{}` is a scene, not a grammar: `lsc forest` generates it, and "
+                                 "`lsview` shows it",
+                                 path)};
+    }
     return Error{fmt::format("neither the name of `{}` nor what it holds tells its language; say "
                              "which with --dialect ({})",
                              path, dialect_names())};

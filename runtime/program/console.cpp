@@ -114,6 +114,7 @@ void Console::detail(std::string_view message) const {
 RenderOptions Console::render_options() const {
     RenderOptions render;
     render.format = options_.format;
+    render.program = io_.program;
     render.colour = options_.format != MessageFormat::Json && wants_colour(io_, options_.colour);
     return render;
 }

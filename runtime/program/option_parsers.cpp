@@ -5,6 +5,7 @@
 #include "runtime/program/memory_size.h"
 #include "runtime/turtle/turtle.h"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
@@ -172,9 +173,16 @@ UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std
     const auto is = [&](CLI::ExitCodes code) {
         return error.get_exit_code() == static_cast<int>(code);
     };
-    if (is(CLI::ExitCodes::ExtrasError)) {
-        const std::vector<std::string> extras = app.remaining(true);
-        const std::string extra = extras.empty() ? std::string() : extras.front();
+    const std::vector<std::string> extras = app.remaining(true);
+    // A missing file is noticed first, but an option that does not exist may be why it is missing.
+    const auto unknown = std::find_if(extras.begin(), extras.end(), [](const std::string& extra) {
+        return extra.starts_with('-');
+    });
+    if (is(CLI::ExitCodes::ExtrasError) ||
+        (is(CLI::ExitCodes::RequiredError) && unknown != extras.end())) {
+        const std::string extra = is(CLI::ExitCodes::RequiredError) ? *unknown
+                                  : extras.empty()                  ? std::string()
+                                                                    : extras.front();
         usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
                                                : fmt::format("unexpected argument `{}`", extra);
         std::vector<std::string> names;

@@ -275,10 +275,10 @@ std::optional<Stop> Turtle::finish() {
     }
     if (!state.end.stop) {
         if (!state.stack.empty()) {
-            state.note(TurtleFaultKind::UnclosedBranch);
+            state.note_end(TurtleFaultKind::UnclosedBranch, state.stack.size());
         }
         if (state.polygons.any()) {
-            state.note(TurtleFaultKind::UnclosedPolygon);
+            state.note_end(TurtleFaultKind::UnclosedPolygon, 1);
         }
     }
     return state.end.stop;

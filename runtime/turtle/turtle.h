@@ -44,8 +44,8 @@ inline constexpr std::uint32_t kMaxSides = 64;
 
 struct TurtleFault {
     std::uint64_t count = 0;    // occurrences
-    std::uint64_t position = 0; // number of the first module with the fault
-    Code code = 0;              // code of that module
+    std::uint64_t position = 0; // number of the first module with the fault; 0 at the end of a word
+    Code code = 0;              // code of that module; 0 at the end of a word
 };
 
 /// Facts of a drawing for messages, whether it is complete or why it ended before its last module.

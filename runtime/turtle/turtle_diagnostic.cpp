@@ -13,7 +13,7 @@ namespace {
 
 struct Wording {
     DiagnosticCode code;
-    const char* what; // after "module N of the word, `X`, "
+    const char* what; // after "module N of the word, `X`, " or, of the end, the whole text
     const char* help; // may be empty
 };
 
@@ -30,7 +30,7 @@ Wording wording_of(TurtleFaultKind kind) {
                 "is more than the 4,294,967,280 segments, objects or corners of one plant",
                 "ask for fewer generations with `-n`"};
     case TurtleFaultKind::UnclosedBranch:
-        return {DiagnosticCode::UnclosedBranch, "leaves branches open at the end of the word", ""};
+        return {DiagnosticCode::UnclosedBranch, "", "close each `[` with a `]`"};
     case TurtleFaultKind::NegativeWidth:
         return {DiagnosticCode::NegativeWidth, "sets a negative width, which is drawn as 0",
                 "bound it with `max`"};
@@ -43,7 +43,7 @@ Wording wording_of(TurtleFaultKind kind) {
                 "ends a polygon of fewer than three vertices, which is not drawn", ""};
     case TurtleFaultKind::UnclosedPolygon:
         return {DiagnosticCode::UnbalancedPolygon,
-                "leaves a polygon open at the end of the word, which is not drawn", ""};
+                "the word ends inside a polygon, which is not drawn", "close each `{` with a `}`"};
     case TurtleFaultKind::SidesOutOfRange:
         return {DiagnosticCode::SidesOutOfRange,
                 "asks for fewer than 3 or more than 64 sides, and gets the nearest of them", ""};
@@ -52,6 +52,10 @@ Wording wording_of(TurtleFaultKind kind) {
                 "chooses a colour outside of 0 to 65,535, and gets the nearest of them", ""};
     }
     return {DiagnosticCode::NotFinite, "", ""};
+}
+
+bool is_at_end(TurtleFaultKind kind) {
+    return kind == TurtleFaultKind::UnclosedBranch || kind == TurtleFaultKind::UnclosedPolygon;
 }
 
 bool ends_drawing(TurtleFaultKind kind) {
@@ -71,6 +75,19 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
         }
         const auto kind = static_cast<TurtleFaultKind>(i);
         const Wording wording = wording_of(kind);
+        if (is_at_end(kind)) {
+            Diagnostic diagnostic = make_diagnostic(
+                wording.code, {},
+                kind == TurtleFaultKind::UnclosedPolygon ? std::string(wording.what)
+                : fault.count == 1
+                    ? std::string("the word ends with an open branch, which is closed there")
+                    : fmt::format("the word ends with {} open branches, which are closed there",
+                                  grouped_digits(fault.count)));
+            diagnostic.severity = Severity::Warning;
+            diagnostic.help.emplace_back(wording.help);
+            diagnostics.push_back(std::move(diagnostic));
+            continue;
+        }
         const std::string name = spelled_name(bytecode.symbol(bytecode.symbol_of(fault.code)).name,
                                               bytecode.settings.print_letters);
         Diagnostic diagnostic =

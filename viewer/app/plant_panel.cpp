@@ -1,5 +1,6 @@
 #include "viewer/app/plant_panel.h"
 
+#include "grammar/base/counted_text.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -30,8 +31,9 @@ void draw_numbers(const PlantView& view) {
         return;
     }
     const Plant& plant = document->plant;
-    line(fmt::format("{} modules, {} segments", grouped(plant.modules),
-                     grouped(plant.skeleton.segments.size())));
+    line(fmt::format("{}, {}", counted(plant.modules, grouped(plant.modules), "module"),
+                     counted(plant.skeleton.segments.size(),
+                             grouped(plant.skeleton.segments.size()), "segment")));
     line(fmt::format("{} triangles; profile {}", grouped(document->mesh.indices.size() / 3),
                      name_of(document->grammar.bytecode.settings.turtle)));
     line(fmt::format("{:.4g} m high", document->height));

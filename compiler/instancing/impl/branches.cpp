@@ -71,11 +71,9 @@ private:
                                std::any_of(branches_.kinds.begin(), branches_.kinds.end(),
                                            [](const BranchKind& kind) { return kind.is_random; });
         if (!is_random) {
-            diagnostics_
-                .add(DiagnosticCode::NoVariety, program_.axiom.span,
-                     "nothing that this system derives is left to chance, so all its plants are "
-                     "equal")
-                .notes.emplace_back("instancing adds no variety to it");
+            diagnostics_.add(DiagnosticCode::NoVariety, program_.axiom.span,
+                             "nothing that this system derives is left to chance, so all its "
+                             "plants are equal");
         } else if (branches_.kinds.empty()) {
             diagnostics_
                 .add(DiagnosticCode::NoVariety, program_.axiom.span,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lsys {
@@ -65,6 +66,10 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
                                          functions_.at(name).argument_count == 0 ? "" : "x"));
         return;
     }
+    if (text == "and" || text == "or" || text == "not") {
+        error.help.emplace_back("the operators are `&&`, `||` and `!`");
+        return;
+    }
     std::vector<std::string_view> candidates;
     for (const NameId formal : formals_) {
         candidates.push_back(resolution_.text(formal));
@@ -101,6 +106,12 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
         constants_.state(function) == ConstantState::Known) {
         error.help.push_back(
             fmt::format("`{0}` is a number; to multiply, write `{0} * (...)`", text));
+        return;
+    }
+    constexpr std::array<std::string_view, 6> kDraws{"rand",    "random",  "rnd",
+                                                     "uniform", "randint", "frand"};
+    if (std::ranges::find(kDraws, text) != kDraws.end()) {
+        error.help.emplace_back("a number between `a` and `b` is drawn at random by `{a, b}`");
         return;
     }
     const std::string nearest = suggestions_.nearest(text, function_names());

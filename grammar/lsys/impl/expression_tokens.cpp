@@ -319,6 +319,28 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
             true);
 }
 
+bool is_word_for_operator(ParseSession& session, std::string_view word) {
+    const ScanState& scan = session.scan;
+    if (!scan.value_before || (word != "and" && word != "or")) {
+        return false;
+    }
+    const char next = next_character(session.scanned.text, scan.end);
+    if (!is_word_character(next) &&
+        std::string_view(".({-!").find(next) == std::string_view::npos) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const std::string right = word == "and" ? "&&" : "||";
+        Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
+                                                "there is no operator `" + std::string(word) + "`");
+        // Between arguments it may be a name without its commas.
+        const bool in_list =
+            !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
+        add_fix(diagnostic, "write `" + right + "`", diagnostic.span, right, !in_list);
+    }
+    return true;
+}
+
 void report_remainder_operator(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =

@@ -31,6 +31,9 @@ Token opening_bracket(ParseSession& session, OpenBracket::Kind kind, Token::Kind
 /// The current unary operator or `^`; reports excessive nesting and skips the statement.
 Token nesting_operator(ParseSession& session, Token::Kind token);
 
+/// Whether the current name is `and` or `or` between two values, in place of an operator; reports
+/// it.
+bool is_word_for_operator(ParseSession& session, std::string_view word);
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);
 void report_remainder_operator(ParseSession& session);

@@ -38,6 +38,14 @@ constexpr std::array<Synonym, 14> kSynonyms{{
     {"decomposition", Keyword::Decompose},
 }};
 
+/// The keys of `#set`, which compiler/bytecode/settings.def defines.
+constexpr std::array<std::string_view, 21> kSettings{
+    "turtle",         "names",       "rewriting", "choice",   "weights",
+    "random",         "angle",       "step",      "width",    "sides",
+    "tropism",        "seed",        "spring",    "density",  "angle_scale",
+    "step_scale",     "width_scale", "damping",   "at_depth", "decompose_depth",
+    "interpret_depth"};
+
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
@@ -138,6 +146,10 @@ Keyword find_keyword(std::string_view word) {
     const auto found = std::find(kSpellings.begin(), kSpellings.end(), word);
     return found == kSpellings.end() ? Keyword::Label
                                      : static_cast<Keyword>(found - kSpellings.begin());
+}
+
+bool is_setting(std::string_view word) {
+    return std::find(kSettings.begin(), kSettings.end(), word) != kSettings.end();
 }
 
 bool is_synonym(std::string_view word, Keyword keyword) {

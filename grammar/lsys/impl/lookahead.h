@@ -32,6 +32,8 @@ namespace lsys {
 [[nodiscard]] Keyword find_keyword(std::string_view word);
 /// Whether `word` is the name of `keyword` in another program.
 [[nodiscard]] bool is_synonym(std::string_view word, Keyword keyword);
+/// Whether `word` is a key of `#set`.
+[[nodiscard]] bool is_setting(std::string_view word);
 /// The keyword probably meant by `#word`: the one with this name in another program, or the
 /// nearest.
 [[nodiscard]] std::optional<Keyword> suggest_keyword(std::string_view word);

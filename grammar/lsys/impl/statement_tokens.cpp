@@ -1,6 +1,7 @@
 #include "grammar/lsys/impl/statement_tokens.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 
@@ -76,11 +77,32 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
     return keyword_token(session, word, span);
 }
 
+/// `#angle 30;`: reports the missing `set` and reads on after the `#`.
+Token setting_without_set(ParseSession& session, std::string_view word) {
+    ScanState& scan = session.scan;
+    const std::uint32_t key = scan.end - static_cast<std::uint32_t>(word.size());
+    if (session.wants(DiagnosticCode::UnknownStatement)) {
+        const SourceSpan span = session.match();
+        const std::string name(word);
+        Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
+                                                "there is no statement `#" + name + "`");
+        add_fix(diagnostic, "a setting is written `#set " + name + "`",
+                {span.file, session.scanned.source_begin(key), session.scanned.source_begin(key)},
+                "set ", true);
+    }
+    scan.keyword = Keyword::Set;
+    scan.end = key; // reads the key again
+    return begin_parts(session, spelling(Keyword::Set), word.front());
+}
+
 /// The `#word` that is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     if (colons_of_statement(session) >= 2) {
         return begin_parts(session, word, next); // a production; missing_opening() reports
+    }
+    if (is_setting(word) && session.scanned.text[scan.begin] == '#') {
+        return setting_without_set(session, word);
     }
     const std::optional<Keyword> meant = suggest_keyword(word);
     if (session.wants(DiagnosticCode::UnknownStatement)) {
@@ -109,12 +131,28 @@ bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
     return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
 
+/// Whether the next character is the only `:` of the statement, and a number follows it, which
+/// begins no predecessor.
+bool is_number_after_colon(ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t colon = text.find(':', session.scan.end);
+    if (colons_of_statement(session) != 1 || colon == std::string_view::npos) {
+        return false;
+    }
+    const char next = next_character(text, static_cast<std::uint32_t>(colon) + 1);
+    return is_digit(next) || next == '.' || next == '(';
+}
+
 Token start(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     open_statement(session, find_keyword(word));
     const char next = next_character(session.scanned.text, scan.end);
     if (scan.keyword == Keyword::Label && next != ':') {
         return unknown_statement(session, word, next);
+    }
+    if (scan.keyword == Keyword::Label && is_setting(word) &&
+        session.scanned.text[scan.begin] == '#' && is_number_after_colon(session)) {
+        return setting_without_set(session, word);
     }
     if (scan.keyword == Keyword::Label && is_axiom_by_another_name(session, word)) {
         if (session.wants(DiagnosticCode::UnknownStatement)) {
@@ -212,6 +250,27 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     }
     open_statement(session, Keyword::Label);
     return discard_statement(session);
+}
+
+Token opening_colon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.keyword == Keyword::Generations && colons_of_statement(session) == 1) {
+        const char next = next_character(session.scanned.text, scan.end);
+        if (is_digit(next) || next == '.' || next == '(') { // which begins no predecessor
+            if (session.wants(DiagnosticCode::SyntaxError)) {
+                const SourceSpan span = session.match();
+                Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
+                                                        "a `=` stands here, not a `:`");
+                add_fix(diagnostic, "write `=`", span, "=", true);
+            }
+            const SourceSpan span = session.token();
+            scan.enter(Part::Value);
+            return Token(Parser::token::TOK_ASSIGN, span);
+        }
+    }
+    const SourceSpan span = session.token();
+    after_opening_colon(session);
+    return Token(Parser::token::TOK_COLON, span);
 }
 
 void after_opening_colon(ParseSession& session) {
@@ -524,11 +583,82 @@ Token discard_statement(ParseSession& session) {
     return Token(Parser::token::TOK_YYerror, span);
 }
 
+namespace {
+
+/// Whether `text`, in the place of a condition and before a character that no condition has, begins
+/// a successor: it is empty, or it begins with a symbol or a capital letter and compares nothing.
+bool begins_successor(std::string_view text, char stray) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) {
+        return std::string_view("[]+-/\\&^$\"'{}|").find(stray) != std::string_view::npos;
+    }
+    const std::size_t letter = text.find_first_not_of(" \t\r\n+-/", first);
+    return letter != std::string_view::npos && text[letter] >= 'A' && text[letter] <= 'Z' &&
+           text.find_first_of("<>=~&|!*") == std::string_view::npos;
+}
+
+/// Whether the statement from `first` on can only be a successor: no word of it is a parameter of
+/// the predecessor, and nothing but a symbol that no condition has follows, without a blank.
+bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::string_view head =
+        text.substr(scan.statement_begin, scan.part_begin - scan.statement_begin);
+    const std::size_t open = std::min(head.find('('), head.size());
+    const std::string_view parameters = head.substr(open);
+    for (std::uint32_t at = first; at < scan.begin;) {
+        const std::string_view word = leading_word(text.substr(at, scan.begin - at));
+        if (text[at] == '(') { // arguments name parameters
+            at = static_cast<std::uint32_t>(std::min<std::size_t>(text.find(')', at), scan.begin));
+        } else if (!word.empty() && parameters.find(word) != std::string_view::npos) {
+            return false;
+        }
+        at += std::max(static_cast<std::uint32_t>(word.size()), 1U);
+    }
+    const bool adjacent =
+        first == scan.begin ||
+        std::string_view(" \t\r\n/").find(text[scan.begin - 1]) == std::string_view::npos;
+    return adjacent &&
+           std::string_view("[]$\"'").find(text[scan.begin]) != std::string_view::npos &&
+           has_plain_head(session);
+}
+
+/// Reports a production of three parts at its first module that cannot stand in a condition.
+bool report_missing_condition(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::string_view before = text.substr(scan.part_begin, scan.begin - scan.part_begin);
+    if (scan.part != Part::Condition || !scan.open.empty() || session.failed ||
+        colons_of_statement(session) != 2 || !begins_successor(before, text[scan.begin])) {
+        return false;
+    }
+    const auto first =
+        scan.part_begin +
+        static_cast<std::uint32_t>(std::min(before.find_first_not_of(" \t\r\n"), before.size()));
+    std::size_t end = std::min(text.find_first_of(";\n", scan.begin), text.size());
+    end = text.find_last_not_of(" \t\r\n", end - 1) + 1;
+    Diagnostic& diagnostic = session.report(
+        DiagnosticCode::MissingColon,
+        session.scanned.span(first, std::max(static_cast<std::uint32_t>(end), scan.end)),
+        "the production has three parts, not four");
+    diagnostic.help.emplace_back(kFourParts);
+    const std::uint32_t at = session.scanned.source_begin(first);
+    add_fix(diagnostic, "if this is the successor, add the condition `*`",
+            {session.scanned.file, at, at}, "* : ", is_surely_successor(session, first));
+    return true;
+}
+
+} // namespace
+
 bool lacks_colon(ParseSession& session, std::string_view inserted) {
     ScanState& scan = session.scan;
     if ((scan.part != Part::Head && scan.part != Part::Condition) ||
         colons_of_statement(session) >= 3) {
         return false;
+    }
+    if (inserted.empty() && session.wants(DiagnosticCode::MissingColon) &&
+        report_missing_condition(session)) {
+        return true;
     }
     if (session.wants(DiagnosticCode::MissingColon)) {
         const SourceSpan place = session.match();

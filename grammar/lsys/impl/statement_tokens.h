@@ -17,6 +17,8 @@ Token start_statement(ParseSession& session, std::string_view text);
 /// The first token of a statement without `#`: at `word`, or another character if it is empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
+/// The current `:` after `#word`, which stands for the `=` in `#n : 4;`.
+Token opening_colon(ParseSession& session);
 /// After `#word`: enters the part after the `:`; the token of a `=` or `,`; the missing sign before
 /// any other character (nothing if none is required).
 void after_opening_colon(ParseSession& session);

@@ -1,6 +1,7 @@
 #include "grammar/lsys/impl/syntax_errors.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
@@ -109,6 +110,14 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     if (scan.keyword == Keyword::Param && error.expects(Kind::S_LBRACE) &&
         !error.expects(Kind::S_NUMBER)) {
         diagnostic.help.emplace_back("a parameter has bounds: `#param NAME value {min, max};`");
+    } else if (error.part == Part::Setting && error.token == Kind::S_OTHER && error.text == ",") {
+        const std::string_view text = session.scanned.text;
+        const char next = scan.end < text.size() ? text[scan.end] : '\0';
+        diagnostic.help.emplace_back(
+            "values stand side by side without commas: `#set tropism 0 -1 0 0.2;`");
+        if (is_digit(text[scan.begin - 1]) && is_digit(next)) {
+            add_fix(diagnostic, "a decimal point is written `.`", error.place, ".", false);
+        }
     } else if (error.part == Part::Setting && !error.text.empty() && error.text != ";") {
         diagnostic.help.emplace_back(error.text == "\""
                                          ? "the words of a setting stand without quotes"

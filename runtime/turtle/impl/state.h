@@ -150,6 +150,10 @@ struct Turtle::State {
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind);
+    /// Notes `count` faults of the end of a word, which no module of it has.
+    void note_end(TurtleFaultKind kind, std::uint64_t count) {
+        end.faults[static_cast<std::size_t>(kind)].count += count;
+    }
     bool stop(Stop why) {
         end.stop = why;
         return false;

@@ -196,7 +196,7 @@ TEST_CASE("a listing shows symbols, code and places") {
     const std::string listing = disassemble(test::small_bytecode());
     for (const char* part :
          {"rewriting parallel, choice module, weights one, turtle lsys", "generations 6",
-          "1 rules, 1 groups, 6 codes of 1 bytes", "    2 f/1 ignored move", "    5 f(0.5)",
+          "1 rule, 1 group, 6 codes of 1 byte", "    2 f/1 ignored move", "    5 f(0.5)",
           "global 0 s  ; small.lsys:1:9", "    codes A/1 f(0.5) f(0.5)",
           "production 0 p1: f($0) < A($1) > [ B ]  ; small.lsys:4:2",
           "  rule 0, group 0, probability 0.5", "      11 literal 2", "      21 range 0"}) {

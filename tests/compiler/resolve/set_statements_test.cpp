@@ -4,8 +4,11 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 
 namespace {
 
@@ -132,4 +135,22 @@ TEST_CASE("the help for an unknown key lists every setting") {
           "`angle_scale`, `step_scale`, "
           "`width_scale`, `elasticity`, `density`, `damping`, `sides`, `decompose_depth`, "
           "`interpret_depth`");
+}
+
+TEST_CASE("the parser knows every setting, and repairs one without `set`") {
+    constexpr std::array<std::string_view, 21> kAll{
+#define LSYS_CHOICE(type, field, initial, use, group) #field,
+#define LSYS_STATEMENT(key) #key,
+#define LSYS_NUMBER(field, initial, use, group, min, wanted) #field,
+#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) #field,
+#include "compiler/bytecode/settings.def"
+    };
+    for (const std::string_view key : kAll) {
+        CAPTURE(key);
+        const test::Compiled c = test::compile_text("#" + std::string(key) + " 1;\n#w : F;\n");
+        const Diagnostic* const error = c.find(DiagnosticCode::UnknownStatement);
+        REQUIRE(error != nullptr);
+        REQUIRE(error->fixes.size() == 1);
+        CHECK(error->fixes[0].edits[0].replacement == "set ");
+    }
 }

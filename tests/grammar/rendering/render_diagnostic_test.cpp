@@ -347,3 +347,14 @@ TEST_CASE("JSON holds every fact, with byte offsets of the file on disk") {
     CHECK(json["fixes"][0]["edits"][0]["byte"] == 10);
     CHECK(json["fixes"][0]["edits"][0]["replacement"] == "");
 }
+
+TEST_CASE("a diagnostic of no file begins with the program that prints it") {
+    const Fixture f("#n = 2;\n");
+    RenderOptions options;
+    const Diagnostic d = f.at(SourceSpan{});
+    CHECK(f.human(d, options) == "lsc: error: this is wrong [syntax-error]\n");
+    options.program = "lsview";
+    CHECK(f.human(d, options) == "lsview: error: this is wrong [syntax-error]\n");
+    options.format = MessageFormat::Short;
+    CHECK(f.human(d, options) == "lsview: error: this is wrong [syntax-error]\n");
+}

@@ -170,6 +170,7 @@ TEST_CASE("what cannot be drawn is counted with its first place") {
     CHECK(draw("{.f(1).}").fault(TurtleFaultKind::FewCorners).count == 1);
     CHECK(draw("{.f(1).").fault(TurtleFaultKind::UnclosedPolygon).count == 1);
     CHECK(draw("F[F").fault(TurtleFaultKind::UnclosedBranch).count == 1);
+    CHECK(draw("F[F[F]F[F").fault(TurtleFaultKind::UnclosedBranch).count == 2);
     CHECK(draw("!(-1)F").fault(TurtleFaultKind::NegativeWidth).count == 1);
     CHECK(draw("!(-1)F").skeleton.segments[0].base_radius == 0.0F);
     CHECK(draw("!(1,65)F").fault(TurtleFaultKind::SidesOutOfRange).count == 1);
