@@ -143,17 +143,23 @@ TEST_CASE("forests look as they did") {
         {"mixed-forest-inside",
          {scene("mixed-forest"), "--camera", "eye 120,20,120 target 60,20,60 fov 60"}},
         {"pine-wood", {scene("pine-wood"), "--camera", "eye 60,0,110 target 60,3,60 fov 60"}},
-        {"pine-wood-above", {scene("pine-wood")}},
+        {"pine-wood-above",
+         {scene("pine-wood"), "--camera",
+          "eye 172.23618,93.90618,223.24149 target 60.124733,8.293811,60.1703 fov 40"}},
         {"meadow", {scene("meadow"), "--camera", "eye 30,0,30 target 36,-0.4,36 fov 60"}},
         {"ten-thousand",
-         {ten_thousand, "--camera", "eye 350,0,350 target 290,0,290 fov 60", "--triangles",
-          "300000"}},
-        {"ten-thousand-above", {ten_thousand, "--camera", "eye 350,60,350 target 50,0,50 fov 60"}},
-        {"ground", {ten_thousand, "--count", "1", "--camera", "eye 350,40,350 target 290,20,290"}},
+         {ten_thousand, "--air", "9.78", "--camera", "eye 350,0,350 target 290,0,290 fov 60",
+          "--triangles", "300000"}},
+        {"ten-thousand-above",
+         {ten_thousand, "--air", "9.78", "--camera", "eye 350,60,350 target 50,0,50 fov 60"}},
+        {"ground",
+         {ten_thousand, "--air", "9.78", "--count", "1", "--camera",
+          "eye 350,40,350 target 290,20,290"}},
         {"painted",
          {LSYS_SOURCE_DIR "/tests/viewer/painted.toml", "--camera",
           "eye 40,30,72 target 40,2,40 fov 50"}},
-        {"horizon", {ten_thousand, "--camera", "eye 350,140,-500 target 350,0,350 fov 40"}},
+        {"horizon",
+         {ten_thousand, "--air", "9.78", "--camera", "eye 350,140,-500 target 350,0,350 fov 40"}},
         {"wind-0",
          {scene("mixed-forest"), "--camera", "eye 120,20,120 target 110,23,110 fov 60", "--wind",
           "12,0,0,0.5"}},
@@ -165,8 +171,9 @@ TEST_CASE("forests look as they did") {
 
 TEST_CASE("cells at the horizon are as light as their trees") {
     const auto view = [](const char* size) {
-        return decode_picture(drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--camera",
-                                     "eye 760,80,760 target 350,0,350 fov 60", "--size", size}));
+        return decode_picture(
+            drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--air", "9.78", "--camera",
+                   "eye 760,80,760 target 350,0,350 fov 60", "--size", size}));
     };
     // A smaller picture: so small that most trees are drawn by cell, and so large that each is
     // drawn itself.

@@ -3,9 +3,14 @@
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string_view>
 
 namespace lsys::view {
@@ -83,6 +88,91 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     return step.done(document);
 }
 
+constexpr double kMetresPerKm = 1000.0;
+// From the middle of a forest to its default camera.
+constexpr glm::vec3 kFirstDirection{0.55F, 0.42F, 0.8F};
+constexpr float kFirstField = 40.0F; // degrees
+
+/// Bounding box of all trees; of the ground's corners if there is no tree.
+Bounds bounds_of(const ForestDocument& document) {
+    Bounds bounds;
+    for (const Tree& tree : document.grown.forest.trees) {
+        const TreeForm& form = document.model.forms[document.model.form_of(tree)];
+        const glm::vec3 wide(tree.scale * form.radius, 0.0F, tree.scale * form.radius);
+        bounds.add(tree.position - wide);
+        bounds.add(tree.position + wide + glm::vec3(0.0F, tree.scale * form.high, 0.0F));
+    }
+    if (bounds.empty) {
+        const Terrain& terrain = *document.grown.terrain;
+        const Region& region = terrain.region();
+        for (const double x : {region.x, region.x + region.width}) {
+            for (const double z : {region.z, region.z + region.depth}) {
+                const glm::vec2 at(x, z);
+                bounds.add({at.x, terrain.height(at.x, at.y), at.y});
+            }
+        }
+    }
+    return bounds;
+}
+
+/// Mean height of trees, m, weighted by their area in a picture: a few trees above grass count, and
+/// a few seedlings below trees do not.
+float typical_height(const ForestDocument& document) {
+    double squares = 0.0;
+    double cubes = 0.0;
+    for (const Tree& tree : document.grown.forest.trees) {
+        const TreeForm& form = document.model.forms[document.model.form_of(tree)];
+        const auto height = static_cast<double>(tree.scale * std::max(form.high, 0.0F));
+        squares += height * height;
+        cubes += height * height * height;
+    }
+    return squares > 0.0 ? static_cast<float>(cubes / squares) : 0.0F;
+}
+
+/// Foot of the outermost tree in the direction `outward`, near the line through `middle`.
+glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2& outward) {
+    glm::vec3 edge = middle;
+    float farthest = -std::numeric_limits<float>::infinity();
+    for (const Tree& tree : forest.trees) {
+        const glm::vec2 from(tree.position.x - middle.x, tree.position.z - middle.z);
+        const float aside = std::abs(from.x * outward.y - from.y * outward.x);
+        if (const float far = glm::dot(from, outward) - aside; far > farthest) {
+            farthest = far;
+            edge = tree.position;
+        }
+    }
+    return edge;
+}
+
+/// View into a forest from outside its edge. `height`: of its trees, m. Lengths are in heights of a
+/// tree, so forests of grass and of trees look alike.
+Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float height) {
+    constexpr float kOutside = 3.5F;   // from the eye to the first tree
+    constexpr float kAbove = 2.0F;     // eye above the ground there
+    constexpr float kClearance = 1.5F; // eye above the ground ahead
+    constexpr float kAhead = 16.0F;    // range of that ground
+    constexpr std::uint32_t kSteps = 64;
+    // The foot of the first tree is that much below the middle of the picture, radians.
+    constexpr float kFootBelow = 0.9F * 0.5F * kFirstField * std::numbers::pi_v<float> / 180.0F;
+    constexpr float kMinPitch = 0.1F;
+    constexpr float kMaxPitch = 0.6F;
+    const Terrain& terrain = *document.grown.terrain;
+    const glm::vec2 outward = glm::normalize(glm::vec2(kFirstDirection.x, kFirstDirection.z));
+    const glm::vec3 edge = edge_of(document.grown.forest, middle, outward);
+    const glm::vec2 from = glm::vec2(edge.x, edge.z) + kOutside * height * outward;
+    float eye = terrain.height(from.x, from.y) + kAbove * height;
+    for (std::uint32_t step = 1; step <= kSteps; ++step) {
+        const float away = kAhead * height * static_cast<float>(step) / static_cast<float>(kSteps);
+        const glm::vec2 at = from - away * outward;
+        eye = std::max(eye, terrain.height(at.x, at.y) + kClearance * height);
+    }
+    const float drop = eye - edge.y;
+    const float pitch =
+        std::clamp(std::atan(drop / (kOutside * height)) - kFootBelow, kMinPitch, kMaxPitch);
+    const glm::vec2 at = from - drop / std::tan(pitch) * outward;
+    return {{from.x, eye, from.y}, {at.x, edge.y, at.y}, kFirstField};
+}
+
 } // namespace
 
 Outcome<std::shared_ptr<ForestDocument>> make_forest_document(const ViewOptions& options,
@@ -97,18 +187,17 @@ Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions
     return make(options, &edits, known, project);
 }
 
-Camera overview(const ForestDocument& document, float aspect) {
-    Bounds bounds;
-    for (const Tree& tree : document.grown.forest.trees) {
-        const TreeForm& form = document.model.forms[document.model.form_of(tree)];
-        const glm::vec3 wide(tree.scale * form.radius, 0.0F, tree.scale * form.radius);
-        bounds.add(tree.position - wide);
-        bounds.add(tree.position + wide + glm::vec3(0.0F, tree.scale * form.high, 0.0F));
-    }
-    Camera camera;
-    camera.target = glm::vec3(0.0F);
-    camera.eye = {0.55F, 0.42F, 0.8F};
-    return framing(camera, bounds, aspect);
+Camera first_view(const ForestDocument& document, float aspect) {
+    const Bounds bounds = bounds_of(document);
+    const float height = typical_height(document);
+    const Camera all =
+        framing(Camera{kFirstDirection, glm::vec3(0.0F), kFirstField}, bounds, aspect);
+    const float picture_height = 2.0F * std::tan(0.5F * glm::radians(all.field_of_view)) *
+                                 glm::distance(all.eye, all.target);
+    constexpr float kMinPart = 0.25F; // of the picture, height of a tree
+    return bounds.empty || height >= kMinPart * picture_height
+               ? all
+               : edge_view(document, 0.5F * (bounds.low + bounds.high), height);
 }
 
 Camera above_ground(const Camera& camera, const Terrain& terrain) {
@@ -125,11 +214,19 @@ Camera above_ground(const Camera& camera, const Terrain& terrain) {
     return lifted;
 }
 
-Light forest_light(const ForestDocument& document) {
+double default_visibility(const ForestDocument& document) {
     const Region& region = document.grown.terrain->region();
-    const auto across = static_cast<float>(std::hypot(region.width, region.depth));
+    constexpr double kMin = 10.0;
+    constexpr double kDiagonals = 12.0;
+    return std::max(kMin, kDiagonals * std::hypot(region.width, region.depth) / kMetresPerKm);
+}
+
+Light forest_light(const ForestDocument& document, std::optional<double> visibility) {
+    // Koschmieder 1924: at the limit of visibility 2 % of the contrast is left.
+    constexpr double kContrastLoss = 3.912; // -ln 0.02
     Light light;
-    light.extinction = 0.6F / std::max(across, 1500.0F);
+    light.extinction = static_cast<float>(
+        kContrastLoss / (kMetresPerKm * visibility.value_or(default_visibility(document))));
     light.exposure = 0.68F;
     return light;
 }

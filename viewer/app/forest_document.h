@@ -7,6 +7,7 @@
 #include "viewer/scene/forest_model.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,13 +36,18 @@ make_unpainted_forest(const ViewOptions& options,
                       const ForestDocument* known,
                       const Project& project);
 
-/// Default camera: from the side and above, with all trees in view.
-[[nodiscard]] Camera overview(const ForestDocument& document, float aspect);
+/// Default camera. A small forest is in view as a whole, from the side and above. A forest in which
+/// trees would then be lower than a quarter of the picture is seen from its edge, above the crowns.
+/// `aspect`: width / height.
+[[nodiscard]] Camera first_view(const ForestDocument& document, float aspect);
 
 /// Lifts a camera below the ground to the height of a person.
 [[nodiscard]] Camera above_ground(const Camera& camera, const Terrain& terrain);
 
-/// Light of a forest; the density of the air depends on its size.
-[[nodiscard]] Light forest_light(const ForestDocument& document);
+/// Default visibility in a forest, km: in proportion to its size, so that far trees keep their
+/// contrast in forests of any size.
+[[nodiscard]] double default_visibility(const ForestDocument& document);
+/// Light of a forest. `visibility`: km, above 0; none: the default.
+[[nodiscard]] Light forest_light(const ForestDocument& document, std::optional<double> visibility);
 
 } // namespace lsys::view

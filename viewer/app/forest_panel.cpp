@@ -283,6 +283,10 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wireframe", &settings.wireframe);
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
+    if (view.document() != nullptr) {
+        edit_length("Visibility", default_visibility(*view.document()), settings.air, 0.01, 1e6,
+                    "%.3g km");
+    }
     constexpr std::uint64_t kMin = 0;
     constexpr std::uint64_t kMax = 20'000'000;
     ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.max_triangles, &kMin, &kMax,

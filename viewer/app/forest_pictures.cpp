@@ -41,6 +41,8 @@ std::string stats_text(const ViewOptions& options,
     stats["height"] = options.height;
     stats["samples"] = options.samples;
     stats["camera"] = to_text(camera);
+    stats["air_km"] =
+        options.air ? static_cast<double>(*options.air) : default_visibility(document);
     stats["trees"] = sizes.trees;
     nlohmann::ordered_json& drawn = stats["trees_drawn"];
     for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
@@ -106,7 +108,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         shadow.triangles += drawn.shadow.triangles;
     };
     Frame frame = frame_of(options, camera);
-    frame.light = forest_light(document);
+    frame.light = forest_light(document, options.air);
     const ExitStatus status = take_series(options, frame, renderer, console, {}, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status

@@ -30,6 +30,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
+    settings.air = options.air;
     return settings;
 }
 
@@ -173,7 +174,7 @@ void ForestView::swap(ForestOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
-    const Camera overall = overview(*document, aspect_);
+    const Camera first_camera = first_view(*document, aspect_);
     if (Result<void> shown = renderer_->show_forest(document->model); !shown) {
         shader_message_ = shown.error().message;
         console_.error(shader_message_);
@@ -186,7 +187,7 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     has_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
-        settings.camera = overall;
+        settings.camera = first_camera;
     }
     if (const std::string note = painting_.set_document(document_); !note.empty()) {
         set_note(note);
@@ -229,7 +230,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
-        frame.light = forest_light(*document_);
+        frame.light = forest_light(*document_, settings.air);
     }
     const bool moves = settings.windy || settings.plays || has_worked_ ||
                        (frame_ && !(frame_->camera == frame.camera));
@@ -307,6 +308,7 @@ void ForestView::play_or_pause() {
 void ForestView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.edits = {};
+    settings.air.reset();
     settings.plays = false;
     frame_next_ = true;
     files_ = {file};

@@ -31,6 +31,7 @@ struct ForestViewSettings {
     bool wireframe = false;
     bool windy = false; // wind is on
     Wind wind;
+    std::optional<double> air; // visibility, km; none: default_visibility()
     std::uint64_t max_triangles = 1'500'000;
 
     bool plays = false;

@@ -59,8 +59,8 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     }
     ForestDocument& document = *made_document;
     const Camera from = above_ground(
-        options.camera.empty() ? overview(document, static_cast<float>(options.width) /
-                                                        static_cast<float>(options.height))
+        options.camera.empty() ? first_view(document, static_cast<float>(options.width) /
+                                                          static_cast<float>(options.height))
                                : camera,
         *document.grown.terrain);
     HiddenRenderer made;

@@ -58,9 +58,18 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->type_name("WxH")
         ->group("Picture");
     app.add_option("--camera", options.camera,
-                   "Where from: `eye X,Y,Z target X,Y,Z fov DEGREES`, or parts of it (default: all "
-                   "is in view)")
+                   "Where from: `eye X,Y,Z target X,Y,Z fov DEGREES`, or parts of it (default: a "
+                   "plant or small forest as a whole, a large forest from its edge)")
         ->type_name("LINE")
+        ->group("Picture");
+    constexpr float kMinAir = 0.01F;
+    constexpr float kMaxAir = 1e6F;
+    add_parsed(
+        app, "--air", options.air,
+        [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
+        "Visibility in a forest, km: haze leaves 2 % of the contrast there (default: 12 times the "
+        "diagonal of the ground, at least 10)")
+        ->type_name("KM")
         ->group("Picture");
     constexpr float kMaxTime = 86'400.0F;
     add_parsed(
@@ -193,6 +202,9 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }
+    if (!options.is_forest && options.air) {
+        return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
+    }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};
     }
@@ -219,6 +231,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.grammar = {};
     options.seed.reset();
     options.camera.clear();
+    options.air.reset();
 }
 
 } // namespace lsys::view

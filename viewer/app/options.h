@@ -31,12 +31,13 @@ struct ViewOptions {
     MeshOptions mesh;
     RunOptions run;
 
-    std::string camera; // to_text() of a Camera, or parts of it; empty: frame all
+    std::string camera; // to_text() of a Camera, or parts of it; empty: first_view()
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::optional<float> gravity; // m/s^2
     std::optional<Wind> wind;
-    float time = 0.0F; // s, of the wind
+    float time = 0.0F;        // s, of the wind
+    std::optional<float> air; // visibility in a forest, km
     bool shadows = true;
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;

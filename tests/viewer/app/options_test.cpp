@@ -37,7 +37,7 @@ TEST_CASE("options switch shadows and the ground off") {
 TEST_CASE("another file drops the options about the files of the command line") {
     ViewOptions options =
         parsed<ViewOptions>({"a.l", "b.l", "-D", "a=1", "-n", "3", "-s", "3", "--dialect", "l3d",
-                             "--heroes", "3", "--camera", "fov 30", "--no-shadows"});
+                             "--heroes", "3", "--camera", "fov 30", "--air", "5", "--no-shadows"});
     use_other_file(options, "wood.toml");
     ViewOptions fresh = parsed<ViewOptions>({"wood.toml", "--no-shadows"});
     CHECK(options.file == fresh.file);
@@ -47,9 +47,22 @@ TEST_CASE("another file drops the options about the files of the command line") 
     CHECK(options.overrides == fresh.overrides);
     CHECK(options.seed == fresh.seed);
     CHECK(options.camera.empty());
+    CHECK_FALSE(options.air);
     CHECK_FALSE(options.shadows);
     use_other_file(options, "tree.lsys");
     CHECK_FALSE(options.is_forest);
+}
+
+TEST_CASE("air belongs to forests") {
+    CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).air == 2.5F);
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).air == 2.5F);
+    CHECK(parsed<UsageError>({"tree.lsys", "--air", "2.5"}).message ==
+          "--air is the haze of a forest, and this is a plant");
+    for (const char* const wrong : {"0", "-1", "nan", "inf", "thick", "2000000"}) {
+        CAPTURE(wrong);
+        CHECK(parsed<UsageError>({"wood.toml", "--air", wrong}).message.find("--air") !=
+              std::string::npos);
+    }
 }
 
 TEST_CASE("an option of forests shows a grammar as a forest") {
