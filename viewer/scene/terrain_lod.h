@@ -17,8 +17,8 @@ namespace lsys::view {
 
 inline constexpr std::uint32_t kPatchCells = 8;     // along a side: a quarter of a node
 inline constexpr std::uint32_t kHeightTexels = 256; // along a side of the grid of a level
-inline constexpr std::uint32_t kTerrainLevels = 12;
-inline constexpr float kFinestCell = 0.5F; // m
+inline constexpr std::uint32_t kTerrainLevels = 14; // ground up to 278 km away
+inline constexpr float kFinestCell = 0.5F;          // m
 
 /// A quarter of a node: kPatchCells cells along a side.
 struct TerrainPatch {

@@ -1,10 +1,10 @@
 #include "light.glsl"
 // CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
-layout(location = 0) uniform ivec2 origins[12];     // by layer, in cells of its level
-layout(location = 12) uniform vec4 ranges;          // finest cell, range of level 0, part of it where
+layout(location = 0) uniform ivec2 origins[14];     // by layer, in cells of its level
+layout(location = 14) uniform vec4 ranges;          // finest cell, range of level 0, part of it where
                                                     // morphing starts, eye above ground; m
-layout(location = 13) uniform int levels;
+layout(location = 15) uniform int levels;
 layout(location = 0) in uvec2 corner;
 layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level
 out vec3 world_position;

@@ -18,8 +18,8 @@ namespace {
 constexpr GLuint kHeights = 1;
 constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
-constexpr GLint kRanges = 12;
-constexpr GLint kLevels = 13;
+constexpr GLint kRanges = static_cast<GLint>(kTerrainLevels);
+constexpr GLint kLevels = kRanges + 1;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
