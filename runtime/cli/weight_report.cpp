@@ -20,7 +20,7 @@ double rounded_up(double value) {
 }
 
 std::string number_text(double value) {
-    return fmt::format("{:.2g}", value);
+    return fmt::format("{:.6g}", value);
 }
 
 /// "`#set elasticity 1.2e+10`, or widths times 1.8"; empty if nothing was found.
