@@ -39,4 +39,16 @@ CompileOutcome compile(Ast ast,
     return outcome;
 }
 
+Result<void> change_settings(Ast& ast,
+                             Names& names,
+                             const SourceMap& sources,
+                             Bytecode& bytecode,
+                             Diagnostics& diagnostics) {
+    resolve_settings(ast, names, sources, bytecode.settings, diagnostics);
+    if (const std::optional<std::string> misfit = verify(bytecode)) {
+        return Error{*misfit};
+    }
+    return {};
+}
+
 } // namespace lsys

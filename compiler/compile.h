@@ -7,6 +7,7 @@
 #include "grammar/ast/ast.h"
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/names.h"
+#include "grammar/base/result.h"
 #include "grammar/base/source.h"
 
 #include <optional>
@@ -27,5 +28,10 @@ struct CompileOutcome {
                                      const SourceMap& sources,
                                      const CompileOptions& options,
                                      Diagnostics& diagnostics);
+
+/// Applies the `#set` statements of `ast`, which has no constants, to the settings of compiled
+/// code. Error: a setting does not fit the code. Mistakes in the statements become diagnostics.
+[[nodiscard]] Result<void> change_settings(
+    Ast& ast, Names& names, const SourceMap& sources, Bytecode& bytecode, Diagnostics& diagnostics);
 
 } // namespace lsys

@@ -16,8 +16,21 @@ struct Definition {
     friend bool operator==(const Definition&, const Definition&) = default;
 };
 
+/// `--set KEY=VALUES`: replaces the `#set` statements of a key.
+struct SettingText {
+    std::string key;
+    std::string values; // as after the key in a `#set`: `30`, `0 -1 0 0.2`, `cpfg`
+
+    friend bool operator==(const SettingText&, const SettingText&) = default;
+};
+
+struct Ast;
+
 struct CompileOptions {
     std::vector<Definition> definitions;
+    /// Its `#set` statements replace those of the grammar with the same keys and may use the
+    /// constants of the grammar, whose Names it shares. Null: none.
+    Ast* settings = nullptr;
     std::optional<std::uint32_t> generations; // -n; a missing #n then gets no warning
     std::uint64_t max_modules = std::uint64_t{1}
                                 << 32; // for the warning about words that grow past it

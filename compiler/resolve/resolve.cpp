@@ -117,6 +117,16 @@ public:
         check_missing();
     }
 
+    /// Reads the numbers of statements that replace those of the grammar. All constants are known.
+    void replace(SetResolver& settings, Resolution& replacing) {
+        ExpressionResolver expressions(replacing, values_, constants_);
+        for (const Statement& statement : replacing.ast.statements) {
+            if (statement.kind == StatementKind::Set) {
+                settings.read_number(replacing.ast.sets[statement.index], expressions);
+            }
+        }
+    }
+
     [[nodiscard]] std::vector<std::string> unknown_definitions() const {
         return definitions_.unknown_definitions();
     }
@@ -194,8 +204,19 @@ ResolveOutcome resolve(Ast ast,
     outcome.program.files = paths_of(resolution);
     outcome.program.written_names = ast.written_names;
     outcome.program.has_all_statements = !ast.incomplete;
-    SetResolver settings(resolution);
+    SetResolver settings(resolution, SetResolver::Origin::Grammar);
     settings.read_modes();
+    std::optional<Resolution> replacing;
+    std::optional<SetResolver> replacements;
+    if (options.settings != nullptr) {
+        options.settings->files = ast.files;
+        options.settings->incomplete = ast.incomplete;
+        replacing.emplace(Resolution{*options.settings, names, sources, options, diagnostics,
+                                     outcome.program, std::move(resolution.letter_files)});
+        replacements.emplace(*replacing, SetResolver::Origin::Options);
+        replacements->read_modes();
+        resolution.letter_files = replacing->letter_files;
+    }
     // Tables by name have the length of Names, so all names are interned before.
     for (const std::string_view function : function_names()) {
         static_cast<void>(names.intern(function));
@@ -205,9 +226,38 @@ ResolveOutcome resolve(Ast ast,
     }
     Resolver resolver(resolution);
     resolver.run(settings);
+    if (replacing) {
+        resolver.replace(*replacements, *replacing);
+    }
     outcome.unknown_definitions = resolver.unknown_definitions();
     outcome.program.complete = !ast.incomplete && !diagnostics.has_errors();
     return outcome;
+}
+
+void resolve_settings(Ast& ast,
+                      Names& names,
+                      const SourceMap& sources,
+                      Settings& settings,
+                      Diagnostics& diagnostics) {
+    for (const std::string_view function : function_names()) {
+        static_cast<void>(names.intern(function));
+    }
+    Program program;
+    program.settings = settings;
+    const CompileOptions options;
+    Resolution resolution{ast, names, sources, options, diagnostics, program, {}};
+    SetResolver statements(resolution, SetResolver::Origin::Options);
+    statements.read_modes();
+    ValueBuilder values(program.values);
+    ConstantTable constants(resolution);
+    ExpressionResolver expressions(resolution, values, constants);
+    for (const Statement& statement : ast.statements) {
+        if (statement.kind == StatementKind::Set) {
+            statements.read_number(ast.sets[statement.index], expressions);
+        }
+    }
+    program.settings.traits = settings.traits; // the code has been resolved by them
+    settings = program.settings;
 }
 
 } // namespace lsys

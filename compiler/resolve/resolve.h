@@ -26,4 +26,8 @@ struct ResolveOutcome {
                                      const CompileOptions& options,
                                      Diagnostics& diagnostics);
 
+/// Applies the `#set` statements of `ast`, which has no constants, to `settings`.
+void resolve_settings(
+    Ast& ast, Names& names, const SourceMap& sources, Settings& settings, Diagnostics& diagnostics);
+
 } // namespace lsys

@@ -4,6 +4,7 @@
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_ends.h"
+#include "grammar/lsys/parse_named.h"
 
 #include <algorithm>
 #include <utility>
@@ -92,10 +93,22 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
 }
 
 Ast parse_lsys(FileId root, const ParseContext& context) {
+    return parse_lsys_named(root, {}, context);
+}
+
+Ast parse_lsys_named(FileId root, std::string_view names, const ParseContext& context) {
     Ast ast;
     ast.files.push_back({root, {}});
     IncludeChain includes(context, root);
-    parse_file(root, context, ast, includes);
+    NormalizedText normalized = normalize_source(root, context);
+    if (names == "words") {
+        normalized.names = ModuleNames::Words;
+    } else if (names == "letters") {
+        normalized.names = ModuleNames::Letters;
+    } else if (names == "characters") {
+        normalized.names = ModuleNames::Characters;
+    }
+    parse_text(normalized, context, ast, includes);
     std::sort(ast.written_names.begin(), ast.written_names.end());
     return ast;
 }

@@ -1,8 +1,8 @@
 #include "grammar/base/counted_text.h"
 #include "grammar/format/format.h"
-#include "grammar/lsys/parse.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/value_edits.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 
@@ -30,38 +30,14 @@ struct Imported {
     std::uint64_t warnings = 0;
 };
 
-/// A .lsys text with the generations and constants of the command line in place of its own. A text
-/// without `#n` gets one at its begin.
-std::string with_options(std::string text, const GrammarOptions& options) {
-    SourceMap sources;
-    Names names;
-    Diagnostics diagnostics;
+/// A .lsys text with the generations, constants and settings of the command line in place of its
+/// own.
+Result<std::string> with_options(const std::string& text, const GrammarOptions& options) {
     const FileLoader load = [](const std::string& path) -> Result<std::string> {
         return Error{fmt::format("`{}` is not read here", path)};
     };
-    const FileId file = sources.add("translation", text);
-    const Ast ast = parse_lsys(file, {sources, names, diagnostics, load});
-    std::string generations =
-        options.generations ? fmt::format("#n = {};", *options.generations) : std::string();
-    // From the end, so that the places of earlier statements stay.
-    for (std::size_t i = ast.statements.size(); i-- > 0;) {
-        const Statement& own = ast.statements[i];
-        std::string statement;
-        if (own.kind == StatementKind::Generations) {
-            statement = std::exchange(generations, {});
-        } else if (own.kind == StatementKind::Define) {
-            const std::string_view name = names.text(ast.defines[own.index].name);
-            for (const Definition& definition : options.definitions) {
-                if (definition.name == name) {
-                    statement = fmt::format("#define {} {};", name, definition.value);
-                }
-            }
-        }
-        if (!statement.empty()) {
-            text.replace(own.span.begin, own.span.end - own.span.begin, statement);
-        }
-    }
-    return generations.empty() ? text : generations + '\n' + text;
+    return with_values("translation", text,
+                       {options.generations, options.definitions, options.settings}, load);
 }
 
 /// Whether a grammar can hold the number: its numbers are binary32.
@@ -92,11 +68,15 @@ ExitStatus import_text(const std::string& path,
     const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
     imported.warnings = made.diagnostics.count(Severity::Warning);
     if (status == ExitStatus::Ok) {
+        const Result<std::string> changed = with_options(made.grammar.translation, options);
+        if (!changed) {
+            return report_error(changed.error(), console);
+        }
         imported.text = fmt::format(
             "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
-            format_text(with_options(std::move(made.grammar.translation), options)));
+            format_text(changed.value()));
     }
     return status;
 }

@@ -57,7 +57,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("-n and --seed replace #n and `#set seed` in the output.\n"
+    app.footer("-n, --seed and --set replace #n, `#set seed` and other #set in the output.\n"
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
@@ -223,7 +223,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
-        "Options override the scene; -n, -D and the options of instances apply to every species.\n"
+        "Options override the scene; -n, -D, --set and the options of instances apply to every "
+        "species.\n"
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
         "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
@@ -245,9 +246,8 @@ void add_import(CLI::App& app, ImportCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("The output derives the same word as the input; -n becomes its #n, and -D the "
-               "values of its "
-               "#define.\n"
+    app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
+               "its\n#define, and --set those of its #set.\n"
                "Example: lsc import tree.l -o tree.lsys");
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/plant_size.h"
 
@@ -142,6 +143,9 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     for (const SceneDefinition& definition : species.definitions) {
         options.definitions.push_back({definition.name, definition.value});
     }
+    for (const auto& [key, values] : species.settings) {
+        options.settings.push_back({key, values});
+    }
     Grammar grammar;
     if (!step.take(load_grammar(path, options, project), grammar)) {
         return step.end();
@@ -235,7 +239,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.system.text == b.system.text && a.bug_compatible == b.bug_compatible &&
            a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
-           a.cache.tolerance == b.cache.tolerance &&
+           a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -284,6 +288,9 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
         }
         loaded.scene = std::move(*read);
         loaded.folder = std::filesystem::path(path).parent_path().string();
+    }
+    if (!values_of("seed", overrides.grammar.settings).empty()) {
+        return step.fail("--set seed: plants of a forest have seeds of their own, from --seed");
     }
     if (const Result<void> applied = apply(overrides, loaded.scene); !applied) {
         return step.fail(applied.error());

@@ -2,6 +2,8 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
+#include "grammar/lsys/parse_named.h"
+#include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
@@ -101,6 +103,19 @@ Outcome<Grammar> load_module(std::string_view bytes,
     Grammar grammar;
     grammar.bytecode = std::move(bytecode.value());
     grammar.is_module_file = true;
+    if (!options.settings.empty()) {
+        Diagnostics diagnostics;
+        const Result<void> changed =
+            change_compiled_settings(path, options.settings, grammar, diagnostics);
+        if (!changed) {
+            step.messages.add_error(changed.error().message);
+            step.messages.add_help("compile the grammar again with this --set");
+            return step.end(Stop::Failed);
+        }
+        if (!step.diagnose(std::move(diagnostics), grammar.sources)) {
+            return step.end_diagnosed();
+        }
+    }
     if (!options.generations && !grammar.bytecode.generations) {
         const Diagnostic missing =
             make_diagnostic(DiagnosticCode::MissingGenerations, {},
@@ -156,15 +171,20 @@ Result<CompiledText> compile_text(const std::string& path,
     if (Result<void> ok = check_system(path, text.dialect, options); !ok) {
         return ok.error();
     }
+    const bool foreign = text.dialect != Dialect::Lsys;
+    const std::string_view names = values_of("names", options.settings);
+    if (foreign && !names.empty()) {
+        return Error{fmt::format("--set names: `{}` is {}, which has its own form of names",
+                                 shown_path(path), row_of(text.dialect).title)};
+    }
     CompiledText compiled;
     Grammar& grammar = compiled.grammar;
     const FileId root = grammar.sources->add(shown_path(path), std::move(text.bytes));
-    Ast ast = parse_dialect(root, text.dialect,
-                            {*grammar.sources, grammar.names, compiled.diagnostics, load,
-                             options.bug_compatible, options.system, &compiled.statements},
-                            &grammar.translation);
+    const ParseContext context{*grammar.sources,       grammar.names,  compiled.diagnostics, load,
+                               options.bug_compatible, options.system, &compiled.statements};
+    Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
+                            : parse_lsys_named(root, names, context);
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
-    const bool foreign = text.dialect != Dialect::Lsys;
     if (foreign && compiled.diagnostics.has_errors()) {
         return compiled; // there is no whole translation to check
     }
@@ -173,10 +193,19 @@ Result<CompiledText> compile_text(const std::string& path,
     compile_options.definitions.insert(compile_options.definitions.end(),
                                        options.optional_definitions.begin(),
                                        options.optional_definitions.end());
+    const std::uint32_t first_option = grammar.sources->file_count();
+    std::optional<Ast> settings =
+        parse_settings(options.settings, *grammar.sources, grammar.names, compiled.diagnostics);
+    compile_options.settings = settings ? &*settings : nullptr;
     compile_options.generations = options.generations;
     compile_options.max_modules = max_modules;
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
+    // No file holds the options.
+    compiled.diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
+        return diagnostic.span.file != kNoFile &&
+               static_cast<std::uint32_t>(diagnostic.span.file) >= first_option;
+    });
     if (foreign) {
         compiled.diagnostics.drop_repairs("`#"); // they are .lsys text, invalid in the dialect
     }

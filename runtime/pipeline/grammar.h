@@ -28,6 +28,8 @@ struct GrammarOptions {
     std::vector<Definition> definitions;
     /// Definitions that are ignored if the grammar has no such constant.
     std::vector<Definition> optional_definitions;
+    /// In place of the `#set` statements of their keys, each key at most once.
+    std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // instead of #n
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
@@ -47,7 +49,7 @@ struct Grammar {
     Bytecode bytecode;
     SourceSpan height_span;      // of `height` in its #set; kNoFile: none, or a .lsb file
     std::string translation;     // to .lsys, of a grammar in another dialect
-    bool is_module_file = false; // read from a .lsb: `sources` is empty
+    bool is_module_file = false; // read from a .lsb: `sources` has GrammarOptions::settings alone
 };
 
 /// The result of compile_text(), also for a text with errors.
@@ -76,7 +78,8 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
 [[nodiscard]] Result<void>
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
-/// Compiles the `text` of `path`. Errors: those of check_system().
+/// Compiles the `text` of `path`. Errors: those of check_system(); a setting that the dialect does
+/// not have.
 [[nodiscard]] Result<CompiledText> compile_text(const std::string& path,
                                                 GrammarText text,
                                                 const GrammarOptions& options,

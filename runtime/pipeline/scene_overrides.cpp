@@ -48,6 +48,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             std::erase_if(species.definitions, same);
             species.definitions.push_back({definition.name, definition.value, {}});
         }
+        for (const SettingText& setting : overrides.grammar.settings) {
+            std::erase_if(species.settings,
+                          [&](const auto& each) { return each.first == setting.key; });
+            species.settings.emplace_back(setting.key, setting.values);
+        }
     }
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         SceneSpecies& species = scene.species[i];

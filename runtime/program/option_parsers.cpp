@@ -2,6 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/pipeline/setting_options.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/turtle/turtle.h"
 
@@ -68,6 +69,27 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
            },
            "Value of a #define or #param; repeatable")
         ->type_name("NAME=NUMBER")
+        ->allow_extra_args(false)
+        ->group("Grammar");
+    app.add_option_function<std::vector<std::string>>(
+           "--set",
+           [&options](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) {
+                   Result<SettingText> setting = parse_setting(text);
+                   if (!setting) {
+                       throw CLI::ValidationError("--set", setting.error().message);
+                   }
+                   for (const SettingText& known : options.settings) {
+                       if (known.key == setting.value().key) {
+                           throw CLI::ValidationError(
+                               "--set", fmt::format("`{}` is given twice", known.key));
+                       }
+                   }
+                   options.settings.push_back(std::move(setting.value()));
+               }
+           },
+           "Value of a #set: angle=25, tropism=\"0 -1 0 0.2\"; repeatable")
+        ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->group("Grammar");
     add_dialect(app, options.dialect);

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -62,6 +63,8 @@ struct SceneSpecies {
     SceneName system;  // in a file of several systems; empty: the only one
     bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
+    /// Key and values of settings that replace those of the grammar, like `--set`.
+    std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
     float years_of_stage = 0.0F; // 0: one stage

@@ -290,7 +290,13 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
 }
 
 void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels) {
-    if (press_common(press, view, panels) || press.control) {
+    if (press_common(press, view, panels)) {
+        return;
+    }
+    if (press.control) {
+        if (press.key == Key::S) {
+            view.write_values();
+        }
         return;
     }
     PlantViewSettings& settings = view.settings;

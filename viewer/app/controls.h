@@ -23,7 +23,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 24> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 25> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Right drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
@@ -41,6 +41,7 @@ inline constexpr std::array<KeyHelp, 24> kPlantKeys = {{
     {"PageDown", "Previous generation"},
     {"N", "Next seed"},
     {"R", "Reload files"},
+    {"Ctrl+S", "Write constants, settings and seed to the file"},
     {"P", "Save a picture (PNG) in the current folder"},
     {"H", "Panels"},
     {"A", "Statistics"},

@@ -1,14 +1,17 @@
 #include "viewer/app/plant_panel.h"
 
 #include "grammar/base/counted_text.h"
+#include "runtime/pipeline/setting_controls.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <imgui.h>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -143,6 +146,94 @@ void draw_constants(PlantView& view) {
     }
 }
 
+/// Edits the numbers of a setting; returns whether they changed.
+bool edit_numbers(const SettingControl& control, std::array<float, 4>& numbers) {
+    if (control.kind == SettingKind::Vector) {
+        return ImGui::SliderFloat4("##value", numbers.data(), control.min, control.max, "%.3g");
+    }
+    float& value = numbers[0];
+    bool changed = false;
+    const char* const format = control.kind == SettingKind::Count ? "%.0f" : "%.5g";
+    if (control.min < control.max) {
+        changed = ImGui::SliderFloat("##value", &value, control.min, control.max, format);
+    } else {
+        const float speed =
+            control.kind == SettingKind::Count ? 1.0F : std::max(0.01F * std::abs(value), 0.001F);
+        changed = ImGui::DragFloat("##value", &value, speed, 0.0F, 0.0F, format);
+    }
+    value = control.kind == SettingKind::Count ? std::round(value) : value;
+    value = std::clamp(value, control.lowest, control.highest);
+    return changed;
+}
+
+/// Edits a setting by its control; returns the new text of its values, or nothing.
+std::optional<std::string> edit_setting(const SettingControl& control, const SettingText* set) {
+    if (control.kind == SettingKind::Word) {
+        std::optional<std::string> chosen;
+        const std::string shown = set != nullptr ? set->values : std::string(control.word);
+        if (ImGui::BeginCombo("##value", shown.c_str())) {
+            for (const std::string_view word : control.words) {
+                if (ImGui::Selectable(std::string(word).c_str(), word == shown)) {
+                    chosen = word;
+                }
+            }
+            ImGui::EndCombo();
+        }
+        return chosen;
+    }
+    const std::size_t count = control.kind == SettingKind::Vector ? 4 : 1;
+    std::array<float, 4> numbers = control.numbers;
+    if (set != nullptr) {
+        numbers = numbers_of(set->values, count).value_or(numbers);
+    }
+    if (!edit_numbers(control, numbers) ||
+        !std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); })) {
+        return std::nullopt;
+    }
+    return setting_text({numbers.data(), count});
+}
+
+void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
+    const auto set = std::find_if(settings.set_values.begin(), settings.set_values.end(),
+                                  [&](const SettingText& one) { return one.key == control.key; });
+    const bool is_set = set != settings.set_values.end();
+    const std::string key(control.key);
+    ImGui::PushID(key.c_str());
+    const std::optional<std::string> edited = edit_setting(control, is_set ? &*set : nullptr);
+    ImGui::SameLine();
+    bool is_reset = false;
+    if (is_set) {
+        is_reset = ImGui::SmallButton("x");
+        ImGui::SameLine();
+    }
+    line(key);
+    ImGui::PopID();
+    if (is_reset) {
+        settings.set_values.erase(set);
+    } else if (edited && is_set) {
+        set->values = *edited;
+    } else if (edited) {
+        settings.set_values.push_back({key, *edited});
+    }
+}
+
+void draw_settings(PlantView& view) {
+    const PlantDocument* const document = view.document();
+    ImGui::SetNextItemOpen(!view.settings.set_values.empty(), ImGuiCond_Once);
+    if (document == nullptr || !ImGui::CollapsingHeader("Settings")) {
+        return;
+    }
+    for (const SettingControl& control : setting_controls(document->grammar)) {
+        draw_setting(view.settings, control);
+    }
+}
+
+void draw_writing(PlantView& view) {
+    if (view.has_changed_values() && ImGui::Button("Write to file")) {
+        view.write_values();
+    }
+}
+
 void draw_look(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
@@ -212,6 +303,8 @@ void draw_plant_panel(PlantView& view) {
     ImGui::PushItemWidth(-kLabelWidth);
     draw_growth(view);
     draw_constants(view);
+    draw_settings(view);
+    draw_writing(view);
     draw_look(view.settings);
     draw_mesh(view.settings);
     draw_bending(view.settings);

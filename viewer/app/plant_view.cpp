@@ -1,6 +1,8 @@
 #include "viewer/app/plant_view.h"
 
 #include "runtime/pipeline/stopwatch.h"
+#include "runtime/program/files.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +17,7 @@ namespace {
 /// Whether both settings make the same plant.
 bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
     return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
-           a.mesh == b.mesh && a.definitions == b.definitions;
+           a.mesh == b.mesh && a.definitions == b.definitions && a.set_values == b.set_values;
 }
 
 bool is_same(const Bending& a, const Bending& b) {
@@ -28,6 +30,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     PlantViewSettings settings;
     settings.file = options.file;
     settings.definitions = options.grammar.definitions;
+    settings.set_values = options.grammar.settings;
     settings.generations = options.grammar.generations;
     settings.seed = options.seed;
     settings.mesh = options.mesh;
@@ -76,6 +79,7 @@ ViewOptions PlantView::wanted() const {
     wanted.file = settings.file;
     wanted.grammar.definitions = {};
     wanted.grammar.optional_definitions = settings.definitions;
+    wanted.grammar.settings = settings.set_values;
     wanted.grammar.generations = settings.generations;
     wanted.seed = settings.seed;
     wanted.mesh = settings.mesh;
@@ -285,6 +289,74 @@ void PlantView::play_or_pause() {
     }
 }
 
+bool PlantView::has_changed_values() const {
+    return !settings.definitions.empty() || !settings.set_values.empty() || settings.seed;
+}
+
+/// The bytes of the file with `values`, if the plant shown is that of the file on disk.
+Result<std::string> PlantView::text_with_values(const StatementValues& values) const {
+    const Grammar& grammar = document_->grammar;
+    const std::string& file = settings.file;
+    if (grammar.is_module_file) {
+        return Error{fmt::format("`{}` is compiled; write to its grammar", file)};
+    }
+    if (!grammar.translation.empty()) {
+        return Error{fmt::format("`{}` is no .lsys file; `lsc import --set` makes one", file)};
+    }
+    Result<std::string> bytes = read_file(file, {kMaxSourceBytes}, console_);
+    if (!bytes) {
+        return bytes;
+    }
+    const SourceFile shown = SourceFile(file, bytes.value());
+    const SourceFile& read = grammar.sources->file(FileId{0});
+    if (shown.text() != read.text() || shown.has_byte_order_mark() != read.has_byte_order_mark()) {
+        return Error{fmt::format("`{}` has changed on disk since it was read", file)};
+    }
+    const Project project{make_file_host(nullptr), options_.run.limits, options_.run.threads,
+                          false};
+    return with_values(file, bytes.value(), values, make_loader(project, project.limits.max_bytes));
+}
+
+void PlantView::write_values() {
+    if (!has_changed_values()) {
+        set_note("no value differs from the file");
+        return;
+    }
+    if (document_ == nullptr || failed()) {
+        set_note("not written: there is no plant with these values");
+        return;
+    }
+    StatementValues values;
+    values.definitions = settings.definitions;
+    values.settings = settings.set_values;
+    if (settings.seed) { // it overrides a `--set seed`
+        std::erase_if(values.settings, [](const SettingText& one) { return one.key == "seed"; });
+        values.settings.push_back({"seed", fmt::format("{}", *settings.seed)});
+    }
+    std::vector<std::string> names;
+    for (const Definition& definition : values.definitions) {
+        names.push_back(definition.name);
+    }
+    for (const SettingText& setting : values.settings) {
+        names.push_back(setting.key);
+    }
+    const Result<std::string> text = text_with_values(values);
+    const bool is_made =
+        requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
+    const Result<void> written =
+        !text     ? Result<void>(text.error())
+        : is_made ? write_file(settings.file, text.value(), console_)
+                  : Result<void>(Error{"the plant with these values is not made yet"});
+    if (!written) {
+        set_note(fmt::format("not written: {}", written.error().message));
+        return;
+    }
+    settings.definitions.clear();
+    settings.set_values.clear();
+    settings.seed.reset();
+    set_note(fmt::format("wrote {} to {}", fmt::join(names, ", "), settings.file));
+}
+
 void PlantView::bend() {
     if (document_ == nullptr || (!settings.simulates && motion_ == nullptr)) {
         return;
@@ -353,6 +425,7 @@ void PlantView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.file = file;
     settings.definitions.clear();
+    settings.set_values.clear();
     settings.generations.reset();
     settings.seed.reset();
     settings.plays = false;

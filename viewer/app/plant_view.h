@@ -2,6 +2,7 @@
 // on other threads and swapped between two pictures. Every call needs a current OpenGL context.
 #pragma once
 
+#include "runtime/pipeline/value_edits.h"
 #include "viewer/app/file_watch.h"
 #include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
@@ -23,6 +24,7 @@ struct PlantViewSettings {
     // Sources: a change makes a new plant.
     std::string file;
     std::vector<Definition> definitions; // replace constants of the grammar
+    std::vector<SettingText> set_values; // replace `#set` statements of the grammar
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed;
     MeshOptions mesh;
@@ -79,6 +81,12 @@ public:
     void open(const std::string& file);
     /// Restarts at the axiom when all generations are shown.
     void play_or_pause();
+    /// Whether constants, settings or the seed differ from those of the file.
+    [[nodiscard]] bool has_changed_values() const;
+    /// Writes them to the .lsys file, all else kept, and notes what was written. Refused, with a
+    /// note: another dialect, a compiled grammar, a file that has changed on disk since it was
+    /// read, values in included files, values whose plant is not shown.
+    void write_values();
 
     /// Last plant without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
@@ -100,6 +108,7 @@ private:
     void bend();
     void drop_unknown_definitions();
     [[nodiscard]] ViewOptions wanted() const;
+    [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
     std::function<void()> wake_;
 

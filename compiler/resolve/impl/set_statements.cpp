@@ -74,10 +74,14 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
     if (key == "names") {
         auto reading = NameReading::Words;
         choose(node, kReadings, reading);
+        const std::vector<AstFile>& files = resolution_.ast.files;
+        const FileId root = files.empty() ? kNoFile : files[0].file;
+        const FileId file = origin_ == Origin::Options ? root : node.key_span.file;
+        std::erase(resolution_.letter_files, file);
         if (reading != NameReading::Words) {
-            resolution_.letter_files.push_back(node.key_span.file);
+            resolution_.letter_files.push_back(file);
         }
-        if (!resolution_.ast.files.empty() && node.key_span.file == resolution_.ast.files[0].file) {
+        if (file == root) {
             settings.print_letters = reading != NameReading::Words;
             settings.print_characters = reading == NameReading::Characters;
         }

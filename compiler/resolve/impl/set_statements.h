@@ -15,7 +15,12 @@ namespace lsys {
 
 class SetResolver {
 public:
-    explicit SetResolver(Resolution& resolution) : resolution_(resolution) {}
+    /// Whose statements `resolution` has.
+    enum class Origin : std::uint8_t {
+        Grammar,
+        Options, // each replaces the values that the grammar gave; `names`: those of its root file
+    };
+    SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 
     /// Reads the modes and profiles of all statements, and reports unknown keys and duplicates.
     void read_modes();
@@ -49,6 +54,7 @@ private:
     void read_seed(const SetNode& node, ExpressionResolver& expressions);
 
     Resolution& resolution_;
+    Origin origin_;
     Suggestions suggestions_;
     std::unordered_map<std::uint64_t, SourceSpan> first_; // by scope_of()
 };

@@ -41,9 +41,9 @@ TEST_CASE("options switch shadows and the ground off") {
 }
 
 TEST_CASE("another file drops the options about the files of the command line") {
-    ViewOptions options =
-        parsed<ViewOptions>({"a.l", "b.l", "-D", "a=1", "-n", "3", "-s", "3", "--dialect", "l3d",
-                             "--heroes", "3", "--camera", "fov 30", "--air", "5", "--no-shadows"});
+    ViewOptions options = parsed<ViewOptions>({"a.l", "b.l", "-D", "a=1", "--set", "angle=3", "-n",
+                                               "3", "-s", "3", "--dialect", "l3d", "--heroes", "3",
+                                               "--camera", "fov 30", "--air", "5", "--no-shadows"});
     use_other_file(options, "wood.toml");
     ViewOptions fresh = parsed<ViewOptions>({"wood.toml", "--no-shadows"});
     CHECK(options.file == fresh.file);

@@ -209,6 +209,129 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
     CHECK(viewed.view.settings.definitions.empty());
 }
 
+namespace {
+
+/// Lines of `after` that `before` lacks, if all others are the same and in order; else an error.
+std::vector<std::string> new_lines(const std::string& before, const std::string& after) {
+    std::istringstream old(before);
+    std::istringstream now(after);
+    std::vector<std::string> added;
+    std::string line;
+    std::string expected;
+    std::getline(old, expected);
+    while (std::getline(now, line)) {
+        if (line != expected) {
+            added.push_back(line);
+        } else if (!std::getline(old, expected)) {
+            expected = "no more lines";
+        }
+    }
+    return expected == "no more lines" ? added : std::vector<std::string>{"a line is missing"};
+}
+
+/// The vertices of the plant shown.
+std::vector<glm::vec3> vertices_of(const PlantView& view) {
+    const auto& positions = view.document()->mesh.positions;
+    return {positions.begin(), positions.end()};
+}
+
+} // namespace
+
+TEST_CASE("a setting turned and written back is one line of the file, with the same plant") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    const std::string text = "// A fork.\r\n#n = 2;\r\n#set step 2; // metres\r\n"
+                             "#w : F [ + F ] F;\r\n#p : F : * : F [ + F ] F;\r\n";
+    write_text(file, text);
+    ViewedPlant viewed(plant_options(file));
+    REQUIRE(viewed.until_swaps(1));
+    const std::vector<glm::vec3> square = vertices_of(viewed.view);
+    CHECK_FALSE(viewed.view.has_changed_values());
+    viewed.view.write_values();
+    CHECK(viewed.view.note() == "no value differs from the file");
+
+    viewed.view.settings.set_values = {{"angle", "32.5"}};
+    viewed.view.write_values();
+    CHECK(viewed.view.note() == "not written: the plant with these values is not made yet");
+    CHECK(read_text(file) == text);
+    const auto angle = [&] { return viewed.view.document()->grammar.bytecode.settings.angle; };
+    REQUIRE(viewed.until([&] { return angle() == 32.5F; }));
+    const std::vector<glm::vec3> turned = vertices_of(viewed.view);
+    CHECK(turned != square);
+    viewed.view.write_values();
+    CHECK(viewed.view.note() == "wrote angle to " + file);
+    CHECK(new_lines(text, read_text(file)) == std::vector<std::string>{"#set angle 32.5;\r"});
+    CHECK_FALSE(viewed.view.has_changed_values());
+    const std::uint64_t written = viewed.view.stats().swaps;
+    REQUIRE(viewed.until_swaps(written + 1));
+    CHECK(vertices_of(viewed.view) == turned);
+    ViewedPlant again(plant_options(file));
+    REQUIRE(again.until_swaps(1));
+    CHECK(vertices_of(again.view) == turned);
+
+    // The number of the statement alone.
+    viewed.view.settings.set_values = {{"step", "0.5"}};
+    REQUIRE(viewed.until(
+        [&] { return viewed.view.document()->grammar.bytecode.settings.step == 0.5F; }));
+    viewed.view.write_values();
+    CHECK(read_text(file).find("#set step 0.5; // metres\r\n#set angle 32.5;\r\n") !=
+          std::string::npos);
+}
+
+TEST_CASE("constants and a seed are written with the settings") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#n = 0;\n#param a 2 {1, 5};\n#define b 3;\n#w : F(a) F(b);\n");
+    ViewedPlant viewed(plant_options(file));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.view.settings.definitions = {{"a", 4.0F}, {"b", 0.1F}};
+    viewed.view.settings.seed = 18446744073709551615U;
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.seed != 0; }));
+    Controls controls;
+    PanelState panels;
+    WindowInput input;
+    input.presses = {{Key::S, true}};
+    controls.apply(input, 0.01, 600.0F, viewed.view, panels);
+    CHECK(read_text(file) == "#set seed 18446744073709551615;\n#n = 0;\n#param a 4 {1, 5};\n"
+                             "#define b 0.1;\n#w : F(a) F(b);\n");
+    CHECK_FALSE(viewed.view.has_changed_values());
+}
+
+TEST_CASE("values are not written to a file that has changed or cannot hold them") {
+    const ScratchFolder folder;
+    const auto refused = [&](const std::string& name, const std::string& text,
+                             const std::string& later) {
+        write_text(folder / name, text);
+        ViewOptions options = plant_options(folder / name);
+        options.grammar.settings = {{"angle", "30"}};
+        options.grammar.generations = 1;
+        ViewedPlant viewed(options);
+        REQUIRE(viewed.until_swaps(1));
+        CHECK(viewed.view.document()->grammar.bytecode.settings.angle == 30.0F);
+        write_text(folder / name, later);
+        viewed.view.write_values();
+        CHECK(read_text(folder / name) == later);
+        CHECK(viewed.view.has_changed_values());
+        return viewed.view.note();
+    };
+    write_text(folder / "part.lsys", "#set angle 25;\n");
+    const std::string own = "#w : F;\n";
+    CHECK(refused("a.lsys", own, own + "// edited\n") ==
+          "not written: `" + folder / "a.lsys" + "` has changed on disk since it was read");
+    CHECK(refused("a.lsys", own, "\xEF\xBB\xBF" + own).find("changed on disk") !=
+          std::string::npos);
+    const std::string including = "#include \"part.lsys\";\n#w : F;\n";
+    CHECK(refused("b.lsys", including, including).find("stands in the included file") !=
+          std::string::npos);
+    const std::string rules = "axiom: F\nF=F+F\n";
+    CHECK(refused("c.rules", rules, rules).find("is no .lsys file") != std::string::npos);
+    REQUIRE(run_lsc({"compile", folder / "a.lsys", "-n", "1", "-o", folder / "d.lsb"}, "").status ==
+            0);
+    const std::string compiled = read_text(folder / "d.lsb");
+    CHECK(refused("d.lsb", compiled, compiled).find("is compiled") != std::string::npos);
+}
+
+TEST_CASE("growth plays from the axiom to the end") {
 TEST_CASE("growth plays from the axiom to the end, with moments between generations") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));

@@ -1,0 +1,17 @@
+// The .lsys front end for a file whose module names another form decides than its own `#set names`.
+#pragma once
+
+#include "grammar/ast/ast.h"
+#include "grammar/ast/parse_context.h"
+#include "grammar/base/source.h"
+
+#include <string_view>
+
+namespace lsys {
+
+/// parse_lsys() with `names`, which is `words`, `letters` or `characters`, as the form of module
+/// names of `root`, but not of its included files. Another word leaves the form to the file.
+[[nodiscard]] Ast
+parse_lsys_named(FileId root, std::string_view names, const ParseContext& context);
+
+} // namespace lsys

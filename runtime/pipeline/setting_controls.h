@@ -1,0 +1,46 @@
+// SettingControl: a setting of a grammar with its value and its range, for widgets.
+#pragma once
+
+#include "runtime/pipeline/grammar.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+enum class SettingKind : std::uint8_t {
+    Number,
+    Count,  // a whole number
+    Vector, // tropism: four numbers: x, y, z, susceptibility
+    Word,
+};
+
+struct SettingControl {
+    std::string_view key; // of `#set`
+    SettingKind kind = SettingKind::Number;
+    std::array<float, 4> numbers{};      // the value; only the first, except for Vector
+    std::string_view word;               // the value of Word
+    std::vector<std::string_view> words; // all values of Word
+    float lowest = 0.0F;                 // values of Number and Count below are errors
+    float highest = 0.0F;                // so are values above
+    /// Usual range for a slider, which may be narrower; `max` is not above `min`: none.
+    float min = 0.0F;
+    float max = 0.0F;
+};
+
+/// The settings of a grammar that options may replace, except `seed`. Compiled grammars lack those
+/// that decided how they were compiled; other dialects lack `names`.
+[[nodiscard]] std::vector<SettingControl> setting_controls(const Grammar& grammar);
+
+/// Numbers as the values of a `#set`: `0.5 -1 0 0.2`. Reading the text gives the same numbers.
+[[nodiscard]] std::string setting_text(std::span<const float> numbers);
+/// As many numbers as `count` if `values` is nothing else, else none: it may name constants.
+[[nodiscard]] std::optional<std::array<float, 4>> numbers_of(std::string_view values,
+                                                             std::size_t count);
+
+} // namespace lsys

@@ -1,0 +1,37 @@
+// Values written into the text of a .lsys grammar, all other bytes kept: those that a user set in a
+// window or on a command line.
+#pragma once
+
+#include "compiler/program/compile_options.h"
+#include "grammar/ast/parse_context.h"
+#include "grammar/base/result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// Values for statements of a grammar.
+struct StatementValues {
+    std::optional<std::uint32_t> generations; // #n
+    std::vector<Definition> definitions;      // #define and #param, which exist
+    std::vector<SettingText> settings;        // #set
+
+    [[nodiscard]] bool empty() const {
+        return !generations && definitions.empty() && settings.empty();
+    }
+};
+
+/// The `bytes` of the .lsys grammar `path` with `values` in the place of those of its statements.
+/// Settings without a statement get a line of their own after the last `#set`, else before the
+/// first statement; so do generations. Line ends and a byte order mark stay as they are. `load`
+/// reads included files, which never change. Errors: a syntax error; a constant that does not exist
+/// or is defined after its use; a statement that stands in an included file.
+[[nodiscard]] Result<std::string> with_values(const std::string& path,
+                                              const std::string& bytes,
+                                              const StatementValues& values,
+                                              const FileLoader& load);
+
+} // namespace lsys
