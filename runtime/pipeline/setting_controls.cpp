@@ -61,14 +61,14 @@ std::vector<SettingControl> setting_controls(const Grammar& grammar) {
 #define LSYS_NUMBER(field, initial, use, group, least, wanted)                                     \
     controls.push_back(number_control(#field, SettingKind::Number, settings.field));               \
     controls.back().lowest = least;                                                                \
-    controls.back().highest = -kAnyNumber;
+    controls.back().highest = -kLowestNumber;
 #include "compiler/bytecode/settings.def"
     SettingControl& tropism = controls.emplace_back();
     tropism.key = "tropism";
     tropism.kind = SettingKind::Vector;
     tropism.numbers = settings.tropism;
-    tropism.lowest = kAnyNumber;
-    tropism.highest = -kAnyNumber;
+    tropism.lowest = kLowestNumber;
+    tropism.highest = -kLowestNumber;
     tropism.min = -1.0F;
     tropism.max = 1.0F;
 #define LSYS_COUNT(field, initial, use, group, least, most, wanted, misfit)                        \

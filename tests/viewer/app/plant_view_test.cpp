@@ -331,7 +331,6 @@ TEST_CASE("values are not written to a file that has changed or cannot hold them
     CHECK(refused("d.lsb", compiled, compiled).find("is compiled") != std::string::npos);
 }
 
-TEST_CASE("growth plays from the axiom to the end") {
 TEST_CASE("growth plays from the axiom to the end, with moments between generations") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
