@@ -39,12 +39,12 @@ constexpr std::array<Synonym, 14> kSynonyms{{
 }};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
-constexpr std::array<std::string_view, 21> kSettings{
-    "turtle",         "names",       "rewriting", "choice",   "weights",
-    "random",         "angle",       "step",      "width",    "sides",
-    "tropism",        "seed",        "spring",    "density",  "angle_scale",
-    "step_scale",     "width_scale", "damping",   "at_depth", "decompose_depth",
-    "interpret_depth"};
+constexpr std::array<std::string_view, 25> kSettings{
+    "turtle",          "names",       "rewriting", "choice",   "weights",
+    "random",          "angle",       "step",      "width",    "sides",
+    "tropism",         "seed",        "spring",    "density",  "angle_scale",
+    "step_scale",      "width_scale", "damping",   "at_depth", "decompose_depth",
+    "interpret_depth", "elasticity",  "load",      "height",   "pipe"};
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';

@@ -138,13 +138,13 @@ TEST_CASE("the help for an unknown key lists every setting") {
 }
 
 TEST_CASE("the parser knows every setting, and repairs one without `set`") {
-    constexpr std::array<std::string_view, 21> kAll{
+    constexpr auto kAll = std::to_array<std::string_view>({
 #define LSYS_CHOICE(type, field, initial, use, group) #field,
 #define LSYS_STATEMENT(key) #key,
 #define LSYS_NUMBER(field, initial, use, group, min, wanted) #field,
 #define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) #field,
 #include "compiler/bytecode/settings.def"
-    };
+    });
     for (const std::string_view key : kAll) {
         CAPTURE(key);
         const test::Compiled c = test::compile_text("#" + std::string(key) + " 1;\n#w : F;\n");

@@ -13,13 +13,11 @@ using namespace lsys::test;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// An upright column of even width in `count` segments, with springs E I / length.
 Skeleton column(std::uint32_t count, double length, double width, double elasticity) {
     const double part = length / count;
-    const double stiff = elasticity * kPi / 64.0 * std::pow(width, 4) / part;
-    const double mass = 500.0 * kPi / 4.0 * width * width * part;
+    const double stiff = elasticity * std::numbers::pi / 64.0 * std::pow(width, 4) / part;
+    const double mass = 500.0 * std::numbers::pi / 4.0 * width * width * part;
     Skeleton plant;
     std::uint32_t last = kNoSegment;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -65,8 +63,8 @@ TEST_CASE("a column of many segments buckles at Greenhill's height") {
         const Stability found = stability_of(column(count, 20.0, 0.1, 9e9), in_calm());
         REQUIRE(found.trunk_factor.has_value());
         // E I 7.837 / (w l^3)
-        const double weight = 500.0 * kPi / 4.0 * 0.01 * 9.81;
-        const double expected = 7.837347 * 9e9 * kPi / 64.0 * 1e-4 / (weight * 8000.0);
+        const double weight = 500.0 * std::numbers::pi / 4.0 * 0.01 * 9.81;
+        const double expected = 7.837347 * 9e9 * std::numbers::pi / 64.0 * 1e-4 / (weight * 8000.0);
         CHECK(*found.trunk_factor == Approx(expected).epsilon(1e-4));
         CHECK(found.trunk_length == Approx(20.0));
         CHECK(found.trunk_width == Approx(0.1));
@@ -79,7 +77,8 @@ TEST_CASE("a column of many segments buckles at Greenhill's height") {
 
 TEST_CASE("what hangs is stable under any weight") {
     Skeleton plant;
-    add_segment(plant, kNoSegment, leaning(static_cast<float>(kPi)), rod(2.0F, 0.02F, 30.0F, 3.0F));
+    add_segment(plant, kNoSegment, leaning(static_cast<float>(std::numbers::pi)),
+                rod(2.0F, 0.02F, 30.0F, 3.0F));
     CHECK(std::isinf(stability_of(plant, in_calm()).load_factor));
     CHECK(std::isinf(stability_of(Skeleton{}, in_calm()).load_factor));
     PhysicsOptions weightless = in_calm();
