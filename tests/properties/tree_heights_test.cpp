@@ -92,7 +92,7 @@ TEST_CASE("trees get their heights, alike on any number of threads") {
 TEST_CASE("a scaled cache has scaled trees") {
     Planted planted = plant(kLowBush, 5, 0.6F, heroes(4, 1));
     const std::vector<TreeSegment> before = segments_of(planted.cache, tree_of(17), 3);
-    scale_cache(2.5, 500.0, planted.cache);
+    scale_cache(2.5, {500.0, 9e9}, planted.cache);
     const std::vector<TreeSegment> after = segments_of(planted.cache, tree_of(17), 3);
     REQUIRE(after.size() == before.size());
     for (std::size_t i = 0; i < after.size(); ++i) {

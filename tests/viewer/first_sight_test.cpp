@@ -77,7 +77,7 @@ Sight first_sight(const std::vector<std::string>& files, const std::vector<std::
     return sight_of(first.picture, shown(bare).picture);
 }
 
-std::string scene(const std::string& name) {
+std::string sample_scene(const std::string& name) {
     return LSYS_SOURCE_DIR "/samples/scenes/" + name + "/" + name + ".toml";
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("the default picture of each sample scene shows its trees with contras
         {"meadow", 0.045, 0.04}, // mostly ground
     }));
     CAPTURE(wood.name);
-    const Sight sight = first_sight({scene(wood.name)}, {});
+    const Sight sight = first_sight({sample_scene(wood.name)}, {});
     CHECK(sight.contrast > wood.contrast);
     CHECK(sight.trees > wood.trees);
 }
