@@ -213,8 +213,11 @@ TEST_CASE("trees have the height of their grammar, times their scale") {
     CHECK(TreeMeasure(cache, table, 0).height_of(0).value_or(0.0) == Approx(20.0).epsilon(1e-5));
     // A height of the scene wins.
     const Outcome<GrownForest> other =
-        forest_of(std::string("#set height 20;") + kShrub, "height = 3\n");
-    REQUIRE_FALSE(other);
+        forest_of(std::string("#set height 20;") + kShrub, "height = [3, 3]\n");
+    REQUIRE(other);
+    for (const auto& [number, height] : heights_of(other.value())) {
+        CHECK(height == Approx(3.0).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("flat species get no height") {
