@@ -21,11 +21,11 @@ using lsys::tests::run_lsc;
 
 // Nothing lies near a bend where a mesh gets more rings, so that all frames have the same vertices.
 const char* const kTree =
-    "#n = 4; #set angle 25; #object L LEAF; #w : !(0.06) F(1) X;"
+    "#n = 4; #set angle 25; #set spring 30; #object L LEAF; #w : !(0.06) F(1) X;"
     "#p : X : * : !(0.06) F(0.6, 400) [ +(35) X L(0.3) ] /(120) [ &(30) X ] /(120)"
     " [ ^(40) L(0.2) ] F(0.4, 300) { F(0.3) +(100) F(0.3) +(100) F(0.3) };";
 const char* const kReed =
-    "#n = 40; #set angle 3; #w : !(0.02) A; #p : A : * : F(0.1, 2) + /(20) A;";
+    "#n = 40; #set angle 3; #set spring 30; #w : !(0.02) A; #p : A : * : F(0.1, 2) + /(20) A;";
 
 struct Case {
     const char* name;
