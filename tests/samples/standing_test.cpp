@@ -16,7 +16,12 @@ namespace {
 
 using namespace lsys;
 
-Skeleton skeleton_of(const std::string& name) {
+struct StandingPlant {
+    Skeleton skeleton;
+    LoadRule load;
+};
+
+StandingPlant plant_of(const std::string& name) {
     const std::string path =
         std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
     Project project;
@@ -35,14 +40,16 @@ Skeleton skeleton_of(const std::string& name) {
     options.file = path;
     Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
     REQUIRE(plant);
-    return std::move(plant.value().skeleton);
+    return {std::move(plant.value().skeleton), grammar.value().bytecode.settings.load};
 }
 
 double height_left(const std::string& name) {
     PhysicsOptions options;
     options.gravity = 9.81F;
     options.threads = 1;
-    return bent_height(skeleton_of(name), options, 2000);
+    const StandingPlant plant = plant_of(name);
+    options.load = plant.load;
+    return bent_height(plant.skeleton, options, 2000);
 }
 
 const std::vector<std::string> kTrees = {"abop-2-6-monopodial", "abop-2-8a",        "abop-2-8b",
