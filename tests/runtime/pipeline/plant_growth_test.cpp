@@ -99,11 +99,11 @@ Mesh mesh_of(const Plant& plant, const Skeleton& skeleton) {
 
 bool is_same_mesh(const Mesh& a, const Mesh& b) {
     return a.indices == b.indices && a.positions.size() == b.positions.size() &&
-           std::memcmp(a.positions.data(), b.positions.data(),
-                       a.positions.size() * sizeof(a.positions[0])) == 0;
+           (a.positions.empty() || std::memcmp(a.positions.data(), b.positions.data(),
+                                               a.positions.size() * sizeof(a.positions[0])) == 0);
 }
 
-/// The longest_move way of an end of a segment, an object or a corner; both have the same parts.
+/// The longest way of an end of a segment, an object or a corner; both have the same parts.
 float longest_move(const Skeleton& a, const Skeleton& b) {
     REQUIRE(a.segments.size() == b.segments.size());
     REQUIRE(a.objects.size() == b.objects.size());
