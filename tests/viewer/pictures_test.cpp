@@ -302,12 +302,11 @@ TEST_CASE("a series that grows shows whole generations and moments between them"
 
 TEST_CASE("a forest of domination grows year by year in a series") {
     const ScratchFolder folder;
-    write_text(
-        folder / "wood.toml",
-        fmt::format("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
-                    "count = 60\nyears = 8\n[[species]]\ngrammar = \"{}\"\n"
-                    "stages = [1, 3]\nyears_of_stage = 4\nheroes = 2\nscale = [2, 3]\n",
-                    sample("abop-2-8a")));
+    write_text(folder / "wood.toml",
+               fmt::format("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
+                           "count = 60\nyears = 8\n[[species]]\ngrammar = \"{}\"\n"
+                           "stages = [1, 3]\nyears_of_stage = 4\nheroes = 2\nscale = [2, 3]\n",
+                           sample("abop-2-8a")));
     const std::vector<std::string> view = {
         folder / "wood.toml", "--size", "96x72", "--camera", "eye 60,30,60 target 20,0,20 fov 45",
         "--screenshot"};
