@@ -183,14 +183,19 @@ std::string Session::show_file(const SessionStep& step, const std::string& name)
 }
 
 std::string Session::run_lsc(const SessionStep& step, const std::vector<std::string>& arguments) {
+    const Result result = result_of(arguments);
+    status_ = result.status;
+    return shows(step.output, split_lines(result.output)) ? "" : last_ + "prints\n" + result.output;
+}
+
+Session::Result Session::result_of(const std::vector<std::string>& arguments) const {
     std::istringstream in;
-    std::ostringstream terminal; // both streams, in the order in which they are written
+    std::ostringstream terminal;
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder_);
-    status_ = lsc::run(arguments, {in, terminal, terminal});
+    const int status = lsc::run(arguments, {in, terminal, terminal});
     std::filesystem::current_path(before);
-    return shows(step.output, split_lines(terminal.str())) ? ""
-                                                           : last_ + "prints\n" + terminal.str();
+    return {status, terminal.str()};
 }
 
 } // namespace lsys::tests

@@ -30,6 +30,13 @@ public:
     /// The same at the end of the document.
     [[nodiscard]] std::string finish() const;
 
+    struct Result {
+        int status = 0;
+        std::string output; // both streams, in the order in which they are written
+    };
+    /// Runs lsc in the folder.
+    [[nodiscard]] Result result_of(const std::vector<std::string>& arguments) const;
+
 private:
     [[nodiscard]] std::string show_file(const SessionStep& step, const std::string& name) const;
     [[nodiscard]] std::string run_lsc(const SessionStep& step,
