@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// Cells of a production: name, predecessor, condition, successor; the maximum of all statements.
+/// Cells of a production: name, predecessor, condition, successor. Other statements have fewer.
 inline constexpr std::size_t kCells = 4;
 
 /// The measures of a statement without columns.

@@ -99,7 +99,7 @@ bool PieceReader::next(Piece& piece) {
     }
     end_ = reader_.offset();
     if (piece.break_class == BreakClass::Fine && piece.text.starts_with("//")) {
-        piece.break_class = BreakClass::Poor; // a line with this begin looks like a comment
+        piece.break_class = BreakClass::Poor; // a line that begins with `//` looks like a comment
     }
     const std::string_view written = piece.text;
     piece.several_lines = has_comment_ && written.find('\n') != written.npos;
@@ -135,7 +135,7 @@ void PieceReader::describe(Piece& piece) {
     piece.depth = brackets_ - (closes_bracket(now_) && brackets_ > 0 ? 1U : 0U);
     piece.rank = 0;
     if (in_list_) {
-        // Outer levels first, then blanks, then branches.
+        // Prefer breaks at outer levels, then at blanks, then before branches.
         piece.rank = brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
     }
     piece.ends_statement = false;
