@@ -1,4 +1,4 @@
-// The .lsys front end for a file whose module names another form decides than its own `#set names`.
+// The .lsys front end with a form of module names that replaces the `#set names` of the file.
 #pragma once
 
 #include "grammar/ast/ast.h"

@@ -333,7 +333,7 @@ bool is_word_for_operator(ParseSession& session, std::string_view word) {
         const std::string right = word == "and" ? "&&" : "||";
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                                 "there is no operator `" + std::string(word) + "`");
-        // Between arguments it may be a name without its commas.
+        // Between arguments the word may be a name without its commas.
         const bool in_list =
             !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
         add_fix(diagnostic, "write `" + right + "`", diagnostic.span, right, !in_list);

@@ -157,7 +157,7 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
     const NameId letters = scratch.names.intern("letters");
     const NameId characters = scratch.names.intern("characters");
     lsys_grammar::Scanning scanning(session);
-    int matched = 0; // of: SET names
+    int matched = 0; // tokens of `#set names`
     while (true) {
         const auto token = lsys_grammar::next_token(session, scanning.scanner());
         if (token.kind() == Kind::S_YYEOF) {

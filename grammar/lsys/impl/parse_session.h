@@ -84,11 +84,12 @@ public:
     }
 
 private:
-    /// Whether the line of `at` begins with `//`, so that it is read only because the statement
-    /// before has no end. `at` never falls between calls: each reads on where the last one ended.
+    /// Whether the line of `at` begins with `//` and is no comment only because the statement
+    /// before it has no end. Each call searches on from the last `at`. Precondition: `at` never
+    /// decreases between calls.
     [[nodiscard]] bool is_commented_out(std::size_t at);
-    /// Offers, rather than applies, the fixes of a statement that stays wrong in part or stands
-    /// behind `//`. Statements that may belong together are judged together.
+    /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if it
+    /// stands behind `//`. Statements that may belong together count as one.
     void judge_fixes();
 
     /// Range of indices in context.diagnostics: those of statements that may belong together.

@@ -46,7 +46,7 @@ enum class Part : std::uint8_t {
     Successor,
 };
 
-/// Why the scanner inserts tokens before it goes on.
+/// The text before which the scanner inserts missing tokens.
 enum class Insertion : std::uint8_t {
     None,
     Colon,         // a `:` inside parentheses
@@ -88,7 +88,7 @@ struct ScanState {
     // Inside expressions. Right-associative operators (unary, `^`) count as nesting.
     std::vector<OpenBracket> open;
     std::uint32_t open_braces = 0;
-    std::uint32_t chain = 0;
+    std::uint32_t chain = 0; // operators `-`, `!` and `^` that wait for operands at this level
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
     Insertion inserting = Insertion::None;

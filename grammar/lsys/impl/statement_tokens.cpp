@@ -131,8 +131,8 @@ bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
     return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
 
-/// Whether the next character is the only `:` of the statement, and a number follows it, which
-/// begins no predecessor.
+/// Whether the next character is the only `:` of the statement, and a number, which cannot begin a
+/// predecessor, follows it.
 bool is_number_after_colon(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t colon = text.find(':', session.scan.end);
@@ -218,12 +218,12 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
                              keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
-    const bool after_statement = // on its line, after its `;`
+    const bool after_statement = // on the line of a statement, after its `;`
         scan.part == Part::Between && scan.last_end != 0 &&
         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
     const bool after_modules =
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
-    // A text after a statement may belong to it; then its `;` and its fixes are wrong.
+    // Text behind a statement may belong to the statement, whose `;` and fixes are then wrong.
     if (is_statement || !after_statement) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
@@ -256,7 +256,7 @@ Token opening_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.keyword == Keyword::Generations && colons_of_statement(session) == 1) {
         const char next = next_character(session.scanned.text, scan.end);
-        if (is_digit(next) || next == '.' || next == '(') { // which begins no predecessor
+        if (is_digit(next) || next == '.' || next == '(') { // cannot begin a predecessor
             if (session.wants(DiagnosticCode::SyntaxError)) {
                 const SourceSpan span = session.match();
                 Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
@@ -419,7 +419,7 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // It may belong to a statement that another `;` has ended too early.
+        // The `;` may belong to a statement that another `;` has ended too early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;
@@ -585,8 +585,9 @@ Token discard_statement(ParseSession& session) {
 
 namespace {
 
-/// Whether `text`, in the place of a condition and before a character that no condition has, begins
-/// a successor: it is empty, or it begins with a symbol or a capital letter and compares nothing.
+/// Whether `text`, which stands in the place of a condition and before the character `stray` that
+/// no condition has, begins a successor: `text` is empty, or it begins with a symbol or a capital
+/// letter and compares nothing.
 bool begins_successor(std::string_view text, char stray) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
@@ -597,8 +598,9 @@ bool begins_successor(std::string_view text, char stray) {
            text.find_first_of("<>=~&|!*") == std::string_view::npos;
 }
 
-/// Whether the statement from `first` on can only be a successor: no word of it is a parameter of
-/// the predecessor, and nothing but a symbol that no condition has follows, without a blank.
+/// Whether the text from `first` to the current character can only be a successor: none of its
+/// words is a parameter of the predecessor, and the current character is a symbol that no condition
+/// has, without a blank before it.
 bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

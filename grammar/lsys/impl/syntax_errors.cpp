@@ -175,7 +175,7 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, error.place, "expected a value, found `+`");
-        // Before a blank it is more likely an operator without its first operand.
+        // A `+` before a blank is more likely an operator without its first operand.
         const std::string_view text = session.scanned.text;
         const bool is_sign =
             session.scan.end < text.size() &&
