@@ -186,10 +186,11 @@ NormalizedText normalize_source(FileId file, const ParseContext& context) {
     const std::string_view source = context.sources.file(file).text();
     normalized.scanned = {file, source, nullptr, nullptr};
     if (!is_ascii(source)) {
-        normalized.own = std::make_unique<std::string>();
-        const Validity validity = check_utf8(file, source, context.diagnostics, *normalized.own);
+        normalized.repaired = std::make_unique<std::string>();
+        const Validity validity =
+            check_utf8(file, source, context.diagnostics, *normalized.repaired);
         if (validity.has_invalid) {
-            normalized.scanned.text = *normalized.own;
+            normalized.scanned.text = *normalized.repaired;
         }
         if (validity.has_beyond_ascii) {
             normalize_source(context, context.diagnostics, normalized);

@@ -10,9 +10,9 @@
 
 namespace lsys {
 
-/// The text for the scan of a file. `scanned` refers to `own` and `map`.
+/// The text for the scan of a file. `scanned` refers to `repaired` and `map`.
 struct NormalizedText {
-    std::unique_ptr<std::string> own;
+    std::unique_ptr<std::string> repaired; // without invalid UTF-8; null if the file has none
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
     /// Value of the first `#set names` of the file.

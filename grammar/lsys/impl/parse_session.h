@@ -90,18 +90,18 @@ private:
     [[nodiscard]] bool is_commented_out(std::size_t at);
     /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if it
     /// stands behind `//`. Statements that may belong together count as one.
-    void judge_fixes();
+    void offer_doubtful_fixes();
 
     /// Range of indices in context.diagnostics: those of statements that may belong together.
-    struct JudgedDiagnostics {
+    struct CheckedDiagnostics {
         std::size_t first = 0;
-        std::size_t end = 0;     // diagnostics before this index are judged
-        bool is_partial = false; // one of the errors has no certain fix
+        std::size_t end = 0;             // diagnostics before this index have been checked
+        bool has_doubtful_error = false; // one of the errors has no certain fix
     };
 
     Ast& ast_;
-    JudgedDiagnostics judged_;
-    std::size_t line_sought_to_ = 0;
+    CheckedDiagnostics checked_;
+    std::size_t line_search_end_ = 0;
     std::size_t line_first_ = std::string_view::npos; // first character that is not blank
 };
 
