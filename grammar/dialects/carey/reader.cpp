@@ -35,7 +35,7 @@ bool is_text(const LinePiece& piece) {
            piece.text[0] != '\0';
 }
 
-/// Reports a colon without a `=` before it; `has_equals`: there is one behind it.
+/// Reports a colon without a `=` before it. `has_equals`: a `=` follows the colon.
 void report_no_equals(const LinePiece& name,
                       const LinePiece& colon,
                       bool has_equals,

@@ -13,14 +13,14 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kSamples = 100; // as many as cpfg takes where a view file does not say
-constexpr double kTolerance = 1e-3;   // of the height
+constexpr std::size_t kSamples = 100; // the default of cpfg
+constexpr double kTolerance = 1e-3;   // relative to the range of values of the curve
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxCurves = 256;
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-/// The next line of `text`, which loses it.
+/// Removes the first line of `text`; returns it without blanks at its ends.
 std::string_view next_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
@@ -116,7 +116,7 @@ std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
     return samples;
 }
 
-/// The samples of a polyline within the tolerance (Douglas and Peucker).
+/// Simplifies samples to a polyline within the tolerance (Douglas and Peucker).
 std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     const auto [low, high] =
         std::minmax_element(samples.begin(), samples.end(),
@@ -153,7 +153,7 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     return left;
 }
 
-/// With six digits after the point, as the files have them.
+/// `value` with six digits after the point, as in curve files.
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     std::array<char, 32> buffer{};
@@ -188,7 +188,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             if (const auto curve = beside(function->substr(0, function->find_first_of(" \t")))) {
                 read_curves(*curve, view.curves);
             }
-            view.curves.resize(before + 1); // a missing file keeps the numbers of those behind it
+            view.curves.resize(before + 1); // a missing file counts: later curves keep their number
         }
     }
     return view;

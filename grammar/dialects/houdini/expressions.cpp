@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// Functions that .lsys has under another or the same name.
+/// A function of Houdini and its name in .lsys.
 struct Function {
     std::string_view name;
     std::string_view in_lsys;
