@@ -81,20 +81,20 @@ CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, dou
     const auto knot = [&](std::size_t i) {
         return i <= degree ? 0.0 : static_cast<double>(std::min(i - degree, spans));
     };
-    std::array<CurvePoint, 4> of{};
+    std::array<CurvePoint, 4> control{};
     for (std::size_t i = 0; i <= degree; ++i) {
-        of[i] = points[span + i];
+        control[i] = points[span + i];
     }
     for (std::size_t level = 1; level <= degree; ++level) {
         for (std::size_t i = degree; i >= level; --i) {
             const double begin = knot(span + i);
             const double end = knot(span + i + degree - level + 1);
             const double part = end > begin ? (t - begin) / (end - begin) : 0.0;
-            of[i].x = of[i - 1].x * (1.0 - part) + of[i].x * part;
-            of[i].y = of[i - 1].y * (1.0 - part) + of[i].y * part;
+            control[i].x = control[i - 1].x * (1.0 - part) + control[i].x * part;
+            control[i].y = control[i - 1].y * (1.0 - part) + control[i].y * part;
         }
     }
-    return of[degree];
+    return control[degree];
 }
 
 std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
@@ -144,13 +144,13 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
             spans.emplace_back(worst, to);
         }
     }
-    std::vector<CurvePoint> left;
+    std::vector<CurvePoint> kept;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (wanted[i]) {
-            left.push_back(samples[i]);
+            kept.push_back(samples[i]);
         }
     }
-    return left;
+    return kept;
 }
 
 /// `value` with six digits after the point, as in curve files.

@@ -274,11 +274,11 @@ void CpfgWriter::write_draws(const std::vector<std::string>& names, int count, S
 
 void CpfgWriter::write_production(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
-    const Binds& binds = bindings_[index];
+    const BoundDraws& bound = bindings_[index];
     if (!check(production)) {
         return;
     }
-    if (binds.binding == Binding::Group) {
+    if (bound.binding == Binding::Group) {
         if (groups_.count(index) != 0) {
             write_group(index);
         }
@@ -286,7 +286,7 @@ void CpfgWriter::write_production(std::size_t index) {
     }
     const std::vector<std::string> names = formals_of(production);
     write_head(production, label_of(production.stage, index));
-    const bool own = binds.binding == Binding::Own;
+    const bool own = bound.binding == Binding::Own;
     expressions_.begin({names.begin(), names.end()}, production.stage,
                        own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
     expressions_.run(production.before);

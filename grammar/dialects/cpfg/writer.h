@@ -30,7 +30,7 @@ private:
         Own,   // the production matches, then its random numbers are drawn
         Group, // random numbers are drawn, then one of the productions of the module is chosen
     };
-    struct Binds {
+    struct BoundDraws {
         Binding binding = Binding::None;
         int first_draw = 0; // in a group: index of the first number of this production
         int draws = 0;      // count of the numbers of the module
@@ -85,7 +85,7 @@ private:
     SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
-    std::vector<Binds> bindings_;                            // of each production
+    std::vector<BoundDraws> bindings_;                       // of each production
     std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
     std::set<Stage> bound_;                                  // stages with bindings
     std::set<std::string> used_;                             // names of all modules
