@@ -65,7 +65,7 @@ public:
     [[nodiscard]] const CpfgNeeds& needs() const { return needs_; }
     /// Name of the parameter that holds bound random number `index`.
     [[nodiscard]] std::string draw_name(int index) const;
-    /// Notes that a decision depends on a random number, which must be bound; reports an error where
+    /// Notes that a decision depends on a random number, which must be bound; reports an error if
     /// random numbers are drawn inline. Returns a placeholder.
     [[nodiscard]] CpfgTerm chosen_by_chance(SourceSpan span, const std::string& message);
 

@@ -1,5 +1,5 @@
-// The state of one parse of a cpfg file, shared by scanner, parser and writer. Nodes lie in vectors,
-// children before parents.
+// The state of one parse of a cpfg file, shared by scanner, parser and writer. Nodes lie in
+// vectors, children before parents.
 #pragma once
 
 #include "grammar/ast/translation.h"
