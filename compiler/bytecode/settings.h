@@ -19,8 +19,8 @@ LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
-/// ends the run, or it stays as it is.
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: the run
+/// ends with an error, or the module stays unchanged.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// Weight that bends a joint: of all that hangs on it, or of its own segment only.
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
@@ -43,14 +43,14 @@ struct EnumCount<TurtleProfile> {
 /// row.
 struct TurtleTraits {
     bool leaf_moves = true;             // a leaf moves the turtle by its length
-    bool object_moves = true;           // so do all other objects
+    bool object_moves = true;           // other objects move the turtle by their length
     bool object_has_step_scale = false; // size of an object without a parameter: step_scale, not 1
     bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
     bool width_is_relative = false;     // the width is radius / length of a segment
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
-    std::uint16_t first_colour = 0;      // index, where a word begins
+    std::uint16_t first_colour = 0;      // index of the colour at the begin of a word
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };
