@@ -11,9 +11,9 @@ namespace lsys {
 
 namespace {
 
-/// Maximum stack for operands in order from left to right. Beyond it the deeper operand is computed
-/// first (Sethi and Ullman 1970), so that the stack grows with the logarithm of the size of the
-/// expression.
+/// Maximum stack depth of operands computed from left to right. In deeper expressions the deeper
+/// operand is computed first (Sethi and Ullman 1970), so that the depth grows with the logarithm of
+/// the size of the expression.
 constexpr std::uint8_t kNaturalStack = 64;
 static_assert(kNaturalStack + 32 < kMaxStack);
 
