@@ -77,7 +77,7 @@ public:
                 const Surroundings& surroundings)
         : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
 
-    /// Adds the cuts of a condition; false if it has another form.
+    /// Adds the cuts of a condition; false if the condition has no grid.
     bool add(const ConditionView& condition);
     [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
 

@@ -50,8 +50,8 @@ struct ConditionGrid {
     [[nodiscard]] std::size_t sample_of(std::uint64_t point, std::size_t axis) const;
 };
 
-/// The grid of conditions over the unknown ones of `parameters`. Returns nothing if a condition has
-/// another form or the grid more than `max_points` points.
+/// The grid of conditions over the unknown values of `parameters`. Returns nothing if a condition
+/// has no grid, or the grid has more than `max_points` points.
 [[nodiscard]] std::optional<ConditionGrid>
 make_condition_grid(std::span<const std::uint32_t> instructions,
                     std::span<const ConditionView> conditions,

@@ -50,7 +50,8 @@ Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_mod
     }
 }
 
-/// Where modules have several outcomes, bounds of whole words are sharper than sums of bounds.
+/// Narrows the bounds of a listing: where modules have several outcomes, bounds of whole words are
+/// sharper than sums of bounds.
 void sharpen(Listing& listing, ModuleClasses& classes) {
     bool exact = true;
     for (std::size_t g = 0; g < listing.low.size(); ++g) {

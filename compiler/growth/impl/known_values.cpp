@@ -47,7 +47,7 @@ struct Known : UnknownDomain<KnownValue> {
         return logical && decides ? known(arithmetic::truth(opcode == Opcode::Or)) : KnownValue{};
     }
     bool take(KnownValue /*x*/, const std::uint32_t* /*at*/) const {
-        --work; // computes nothing
+        --work; // Emit and Test compute nothing
         return false;
     }
 };
