@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// The fraction of a half turn that an angle is if it is meant in radians, with the precision in
-/// which such angles are usually written.
+/// The degrees of an angle that looks like radians: a usual fraction of a turn, written with about
+/// four decimals.
 std::optional<int> radians_degrees(float value) {
     constexpr double kPi = 3.14159265358979323846;
     constexpr std::array<int, 11> kDegrees{360, 270, 180, 150, 135, 120, 90, 60, 45, 36, 30};
