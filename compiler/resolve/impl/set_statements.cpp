@@ -171,7 +171,7 @@ SetResolver::number_of(const SetNode& node, std::uint32_t index, ExpressionResol
 void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressions) {
     const std::string_view key = resolution_.text(node.key);
     if (first_.at(scope_of(node)) != node.key_span) {
-        return; // a second one
+        return; // a duplicate
     }
     expressions.begin_statement();
     Settings& settings = resolution_.program.settings;

@@ -15,10 +15,10 @@ namespace lsys {
 
 class SetResolver {
 public:
-    /// Whose statements `resolution` has.
+    /// Origin of the statements of `resolution`.
     enum class Origin : std::uint8_t {
         Grammar,
-        Options, // each replaces the values that the grammar gave; `names`: those of its root file
+        Options, // they replace values of the grammar, `names` the one of the root file
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 
