@@ -4,7 +4,7 @@
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_ends.h"
-#include "grammar/lsys/parse_named.h"
+#include "grammar/lsys/parse_with_names.h"
 
 #include <algorithm>
 #include <utility>
@@ -66,7 +66,7 @@ void ParseSession::offer_doubtful_fixes() {
 
 void ParseSession::end_statement(SourceSpan span, bool whole) {
     const bool is_kept = builder.finish_statement(span, whole);
-    if (is_kept && scan.semicolon_supplied) {
+    if (is_kept && scan.semicolon_inserted) {
         lsys_grammar::report_missing_semicolon(*this);
     }
     offer_doubtful_fixes();
@@ -93,10 +93,10 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
 }
 
 Ast parse_lsys(FileId root, const ParseContext& context) {
-    return parse_lsys_named(root, {}, context);
+    return parse_lsys_with_names(root, {}, context);
 }
 
-Ast parse_lsys_named(FileId root, std::string_view names, const ParseContext& context) {
+Ast parse_lsys_with_names(FileId root, std::string_view names, const ParseContext& context) {
     Ast ast;
     ast.files.push_back({root, {}});
     IncludeChain includes(context, root);

@@ -51,7 +51,7 @@
     do {                                                                                           \
         if (scan.value_before) {                                                                   \
             yyless(0);                                                                             \
-            return supply_before_value(session);                                                   \
+            return insert_before_value(session);                                                   \
         }                                                                                          \
     } while (false)
 %}
@@ -347,7 +347,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           case StrayHandling::InsertColon:
                               SHORTEN(0);
                               scan.enter(Part::Condition);
-                              return Token(Parser::token::TOK_COLON, session.supplied());
+                              return Token(Parser::token::TOK_COLON, session.insertion_place());
                           case StrayHandling::Discard:
                               return discard_statement(session);
                           }

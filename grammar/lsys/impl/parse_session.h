@@ -43,7 +43,7 @@ public:
     // Set by the parser too, so no token may depend on them: scans without a parser yield the same
     // tokens.
     bool failed = false;         // the statement has a syntax error and gets no further reports
-    bool token_supplied = false; // the last token was inserted
+    bool token_inserted = false; // the last token was inserted
 
     /// The current match.
     [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
@@ -57,7 +57,7 @@ public:
         return match();
     }
     /// The span of an inserted token, after the last token.
-    [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
+    [[nodiscard]] SourceSpan insertion_place() const { return scanned.after(scan.last_end); }
 
     /// Whether syntax errors are reported: not after the first one of a statement.
     [[nodiscard]] bool wants_reports() const { return !silent && !failed; }

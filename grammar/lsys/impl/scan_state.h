@@ -74,7 +74,7 @@ struct ScanState {
     bool statement_open = false;     // between `#word` and `;`
     bool part_empty = true;          // the part has no token yet
     bool skipping = false;           // to the `;` of the statement
-    bool semicolon_supplied = false;
+    bool semicolon_inserted = false;
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;

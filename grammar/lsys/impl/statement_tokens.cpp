@@ -54,7 +54,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.colons.reset();
     scan.skipping = false;
     session.failed = false;
-    scan.semicolon_supplied = false;
+    scan.semicolon_inserted = false;
     scan.open.clear();
     scan.open_braces = 0;
     scan.chain = 0;
@@ -321,7 +321,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
     if (!wants_equals && !opens_with_colon(scan)) {
         return std::nullopt;
     }
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     const std::string sign = wants_equals ? "=" : ":";
     const auto code = wants_equals ? DiagnosticCode::SyntaxError : DiagnosticCode::MissingColon;
     if (session.wants(code)) {
@@ -334,10 +334,10 @@ std::optional<Token> missing_opening(ParseSession& session) {
     scan.end = scan.begin; // reads the match again
     if (wants_equals) {
         scan.enter(Part::Value);
-        return Token(Parser::token::TOK_ASSIGN, place).as_supplied();
+        return Token(Parser::token::TOK_ASSIGN, place).as_inserted();
     }
     after_opening_colon(session);
-    return Token(Parser::token::TOK_COLON, place).as_supplied();
+    return Token(Parser::token::TOK_COLON, place).as_inserted();
 }
 
 bool is_needless_sign(ParseSession& session) {
@@ -449,7 +449,7 @@ void report_unclosed(ParseSession& session) {
         closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
     }
     if (closing.size() == scan.open.size()) {
-        add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing, true);
+        add_fix(diagnostic, "add `" + closing + "`", session.insertion_place(), closing, true);
     }
 }
 
@@ -474,7 +474,7 @@ void report_missing_parts(ParseSession& session) {
     if (!session.wants(DiagnosticCode::MissingColon)) {
         return;
     }
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     Diagnostics& diagnostics = session.context.diagnostics;
     if (scan.part == Part::Head) {
         Diagnostic& diagnostic =
@@ -529,15 +529,15 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
 Token insert_token(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty()) {
-        const SourceSpan place = session.supplied();
+        const SourceSpan place = session.insertion_place();
         switch (scan.pop()) {
         case OpenBracket::Kind::Module:
-            return Token(Parser::token::TOK_CLOSE, place).as_supplied();
+            return Token(Parser::token::TOK_CLOSE, place).as_inserted();
         case OpenBracket::Kind::Brace:
-            return Token(Parser::token::TOK_RBRACE, place).as_supplied();
+            return Token(Parser::token::TOK_RBRACE, place).as_inserted();
         case OpenBracket::Kind::Call:
         case OpenBracket::Kind::Group:
-            return Token(Parser::token::TOK_RPAREN, place).as_supplied();
+            return Token(Parser::token::TOK_RPAREN, place).as_inserted();
         }
     }
     if (scan.inserting == Insertion::Colon) {
@@ -549,14 +549,14 @@ Token insert_token(ParseSession& session) {
     }
     if (scan.part == Part::Condition) {
         scan.enter(Part::Successor);
-        return Token(Parser::token::TOK_COLON, session.supplied()).as_supplied();
+        return Token(Parser::token::TOK_COLON, session.insertion_place()).as_inserted();
     }
     if (scan.part == Part::Head) {
         scan.enter(Part::Successor); // which is empty
-        return Token(Parser::token::TOK_YYerror, session.supplied()).as_supplied();
+        return Token(Parser::token::TOK_YYerror, session.insertion_place()).as_inserted();
     }
     if (scan.statement_open) {
-        const SourceSpan place = session.supplied();
+        const SourceSpan place = session.insertion_place();
         scan.statement_open = false;
         scan.skipping = false;
         scan.ended_part = std::exchange(scan.part, Part::Between);
@@ -568,10 +568,10 @@ Token insert_token(ParseSession& session) {
         if (scan.inserting == Insertion::NextStatement) {
             scan.inserting = Insertion::None;
         }
-        scan.semicolon_supplied = true;
-        return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();
+        scan.semicolon_inserted = true;
+        return Token(Parser::token::TOK_SEMICOLON, place).as_inserted();
     }
-    return Token(Parser::token::TOK_END, session.supplied()).as_supplied();
+    return Token(Parser::token::TOK_END, session.insertion_place()).as_inserted();
 }
 
 Token discard_statement(ParseSession& session) {

@@ -12,6 +12,6 @@ namespace lsys {
 /// parse_lsys() with `names`, which is `words`, `letters` or `characters`, as the form of module
 /// names of `root`, but not of its included files. Another word leaves the form to the file.
 [[nodiscard]] Ast
-parse_lsys_named(FileId root, std::string_view names, const ParseContext& context);
+parse_lsys_with_names(FileId root, std::string_view names, const ParseContext& context);
 
 } // namespace lsys
