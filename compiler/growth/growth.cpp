@@ -89,7 +89,7 @@ constexpr Count kNoLimit{0, true, 1e300};
 } // namespace
 
 bool is_growth_known(const Bytecode& bytecode) {
-    return !bytecode.has(Stage::Decompose) && !bytecode.cuts();
+    return !bytecode.has(Stage::Decompose) && !bytecode.has_cuts();
 }
 
 GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations) {

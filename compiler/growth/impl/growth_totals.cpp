@@ -66,7 +66,7 @@ public:
         if (bytecode.settings.rewriting == RewritingMode::Sequential) {
             by_rule_.resize(bytecode.rewriting_rules());
             std::vector<std::uint32_t> rule_of(bytecode.symbols.size(), kNone);
-            for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
+            for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
                 const BytecodeProduction& production = bytecode.productions[p];
                 rule_of[static_cast<std::size_t>(
                     bytecode.patterns[production.predecessor.first].symbol)] = production.rule;

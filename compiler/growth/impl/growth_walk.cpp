@@ -79,7 +79,7 @@ void GrowthWalk::list_rules() {
     const Bytecode& bytecode = classes_->bytecode();
     rules_.resize(bytecode.rewriting_rules());
     std::vector<std::map<ClassId, std::uint32_t>> max_counts; // of each sequence
-    for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
+    for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
         Rule& rule = rules_[production.rule];
         if (production.predecessor.count == 1) {
