@@ -74,8 +74,8 @@ class GridBuilder : public UnknownDomain<Node> {
 public:
     GridBuilder(std::span<const std::uint32_t> instructions,
                 std::span<const KnownValue> parameters,
-                const Surroundings& surroundings)
-        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
+                const ExpressionInputs& inputs)
+        : instructions_(instructions), parameters_(parameters), inputs_(inputs) {}
 
     /// Adds the cuts of a condition; false if the condition has no grid.
     bool add(const ConditionView& condition);
@@ -83,8 +83,8 @@ public:
 
     static Node literal(float value) { return constant(value); }
     [[nodiscard]] Node formal(std::uint32_t index) const;
-    [[nodiscard]] Node step() const { return count(surroundings_.step); }
-    [[nodiscard]] Node steps() const { return count(surroundings_.steps); }
+    [[nodiscard]] Node step() const { return count(inputs_.step); }
+    [[nodiscard]] Node steps() const { return count(inputs_.steps); }
     Node unary(Opcode opcode, const Node& x);
     Node binary(Opcode opcode, const Node& x, const Node& y);
     bool take(Node x, const std::uint32_t* /*at*/) {
@@ -102,7 +102,7 @@ private:
 
     std::span<const std::uint32_t> instructions_;
     std::span<const KnownValue> parameters_;
-    const Surroundings& surroundings_;
+    const ExpressionInputs& inputs_;
     std::uint32_t first_formal_ = 0; // of the condition
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
@@ -365,9 +365,9 @@ void ConditionGrid::place(std::uint64_t point, std::span<KnownValue> parameters)
 std::optional<ConditionGrid> make_condition_grid(std::span<const std::uint32_t> instructions,
                                                  std::span<const ConditionView> conditions,
                                                  std::span<const KnownValue> parameters,
-                                                 const Surroundings& surroundings,
+                                                 const ExpressionInputs& inputs,
                                                  std::uint64_t max_points) {
-    GridBuilder builder(instructions, parameters, surroundings);
+    GridBuilder builder(instructions, parameters, inputs);
     for (const ConditionView& condition : conditions) {
         if (!builder.add(condition)) {
             return std::nullopt;

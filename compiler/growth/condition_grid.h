@@ -56,7 +56,7 @@ struct ConditionGrid {
 make_condition_grid(std::span<const std::uint32_t> instructions,
                     std::span<const ConditionView> conditions,
                     std::span<const KnownValue> parameters,
-                    const Surroundings& surroundings,
+                    const ExpressionInputs& inputs,
                     std::uint64_t max_points);
 
 /// The index of a finite binary32 in ascending order; 0 and -0 have index 0.

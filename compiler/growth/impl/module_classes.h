@@ -118,9 +118,9 @@ private:
     ClassId unknown_class(Code code);
     void count_word(const WordTemplate& word, CountedWord& out);
     /// Appends the terms of a word to terms_, merged and in order of classes.
-    TableRange instantiate(const CountedWord& word, const Surroundings& surroundings);
+    TableRange instantiate(const CountedWord& word, const ExpressionInputs& inputs);
 
-    [[nodiscard]] Surroundings surroundings(std::span<const KnownValue> formals) const;
+    [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
     /// The productions that may be taken. Conditions are evaluated at `point`, or at `sure` for
     /// productions with contexts.
