@@ -86,7 +86,7 @@ struct Settings {
 
 /// Whether the derived word depends on a setting.
 enum class SettingUse : std::uint8_t { Word, Beside };
-/// Settings that are one line of the dump of a program; None: not shown there by the table.
+/// Line of the program dump that shows a setting; None: the dump does not show it by the table.
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {

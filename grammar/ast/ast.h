@@ -190,7 +190,7 @@ struct ObjectNode {
 struct IncludeNode {
     SourceSpan path_span;  // with the quotes
     std::string path;      // as written
-    FileId file = kNoFile; // once read
+    FileId file = kNoFile; // kNoFile until it is read
 };
 
 /// A word or number after the key of a #set.
@@ -256,8 +256,8 @@ struct WrittenName {
     friend auto operator<=>(const WrittenName&, const WrittenName&) = default;
 };
 
-/// The span, with back quotes, of the name of the module at `begin` of a file: an entry of
-/// `written_names` (ascending), or as long as in the text of the file.
+/// The span of the name, with its back quotes, of the module at `begin` of a file: an entry of
+/// `written_names` (ascending), else the length of `name` and its quotes in the text of the file.
 [[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
                                           FileId file,
                                           std::uint32_t begin,

@@ -67,8 +67,8 @@ public:
     [[nodiscard]] ModuleList modules(ModuleList list, TextRange run);
     /// Appends one module with any name, for example one in back quotes.
     [[nodiscard]] ModuleList quoted_module(ModuleList list, NameId name, SourceSpan span);
-    /// Appends each character of a text in back quotes as a module. Between two adjacent texts
-    /// stands a back quote as a module.
+    /// Appends each character of a text in back quotes as a module, and a back quote as a module
+    /// between two adjacent texts.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last `count` arguments to the last module of `list`; `parentheses` is the span
     /// from `(` to `)`. Reports a second pair of parentheses, and a pair without a module.

@@ -2,7 +2,7 @@
 // A class is a code and the known values of its relevant parameters (production_index.h). A(12),
 // whose condition reads its parameter, is another class than A(11); F(2) and F(2.2) are one class
 // if no condition reads the parameter. An unknown value stands for every value. Beyond
-// kMaxValuedClasses values are dropped from new classes: results stay true but are less sharp.
+// kMaxValuedClasses values are dropped from new classes: bounds stay valid but become wider.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

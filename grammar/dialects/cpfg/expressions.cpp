@@ -213,7 +213,7 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
             return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
         }
     }
-    if (node.text == "atan2" && wants(2)) { // x first
+    if (node.text == "atan2" && wants(2)) { // its first argument is x
         return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
     }
     if (node.text == "trunc" && wants(1)) {

@@ -35,7 +35,7 @@ enum class CpfgDraws : std::uint8_t {
     Elsewhere, // by another statement; terms made here do not depend on them
 };
 
-/// Needs of a production beyond one expression per value.
+/// Random numbers that a production needs.
 struct CpfgNeeds {
     bool bound_draws = false; // a random number is used twice or decides a choice
     int draws = 0;            // random numbers, where they are bound

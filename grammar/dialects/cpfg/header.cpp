@@ -95,7 +95,7 @@ void CpfgWriter::check_module(CpfgModule& module) {
     module.has_arguments = !module.arguments.empty();
 }
 
-/// The symbol after a `~`.
+/// Records the symbol after a `~` as a surface.
 void CpfgWriter::add_surface(const CpfgModule& module) {
     surfaces_.insert(module.name);
     expressions_.warn_left_out(module.span, "surface " + module.name,

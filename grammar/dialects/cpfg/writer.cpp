@@ -464,7 +464,7 @@ void CpfgWriter::write_weighted_condition(const CpfgProduction& production, std:
             other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
         part += condition.empty() ? "" : " * (" + condition + " != 0)";
         all += (all.empty() ? "" : " + ") + part;
-        if (all.size() > kMaxCpfgTerm) { // it stands in the conditions of all of them
+        if (all.size() > kMaxCpfgTerm) { // the sum is part of the condition of each production
             session_.report_unsupported(
                 session_.productions[groups_.at(index).front()].span,
                 "so many productions for one module that the sum of their weights is "

@@ -8,8 +8,8 @@ namespace lsys {
 
 namespace {
 
-/// Maximum width of an aligned cell above the median, and maximum padding of an aligned cell. Other
-/// cells are not aligned.
+/// Maximum excess of an aligned cell over the median width, and maximum padding of an aligned cell.
+/// Other cells are not aligned.
 constexpr std::uint32_t kWidestGap = 24;
 /// A longer head leaves too little of the line for modules.
 constexpr std::uint32_t kLongHead = 50;

@@ -34,7 +34,7 @@ namespace lsys_grammar {
 /// reported.
 int normalize_character(ParseSession& session, char* character, int length);
 /// Records the confusables of the current name in back quotes. In a translation they are errors,
-/// because the .lsys text would be read as a different one.
+/// because .lsys would read the name as a different one.
 void normalize_quoted(ParseSession& session, std::string_view text);
 
 } // namespace lsys_grammar
