@@ -13,7 +13,8 @@ namespace lsys {
 
 /// Rewriting mode of a generation (docs/language.md section 5).
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
-/// Whether each module draws its production, or all modules of a rule share one draw a generation.
+/// Whether each module draws its production, or all modules of a rule share one draw per
+/// generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 /// Source of the draws of `choice generation`: docs/language.md section 6, or rand() of glibc.
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);

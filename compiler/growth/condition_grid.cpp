@@ -28,8 +28,8 @@ struct MonotoneStep {
 struct Node {
     enum class Kind : std::uint8_t {
         Constant,
-        Chain,  // a monotone function of one parameter
-        Pieces, // constant in every cell
+        Chain,        // a monotone function of one parameter
+        CellConstant, // constant in every cell
         Other,
     };
     Kind kind = Kind::Other;
@@ -52,9 +52,9 @@ Node constant(float value) {
 }
 
 /// A value that is constant in every cell.
-Node pieces() {
+Node cell_constant() {
     Node node;
-    node.kind = Node::Kind::Pieces;
+    node.kind = Node::Kind::CellConstant;
     return node;
 }
 
@@ -163,7 +163,7 @@ void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
 bool GridBuilder::as_truth(Node& node) {
     if (node.kind == Node::Kind::Chain) {
         cut(node, Opcode::NotEqual, 0.0F);
-        node.kind = Node::Kind::Pieces;
+        node.kind = Node::Kind::CellConstant;
     }
     return node.kind != Node::Kind::Other;
 }
@@ -190,7 +190,7 @@ Node GridBuilder::unary(Opcode opcode, const Node& x) {
 Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
     if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Constant) {
         cut(x, opcode, y.value);
-        return pieces();
+        return cell_constant();
     }
     if (x.kind == Node::Kind::Constant && y.kind == Node::Kind::Chain) {
         const Opcode mirrored = opcode == Opcode::Less           ? Opcode::Greater
@@ -199,7 +199,7 @@ Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
                                 : opcode == Opcode::GreaterEqual ? Opcode::LessEqual
                                                                  : opcode;
         cut(y, mirrored, x.value);
-        return pieces();
+        return cell_constant();
     }
     if (x.is_parameter() && y.is_parameter()) {
         if (x.parameter != y.parameter) {
@@ -207,7 +207,7 @@ Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
             cuts_[x.parameter];
             cuts_[y.parameter];
         }
-        return pieces();
+        return cell_constant();
     }
     return {};
 }
@@ -220,13 +220,13 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     if (opcode == Opcode::And || opcode == Opcode::Or) {
         Node left = x;
         Node right = y;
-        return as_truth(left) && as_truth(right) ? pieces() : Node{};
+        return as_truth(left) && as_truth(right) ? cell_constant() : Node{};
     }
-    const auto in_pieces = [](const Node& node) {
-        return node.kind == Kind::Constant || node.kind == Kind::Pieces;
+    const auto is_cell_constant = [](const Node& node) {
+        return node.kind == Kind::Constant || node.kind == Kind::CellConstant;
     };
-    if (in_pieces(x) && in_pieces(y)) {
-        return pieces();
+    if (is_cell_constant(x) && is_cell_constant(y)) {
+        return cell_constant();
     }
     if (is_comparison(opcode)) {
         return compare(opcode, x, y);

@@ -84,8 +84,8 @@ public:
     [[nodiscard]] std::uint64_t terms() const { return terms_; }
     [[nodiscard]] const std::vector<Bounds>& values() const { return values_; }
 
-    /// Advances the sizes from g generations to g + 1.
-    void step_back() {
+    /// Advances from the sizes after g generations to those after g + 1.
+    void advance() {
         if (by_rule_.empty()) {
             rewrite(all_);
         }
@@ -153,7 +153,7 @@ SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations) {
         if (g == generations) {
             return bounds;
         }
-        table.step_back();
+        table.advance();
     }
 }
 

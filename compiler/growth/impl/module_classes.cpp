@@ -224,12 +224,12 @@ KnownValue ModuleClasses::condition(std::uint32_t production,
 
 ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                             std::span<const KnownValue> point,
-                                            std::span<const KnownValue> sure) {
+                                            std::span<const KnownValue> parameters) {
     enum class Holds : std::uint8_t { No, Maybe, Yes };
     const auto holds = [&](std::uint32_t p) {
         const BytecodeProduction& production = bytecode_->productions[p];
         const bool context = production.has_left || production.has_right;
-        const KnownValue value = condition(p, context ? sure : point);
+        const KnownValue value = condition(p, context ? parameters : point);
         return !value.known          ? Holds::Maybe
                : value.value == 0.0F ? Holds::No
                : context             ? Holds::Maybe

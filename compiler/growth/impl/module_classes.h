@@ -122,10 +122,11 @@ private:
 
     [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
-    /// The productions that may be taken. Conditions are evaluated at `point`, or at `sure` for
-    /// productions with contexts.
-    Matches
-    match(SymbolId symbol, std::span<const KnownValue> point, std::span<const KnownValue> sure);
+    /// The productions that may be taken. Conditions are evaluated at `point`; those of productions
+    /// with contexts with the known values of `parameters`.
+    Matches match(SymbolId symbol,
+                  std::span<const KnownValue> point,
+                  std::span<const KnownValue> parameters);
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
     ClassExpansion
     expand_matches(const Matches& matches, ClassId self, std::span<const KnownValue> parameters);
