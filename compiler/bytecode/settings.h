@@ -51,7 +51,7 @@ struct TurtleTraits {
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
-    std::uint16_t first_colour = 0;      // index of the colour at the begin of a word
+    std::uint16_t first_colour = 0;      // index, where a word begins
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };

@@ -10,21 +10,21 @@
 
 namespace lsys {
 
-void DeclarationResolver::report_bad(SourceSpan span, std::string message) {
+void DeclarationResolver::bad(SourceSpan span, std::string message) {
     resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
 }
 
 /// Checks that a statement names one module; with `names letters` it may name several.
 bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
     if (list.count == 0) {
-        report_bad(statement, fmt::format("`{}` names no module", keyword));
+        bad(statement, fmt::format("`{}` names no module", keyword));
         return false;
     }
     const auto& letters = resolution_.letter_files;
     const bool is_letters =
         std::find(letters.begin(), letters.end(), list.span.file) != letters.end();
     if (list.count > 1 && !is_letters) {
-        report_bad(list.span, fmt::format("`{}` takes one module, not {}", keyword, list.count));
+        bad(list.span, fmt::format("`{}` takes one module, not {}", keyword, list.count));
         return false;
     }
     return true;
@@ -58,7 +58,7 @@ void DeclarationResolver::object(const ObjectNode& node) {
             continue;
         }
         if (is_structural(resolution_.program.settings.turtle, name)) {
-            report_bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
+            bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
         } else if (binding) {
             bind(module, *binding);
         }
@@ -150,9 +150,9 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
     const SymbolKind kind =
         kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
     if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
-        report_bad(module.name_span,
-                   considers ? "brackets count in any case: contexts follow the branches"
-                             : "brackets cannot be ignored: contexts follow the branches");
+        bad(module.name_span, considers
+                                  ? "brackets count in any case: contexts follow the branches"
+                                  : "brackets cannot be ignored: contexts follow the branches");
         return;
     }
     const auto add = [&](NameId name, SourceSpan span) {

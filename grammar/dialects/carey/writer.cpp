@@ -54,8 +54,8 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
     return true;
 }
 
-/// Reports a module of which a left side matches only a part: the forest generator replaces text,
-/// so that a left side also matches a symbol without its parentheses, and text within parentheses.
+/// The forest generator replaces text: a left side also matches the symbol before a parenthesis,
+/// which then stands behind the replacement, and within parentheses.
 void CareyWriter::check_matches(const LetterModule& module, const std::string& before) {
     const std::string_view arguments = context_.sources.text(module.arguments);
     for (const std::string& left : left_sides_) {

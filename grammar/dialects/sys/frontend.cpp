@@ -103,7 +103,7 @@ SysFile read_file(FileId root, const ParseContext& context) {
     return file;
 }
 
-/// Writes the modules of a word of the file.
+/// The modules of a word of the file.
 void write_modules(SourceSpan text, const ParseContext& context, Translation& translation) {
     read_letter_modules(text, context, [&](const LetterModule& module) {
         write_letter(module, context, translation);
