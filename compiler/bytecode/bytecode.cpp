@@ -68,7 +68,7 @@ const OpcodeInfo& info(Opcode opcode) {
     return kOpcodes[index];
 }
 
-TableRange Bytecode::of(Stage stage) const {
+TableRange Bytecode::productions_of(Stage stage) const {
     const auto before = [](const BytecodeProduction& p, Stage value) { return p.stage < value; };
     const auto after = [](Stage value, const BytecodeProduction& p) { return value < p.stage; };
     const auto first = std::lower_bound(productions.begin(), productions.end(), stage, before);
@@ -78,11 +78,11 @@ TableRange Bytecode::of(Stage stage) const {
 }
 
 std::uint32_t Bytecode::rewriting_rules() const {
-    const TableRange range = of(Stage::Rewrite);
+    const TableRange range = productions_of(Stage::Rewrite);
     return range.count == productions.size() ? rule_count : productions[range.count].rule;
 }
 
-bool Bytecode::cuts() const {
+bool Bytecode::has_cuts() const {
     return std::any_of(symbols.begin(), symbols.end(), [](const BytecodeSymbol& symbol) {
         return symbol.turtle == TurtleOperation::Cut;
     });

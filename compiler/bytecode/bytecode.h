@@ -198,12 +198,12 @@ struct Bytecode {
     bool uses_steps = false;               // some expression calls steps()
 
     /// The productions of a stage.
-    [[nodiscard]] TableRange of(Stage stage) const;
-    [[nodiscard]] bool has(Stage stage) const { return of(stage).count != 0; }
+    [[nodiscard]] TableRange productions_of(Stage stage) const;
+    [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
     /// Number of rules of Stage::Rewrite, which are the first ones.
     [[nodiscard]] std::uint32_t rewriting_rules() const;
     /// Whether a symbol cuts off its branch.
-    [[nodiscard]] bool cuts() const;
+    [[nodiscard]] bool has_cuts() const;
 
     [[nodiscard]] Code code_count() const {
         return static_cast<Code>(symbols.size() + folded.size());

@@ -89,7 +89,7 @@ interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack
         case Opcode::Steps:
             *top++ = domain.steps();
             break;
-        // The commonest have cases of their own, where an inlined binary() is one operation.
+        // Frequent operations have their own cases, so that an inlined binary() is one operation.
         case Opcode::Multiply:
             --top;
             top[-1] = domain.binary(Opcode::Multiply, top[-1], top[0]);

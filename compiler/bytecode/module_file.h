@@ -17,8 +17,8 @@ namespace lsys {
 //   2  Places of the modules in the text (template_places).
 //   3  Stages of productions, depths of #decompose and #interpret, treatment at the max depth.
 //   4  Source of random numbers, names of single characters; profiles l3d_program and
-//   lplus_program;
-//      operations TurnByPi, ParameterBegin, ParameterEnd and Text, in the middle of the others.
+//      lplus_program; operations TurnByPi, ParameterBegin, ParameterEnd and Text, in the middle of
+//      the others.
 //      Rewriting mode Leftmost, profiles Fractint and Sidefx and their operations, HalfTurnSnapped
 //      to DivideAngle, were added without a new version.
 //   5  The contents of version 4, with all of these; traits of the turtle.
@@ -63,8 +63,8 @@ static_assert(kFieldCount<Bytecode> == 20, LSYS_VERSION_MATTERS);
 [[nodiscard]] Result<Bytecode> read_module_file(std::string_view bytes);
 /// Whether the bytes begin with the magic of a .lsb file.
 [[nodiscard]] bool is_module_file(std::string_view bytes);
-/// Writes head, size and checksum for the contents that follow them, so that tests get past these
-/// checks.
+/// Writes head, size and checksum for the contents that follow them, so that contents changed by a
+/// test pass these checks.
 void seal_module_file(std::string& bytes);
 
 } // namespace lsys

@@ -13,14 +13,15 @@ namespace lsys {
 
 /// Rewriting mode of a generation (docs/language.md section 5).
 LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
-/// Whether each module draws its production, or all modules of a rule share one draw a generation.
+/// Whether each module draws its production, or all modules of a rule share one draw per
+/// generation.
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 /// Source of the draws of `choice generation`: docs/language.md section 6, or rand() of glibc.
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
 /// Whether unconditional groups must sum to 1.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
-/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: it
-/// ends the run, or it stays as it is.
+/// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: the run
+/// ends with an error, or the module stays unchanged.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// Weight that bends a joint: of all that hangs on it, or of its own segment only.
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
@@ -43,7 +44,7 @@ struct EnumCount<TurtleProfile> {
 /// row.
 struct TurtleTraits {
     bool leaf_moves = true;             // a leaf moves the turtle by its length
-    bool object_moves = true;           // so do all other objects
+    bool object_moves = true;           // other objects move the turtle by their length
     bool object_has_step_scale = false; // size of an object without a parameter: step_scale, not 1
     bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
     bool width_is_relative = false;     // the width is radius / length of a segment
@@ -86,7 +87,7 @@ struct Settings {
 
 /// Whether the derived word depends on a setting.
 enum class SettingUse : std::uint8_t { Word, Beside };
-/// Settings that are one line of the dump of a program; None: not shown there by the table.
+/// Line of the program dump that shows a setting; None: the dump does not show it by the table.
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {

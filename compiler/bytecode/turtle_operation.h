@@ -1,5 +1,5 @@
-// The operations of the turtle: turtle_operations.def as an enum and a table. Whoever treats
-// operations differently reads a column of the table: no list of operations stands elsewhere.
+// The operations of the turtle: turtle_operations.def as an enum and a table. Code that
+// distinguishes operations reads a column of the table; no other list of operations exists.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -24,7 +24,7 @@ struct EnumCount<TurtleOperation> {
 };
 inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 
-/// Addition of a module with the operation to the skeleton, if it can be drawn.
+/// Element that a module with the operation adds to the skeleton, if it can be drawn.
 enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
 
 /// Actions that the turtle's walk over a word does itself, without a call. Yaw, Pitch and Roll are
@@ -35,13 +35,13 @@ struct TurtleInfo {
     enum Trait : std::uint16_t {
         Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
         ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
-        SecondHeading = 4,     // moves along the second heading, which a turn of the first keeps
+        SecondHeading = 4,     // moves along the second heading, not turned with the first
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
         AddsCorners = 32,      // its ends are corners of a polygon without vertices
         PreparesDrawing = 64,  // has a purpose only beside modules that draw
-        OneIsDefault = 128,    // the program L3D takes a parameter of 1 for none
-        HasNoLength = 256,     // an object that the turtle does not pass
+        OneIsDefault = 128,    // the program L3D reads a parameter of 1 as no parameter
+        HasNoLength = 256,     // an object that does not move the turtle
     };
 
     std::string_view name; // in dumps
@@ -72,7 +72,7 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
 [[nodiscard]] constexpr bool draws(TurtleOperation operation) {
     return info(operation).drawn != Drawn::Nothing;
 }
-/// Whether it turns the turtle by an angle.
+/// Whether the operation turns the turtle by an angle.
 [[nodiscard]] constexpr bool turns(TurtleOperation operation) {
     const QuickAction quick = info(operation).quick;
     return quick == QuickAction::Yaw || quick == QuickAction::Pitch || quick == QuickAction::Roll;

@@ -28,8 +28,8 @@ struct MonotoneStep {
 struct Node {
     enum class Kind : std::uint8_t {
         Constant,
-        Chain,  // a monotone function of one parameter
-        Pieces, // constant in every cell
+        Chain,        // a monotone function of one parameter
+        CellConstant, // constant in every cell
         Other,
     };
     Kind kind = Kind::Other;
@@ -52,9 +52,9 @@ Node constant(float value) {
 }
 
 /// A value that is constant in every cell.
-Node pieces() {
+Node cell_constant() {
     Node node;
-    node.kind = Node::Kind::Pieces;
+    node.kind = Node::Kind::CellConstant;
     return node;
 }
 
@@ -74,17 +74,17 @@ class GridBuilder : public UnknownDomain<Node> {
 public:
     GridBuilder(std::span<const std::uint32_t> instructions,
                 std::span<const KnownValue> parameters,
-                const Surroundings& surroundings)
-        : instructions_(instructions), parameters_(parameters), surroundings_(surroundings) {}
+                const ExpressionInputs& inputs)
+        : instructions_(instructions), parameters_(parameters), inputs_(inputs) {}
 
-    /// Adds the cuts of a condition; false if it has another form.
+    /// Adds the cuts of a condition; false if the condition has no grid.
     bool add(const ConditionView& condition);
     [[nodiscard]] std::optional<ConditionGrid> finish(std::uint64_t max_points);
 
     static Node literal(float value) { return constant(value); }
     [[nodiscard]] Node formal(std::uint32_t index) const;
-    [[nodiscard]] Node step() const { return count(surroundings_.step); }
-    [[nodiscard]] Node steps() const { return count(surroundings_.steps); }
+    [[nodiscard]] Node step() const { return count(inputs_.step); }
+    [[nodiscard]] Node steps() const { return count(inputs_.steps); }
     Node unary(Opcode opcode, const Node& x);
     Node binary(Opcode opcode, const Node& x, const Node& y);
     bool take(Node x, const std::uint32_t* /*at*/) {
@@ -102,7 +102,7 @@ private:
 
     std::span<const std::uint32_t> instructions_;
     std::span<const KnownValue> parameters_;
-    const Surroundings& surroundings_;
+    const ExpressionInputs& inputs_;
     std::uint32_t first_formal_ = 0; // of the condition
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
@@ -163,7 +163,7 @@ void GridBuilder::cut(const Node& chain, Opcode opcode, float constant) {
 bool GridBuilder::as_truth(Node& node) {
     if (node.kind == Node::Kind::Chain) {
         cut(node, Opcode::NotEqual, 0.0F);
-        node.kind = Node::Kind::Pieces;
+        node.kind = Node::Kind::CellConstant;
     }
     return node.kind != Node::Kind::Other;
 }
@@ -190,7 +190,7 @@ Node GridBuilder::unary(Opcode opcode, const Node& x) {
 Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
     if (x.kind == Node::Kind::Chain && y.kind == Node::Kind::Constant) {
         cut(x, opcode, y.value);
-        return pieces();
+        return cell_constant();
     }
     if (x.kind == Node::Kind::Constant && y.kind == Node::Kind::Chain) {
         const Opcode mirrored = opcode == Opcode::Less           ? Opcode::Greater
@@ -199,7 +199,7 @@ Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
                                 : opcode == Opcode::GreaterEqual ? Opcode::LessEqual
                                                                  : opcode;
         cut(y, mirrored, x.value);
-        return pieces();
+        return cell_constant();
     }
     if (x.is_parameter() && y.is_parameter()) {
         if (x.parameter != y.parameter) {
@@ -207,7 +207,7 @@ Node GridBuilder::compare(Opcode opcode, const Node& x, const Node& y) {
             cuts_[x.parameter];
             cuts_[y.parameter];
         }
-        return pieces();
+        return cell_constant();
     }
     return {};
 }
@@ -220,13 +220,13 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     if (opcode == Opcode::And || opcode == Opcode::Or) {
         Node left = x;
         Node right = y;
-        return as_truth(left) && as_truth(right) ? pieces() : Node{};
+        return as_truth(left) && as_truth(right) ? cell_constant() : Node{};
     }
-    const auto in_pieces = [](const Node& node) {
-        return node.kind == Kind::Constant || node.kind == Kind::Pieces;
+    const auto is_cell_constant = [](const Node& node) {
+        return node.kind == Kind::Constant || node.kind == Kind::CellConstant;
     };
-    if (in_pieces(x) && in_pieces(y)) {
-        return pieces();
+    if (is_cell_constant(x) && is_cell_constant(y)) {
+        return cell_constant();
     }
     if (is_comparison(opcode)) {
         return compare(opcode, x, y);
@@ -365,9 +365,9 @@ void ConditionGrid::place(std::uint64_t point, std::span<KnownValue> parameters)
 std::optional<ConditionGrid> make_condition_grid(std::span<const std::uint32_t> instructions,
                                                  std::span<const ConditionView> conditions,
                                                  std::span<const KnownValue> parameters,
-                                                 const Surroundings& surroundings,
+                                                 const ExpressionInputs& inputs,
                                                  std::uint64_t max_points) {
-    GridBuilder builder(instructions, parameters, surroundings);
+    GridBuilder builder(instructions, parameters, inputs);
     for (const ConditionView& condition : conditions) {
         if (!builder.add(condition)) {
             return std::nullopt;

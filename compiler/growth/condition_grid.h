@@ -50,13 +50,13 @@ struct ConditionGrid {
     [[nodiscard]] std::size_t sample_of(std::uint64_t point, std::size_t axis) const;
 };
 
-/// The grid of conditions over the unknown ones of `parameters`. Returns nothing if a condition has
-/// another form or the grid more than `max_points` points.
+/// The grid of conditions over the unknown values of `parameters`. Returns nothing if a condition
+/// has no grid, or the grid has more than `max_points` points.
 [[nodiscard]] std::optional<ConditionGrid>
 make_condition_grid(std::span<const std::uint32_t> instructions,
                     std::span<const ConditionView> conditions,
                     std::span<const KnownValue> parameters,
-                    const Surroundings& surroundings,
+                    const ExpressionInputs& inputs,
                     std::uint64_t max_points);
 
 /// The index of a finite binary32 in ascending order; 0 and -0 have index 0.

@@ -50,8 +50,9 @@ Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_mod
     }
 }
 
-/// Where modules have several outcomes, bounds of whole words are sharper than sums of bounds.
-void sharpen(Listing& listing, ModuleClasses& classes) {
+/// Narrows the bounds of a listing: where modules have several outcomes, bounds of whole words are
+/// sharper than sums of bounds.
+void narrow_bounds(Listing& listing, ModuleClasses& classes) {
     bool exact = true;
     for (std::size_t g = 0; g < listing.low.size(); ++g) {
         exact = exact && same(listing.low[g], listing.high[g]);
@@ -88,7 +89,7 @@ constexpr Count kNoLimit{0, true, 1e300};
 } // namespace
 
 bool is_growth_known(const Bytecode& bytecode) {
-    return !bytecode.has(Stage::Decompose) && !bytecode.cuts();
+    return !bytecode.has(Stage::Decompose) && !bytecode.has_cuts();
 }
 
 GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations) {
@@ -99,7 +100,7 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);
     Listing listing = follow(walk, listed, kNoLimit);
-    sharpen(listing, classes);
+    narrow_bounds(listing, classes);
 
     GrowthPrediction prediction;
     prediction.unchanged_from = listing.unchanged_from;
@@ -141,7 +142,7 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);
     Listing listing = follow(walk, listed, {max_modules, false, 0.0});
-    sharpen(listing, classes);
+    narrow_bounds(listing, classes);
 
     std::optional<GrowthPowers> powers;
     if (walk.age() < generations && !listing.unchanged_from) {

@@ -5,7 +5,7 @@
 namespace lsys::analysis {
 
 ProductionIndex::ProductionIndex(const Bytecode& bytecode) : bytecode_(&bytecode) {
-    const TableRange rewriting = bytecode.of(Stage::Rewrite);
+    const TableRange rewriting = bytecode.productions_of(Stage::Rewrite);
     by_symbol_ = GroupedLists(bytecode.symbols.size(), [&](auto&& add) {
         for (std::uint32_t p = 0; p < rewriting.count; ++p) {
             const TableRange predecessor = bytecode.productions[p].predecessor;

@@ -49,7 +49,7 @@ private:
     const Bytecode* bytecode_;
     GroupedLists by_symbol_;
     GroupedLists by_group_;
-    std::vector<std::uint32_t> parameter_base_; // of a symbol in relevant_
+    std::vector<std::uint32_t> parameter_base_; // by symbol: its first parameter in relevant_
     std::vector<bool> relevant_;
     bool any_relevant_ = false;
     bool depends_on_age_ = false;

@@ -16,7 +16,7 @@ namespace lsys {
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> depends_on_vertical; // by id, of the drawing of the branch
+    std::vector<bool> depends_on_vertical; // by id: whether the drawing of the branch does
     std::size_t kind_count = 0;            // number of different valid branches
 };
 

@@ -1,5 +1,5 @@
 // Program to Bytecode: symbols and constant modules become codes, words become templates,
-// expressions become instructions. The order of the tables is the one that bytecode.h promises.
+// expressions become instructions. The tables have the order that bytecode.h describes.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

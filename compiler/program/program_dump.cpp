@@ -75,7 +75,7 @@ private:
         }
     }
 
-    /// Numbers, then modes.
+    /// Appends the settings of a group as one line: numbers, then modes.
     void setting_line(SettingGroup group) {
         std::vector<std::string> numbers;
         std::vector<std::string> modes;

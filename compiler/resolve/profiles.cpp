@@ -115,7 +115,7 @@ constexpr auto kLplusWidths = commands({length("G", Move),
                                         {"=", SetRelativeWidth},
                                         {"%", SetTaper},
                                         {"*", Leaf}});
-// The program takes pi for degrees.
+// The program L3D turns by pi degrees.
 constexpr auto kTurn = commands({{"|", TurnAround}});
 constexpr auto kBuggyTurn = commands({{"|", TurnByPi}});
 constexpr auto kL3d = joined(kL3dTurtle, kL3dTurns, kTurn);
@@ -133,8 +133,8 @@ constexpr auto kSys = joined(commands({{"F", TaperedForward},
                                        {"|", TurnAround}}),
                              kPolygons);
 
-// Fractint's turtle in the plane: `F G + - |` have a heading of whole angles, `D M \\ /` another
-// one.
+// Fractint's turtle in the plane: `F G + - |` use a heading of whole angles, `D M \\ /` a second
+// heading.
 constexpr auto kFractint = joined(commands({bare("F", Forward),
                                             bare("G", Move),
                                             {"D", SecondaryForward},
@@ -186,7 +186,7 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CUBE", Cube},
     {"DISK", Disk},
 }};
-/// Objects without a name are files.
+/// Whether #object has a name for the operation, if it places an object; mesh files need none.
 constexpr bool is_bound(TurtleOperation operation) {
     return info(operation).drawn != Drawn::Object || operation == MeshFile ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();

@@ -217,7 +217,7 @@ ResolveOutcome resolve(Ast ast,
         replacements->read_modes();
         resolution.letter_files = replacing->letter_files;
     }
-    // Tables by name have the length of Names, so all names are interned before.
+    // Tables indexed by NameId have the length of Names, so all names are interned first.
     for (const std::string_view function : function_names()) {
         static_cast<void>(names.intern(function));
     }
@@ -256,7 +256,7 @@ void resolve_settings(Ast& ast,
             statements.read_number(ast.sets[statement.index], expressions);
         }
     }
-    program.settings.traits = settings.traits; // the code has been resolved by them
+    program.settings.traits = settings.traits; // the code has been resolved with these traits
     settings = program.settings;
 }
 

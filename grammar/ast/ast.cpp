@@ -67,7 +67,7 @@ ModuleView ModuleCursor::view() const {
     const std::string_view text = names_->text(view.name);
     view.has_parentheses = node.has_call();
     view.name_span = module_name_span(*sources_, file_, node.begin, text, ast_->written_names);
-    view.is_whole = sources_->text(view.name_span) != text;
+    view.is_indivisible = sources_->text(view.name_span) != text;
     view.span = view.name_span;
     if (view.has_parentheses) {
         const CallNode& call = ast_->calls[call_];

@@ -97,8 +97,8 @@ public:
     /// Whether a `(` follows the name.
     [[nodiscard]] bool has_call() const { return (name_and_call_ & kCallBit) != 0; }
     void set_call() { name_and_call_ |= kCallBit; }
-    /// The id of the name; beyond all ids for a module with a `(`, so that one comparison finds the
-    /// modules without.
+    /// The id of the name; beyond all ids for a module with a `(`, so that one comparison finds
+    /// modules without parentheses.
     [[nodiscard]] std::uint32_t bare_name() const { return name_and_call_; }
 
     std::uint32_t begin = 0; // first byte of the name, or of its back quote
@@ -128,9 +128,9 @@ struct ModuleList {
 /// A module of a list, unpacked.
 struct ModuleView {
     NameId name = kNoName;
-    SourceSpan name_span;  // with the back quotes, if any
-    SourceSpan span;       // with the arguments
-    bool is_whole = false; // in back quotes, or spelt otherwise in its file
+    SourceSpan name_span;        // with the back quotes, if any
+    SourceSpan span;             // with the arguments
+    bool is_indivisible = false; // in back quotes or spelt differently in its file: never split
     bool has_parentheses = false;
     ListRange arguments;
 };
@@ -190,7 +190,7 @@ struct ObjectNode {
 struct IncludeNode {
     SourceSpan path_span;  // with the quotes
     std::string path;      // as written
-    FileId file = kNoFile; // once read
+    FileId file = kNoFile; // kNoFile until it is read
 };
 
 /// A word or number after the key of a #set.
@@ -256,8 +256,8 @@ struct WrittenName {
     friend auto operator<=>(const WrittenName&, const WrittenName&) = default;
 };
 
-/// The span, with back quotes, of the name of the module at `begin` of a file: an entry of
-/// `written_names` (ascending), or as long as in the text of the file.
+/// The span of the name, with its back quotes, of the module at `begin` of a file: an entry of
+/// `written_names` (ascending), else the length of `name` and its quotes in the text of the file.
 [[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
                                           FileId file,
                                           std::uint32_t begin,

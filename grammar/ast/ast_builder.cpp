@@ -42,8 +42,8 @@ Expression make_node(ExpressionKind kind, SourceSpan span) {
 
 AstBuilder::AstBuilder(const ScannedText& scanned, Ast& ast, const ParseContext& context)
     : scanned_(scanned), ast_(ast), sources_(context.sources), names_(context.names),
-      diagnostics_(context.diagnostics), words_(256) {
-    single_.fill(kUnset);
+      diagnostics_(context.diagnostics), word_cache_(256) {
+    one_character_names_.fill(kUnset);
     finish_statement({}, true); // sets the watermark
 }
 

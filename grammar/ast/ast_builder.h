@@ -67,11 +67,11 @@ public:
     [[nodiscard]] ModuleList modules(ModuleList list, TextRange run);
     /// Appends one module with any name, for example one in back quotes.
     [[nodiscard]] ModuleList quoted_module(ModuleList list, NameId name, SourceSpan span);
-    /// Appends each character of a text in back quotes as a module. Between two adjacent texts
-    /// stands a back quote as a module.
+    /// Appends each character of a text in back quotes as a module, and a back quote as a module
+    /// between two adjacent texts.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last `count` arguments to the last module of `list`; `parentheses` is the span
-    /// from `(` to `)`. Reports a second pair and one without module.
+    /// from `(` to `)`. Reports a second pair of parentheses, and a pair without a module.
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
@@ -85,7 +85,7 @@ public:
                std::uint32_t bound_count,
                SourceSpan bounds);
     void module_declaration(ModuleList modules);
-    /// `object` names one of the library, or with `is_file` a file.
+    /// `object` is the name of an object of the library or, with `is_file`, of a file.
     void object(SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file);
     void include(NameId path, SourceSpan span);
     void set_word(NameId word, SourceSpan span);
@@ -113,7 +113,7 @@ public:
     /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
     /// incomplete. Returns whether it was kept.
     bool finish_statement(SourceSpan span, bool keep);
-    /// Counts all present nodes to finished statements, for example those of an included file.
+    /// Assigns all present nodes to finished statements, for example those of an included file.
     void set_watermark();
 
 private:
@@ -162,17 +162,17 @@ private:
     ModuleNames module_names_ = ModuleNames::Words;
     std::uint32_t text_end_ = 0; // end of the last text in back quotes, in the scanned text
 
-    std::array<NameId, 128> single_; // names of one character so far
+    std::array<NameId, 128> one_character_names_; // interned so far, by character
     struct CachedWord {
         std::uint64_t key = 0;
         NameId name = kNoName;
     };
-    std::vector<CachedWord> words_; // recent names of up to eight characters
+    std::vector<CachedWord> word_cache_; // recent names of up to eight characters
 
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the current module list
     LastName last_name_ = LastName::None;
-    SourceSpan list_place_;     // of a translation: last place of the current list in its file
+    SourceSpan list_place_;     // in a translation: last place of the current list in its own file
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;

@@ -138,11 +138,11 @@ private:
             const ModuleView module = cursor.view();
             out_ += separator;
             separator = " ";
-            if (module.is_whole) {
+            if (module.is_indivisible) {
                 out_ += '`';
             }
             name(module.name);
-            if (module.is_whole) {
+            if (module.is_indivisible) {
                 out_ += '`';
             }
             if (!module.has_parentheses) {

@@ -13,7 +13,7 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kMaxIncludeDepth = 32;
-/// Bounds files that include others twice, which doubles their number at each level.
+/// Limit for files that include others twice, which doubles the number of inclusions at each level.
 inline constexpr std::uint32_t kMaxInclusions = 65'536;
 
 /// `path` without `.` and `..`, as far as possible without the file system.

@@ -48,8 +48,8 @@ ModuleList AstBuilder::empty_modules(SourceSpan where) {
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
-/// The span, or the last one in the list's file if it is in another file: modules store offsets
-/// without files. Only statements of a translation can span files.
+/// Returns `span`, or the last span in the file of the list if `span` is in another file: modules
+/// store offsets without files. Only statements of a translation can span files.
 SourceSpan AstBuilder::place_in_list(SourceSpan span) {
     if (scanned_.translation == nullptr) {
         return span;
@@ -66,8 +66,8 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
     list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
 }
 
-/// `text`: the place of the name in the scanned text, with its back quotes. Inlined, as it runs for
-/// every module; what only translated or edited text needs is a call.
+/// `text`: the place of the name in the scanned text, with its back quotes. Inline because it runs
+/// for every module; the case of translated or edited text is a call.
 inline void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
         push_mapped(name, text);
@@ -77,7 +77,7 @@ inline void AstBuilder::push_module(NameId name, TextRange text) {
     last_name_ = LastName::Bare;
 }
 
-/// Appends a module of a scanned text that is not the file's.
+/// Appends a module if the scanned text differs from the text of the file.
 void AstBuilder::push_mapped(NameId name, TextRange text) {
     push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
 }
@@ -135,7 +135,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         case CharacterClass::Symbol:
             break;
         }
-        NameId& name = single_[static_cast<unsigned char>(c) & 0x7Fu];
+        NameId& name = one_character_names_[static_cast<unsigned char>(c) & 0x7Fu];
         if (name > kNoName) {
             name = names_.intern(text.substr(at, 1));
         }
@@ -154,7 +154,7 @@ NameId AstBuilder::intern_word(std::string_view word) {
     for (const char c : word) {
         key = key << 8 | static_cast<unsigned char>(c);
     }
-    CachedWord& cached = words_[golden_multiple(key) >> 56];
+    CachedWord& cached = word_cache_[golden_multiple(key) >> 56];
     if (cached.key != key) {
         cached = {key, names_.intern(word)};
     }
@@ -198,7 +198,7 @@ void AstBuilder::push_character(std::string_view character, TextRange text) {
     if (character == "[" || character == "]") {
         count_bracket(character[0], scanned_.span(text.begin, text.end));
     }
-    NameId& name = single_[static_cast<unsigned char>(character[0]) & 0x7Fu];
+    NameId& name = one_character_names_[static_cast<unsigned char>(character[0]) & 0x7Fu];
     if (name > kNoName) {
         name = names_.intern(character);
     }

@@ -25,7 +25,7 @@ struct ParseContext {
     const FileLoader& load;
     /// Reproduce the bugs of the dialect's original program.
     bool bug_compatible = false;
-    std::string_view system{}; // to read from a file with several
+    std::string_view system{}; // name of the system to read from a file with several
     /// Receives the spans of all statements, also of those with errors; may be null.
     std::vector<SourceSpan>* statements = nullptr;
 };

@@ -44,7 +44,7 @@ std::uint32_t TextMap::source_end(std::uint32_t offset) const {
     if (offset == 0) {
         return 0;
     }
-    // The end of the character before: exact outside of replacements, their end inside.
+    // The end of the character before `offset`; within a replacement, the end of the replaced text.
     const std::uint32_t last = offset - 1;
     const std::size_t before = edits_ending_by(last);
     const std::uint32_t source =

@@ -38,7 +38,7 @@ public:
 
     /// The first part beyond the limit; it and all parts after it are missing.
     [[nodiscard]] const std::optional<SourceSpan>& overflow() const { return overflow_; }
-    /// Reports that part; returns whether there is one.
+    /// Reports overflow(); returns whether there is one.
     [[nodiscard]] bool report_overflow(Diagnostics& diagnostics) const;
 
     [[nodiscard]] const std::string& text() const { return text_; }

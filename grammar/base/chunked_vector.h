@@ -1,5 +1,5 @@
-// ChunkedVector<T>: an append-only sequence in blocks of fixed size. Growing moves no element and
-// needs no second copy of them: files may have a hundred million modules.
+// ChunkedVector<T>: an append-only sequence in blocks of fixed size. Growing moves and copies no
+// elements, because files may have a hundred million modules.
 #pragma once
 
 #include "grammar/base/contract.h"

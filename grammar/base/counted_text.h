@@ -7,8 +7,8 @@
 
 namespace lsys {
 
-/// `number`, in digits that the caller may have grouped, with a regular noun in singular for a
-/// `count` of 1, else in plural.
+/// `number`, the count as the caller formats it (`2,000`), and a regular noun, which is in the
+/// plural unless `count` is 1.
 [[nodiscard]] inline std::string
 counted(std::uint64_t count, std::string_view number, std::string_view noun) {
     std::string text(number);

@@ -120,8 +120,8 @@ public:
             }
         }
     }
-    /// Removes all fixes, and the help texts that contain `language`, which is not that of the
-    /// file.
+    /// Removes all fixes, and the help texts that contain `language`, the name of a language in
+    /// which the file is not written.
     void drop_repairs(std::string_view language);
     /// Turns every warning into an error (`--deny warnings`).
     void promote_warnings();

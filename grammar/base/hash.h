@@ -12,8 +12,9 @@
 
 namespace lsys {
 
-/// 2^64 divided by the golden ratio, made odd, and a prime near 2^32 divided by it: multiples of
-/// consecutive numbers are spread evenly (Knuth, The Art of Computer Programming 3, 6.4).
+/// 2^64 divided by the golden ratio, rounded to an odd number, and a prime near 2^32 divided by the
+/// golden ratio. Their products with consecutive numbers are spread evenly (Knuth, The Art of
+/// Computer Programming 3, 6.4).
 inline constexpr std::uint64_t kGoldenRatio64 = 0x9E3779B97F4A7C15;
 inline constexpr std::uint32_t kGoldenRatio32 = 0x9E3779B1;
 

@@ -56,7 +56,7 @@ void append_utf8(char32_t value, std::string& out) {
 }
 
 std::uint32_t display_width(char32_t value) {
-    if (value < 0x300) { // control characters included, which utf8proc gives no width
+    if (value < 0x300) { // also control characters, to which utf8proc gives no width
         return 1;
     }
     // Hangul vowels and finals join the letter before them.

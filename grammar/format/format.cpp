@@ -117,12 +117,12 @@ private:
         rows_.clear();
     }
 
-    struct Line {
-        std::uint32_t column = 0; // after the statement
-        bool is_one_line = false; // the statement
+    struct StatementEnd {
+        std::uint32_t column = 0; // just after the statement
+        bool is_one_line = false; // the whole statement
     };
 
-    Line write_statement(const LayoutRow& row, std::string& out) const {
+    StatementEnd write_statement(const LayoutRow& row, std::string& out) const {
         PieceReader reader(text_, row.begin);
         LineWriter writer(out, row.column);
         const bool breaks_head = row.head > kColumns;
@@ -145,26 +145,26 @@ private:
 
     void write_commented() {
         std::string statements;
-        std::vector<std::size_t> ends;
-        std::vector<Line> lines;
+        std::vector<std::size_t> offsets; // of the ends, in `statements`
+        std::vector<StatementEnd> ends;
         for (const LayoutRow& row : rows_) {
-            lines.push_back(write_statement(row, statements));
-            ends.push_back(statements.size());
+            ends.push_back(write_statement(row, statements));
+            offsets.push_back(statements.size());
         }
         std::vector<std::uint32_t> gaps(rows_.size(), kCommentGap);
         for (std::size_t i = 0; i < rows_.size();) {
             std::size_t end = i;
-            while (end < rows_.size() && lines[end].is_one_line) {
+            while (end < rows_.size() && ends[end].is_one_line) {
                 ++end;
             }
-            line_up_comments(i, end, lines, gaps);
+            line_up_comments(i, end, ends, gaps);
             i = end + 1;
         }
         std::size_t at = 0;
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             out_ += i > 0 ? "\n" : "";
-            out_.append(statements, at, ends[i] - at);
-            at = ends[i];
+            out_.append(statements, at, offsets[i] - at);
+            at = offsets[i];
             LexemeReader reader(text_, rows_[i].end);
             std::uint32_t gap = gaps[i];
             for (Lexeme lexeme; reader.offset() < rows_[i].comments_end && reader.next(lexeme);) {
@@ -177,19 +177,19 @@ private:
 
     void line_up_comments(std::size_t begin,
                           std::size_t end,
-                          const std::vector<Line>& lines,
+                          const std::vector<StatementEnd>& ends,
                           std::vector<std::uint32_t>& gaps) const {
         std::vector<std::uint32_t> widths;
         for (std::size_t i = begin; i < end; ++i) {
             if (rows_[i].comments_end != rows_[i].end) {
-                widths.push_back(lines[i].column);
+                widths.push_back(ends[i].column);
             }
         }
         pad(widths);
         std::size_t next = 0;
         for (std::size_t i = begin; i < end; ++i) {
             if (rows_[i].comments_end != rows_[i].end) {
-                gaps[i] += widths[next] == kAlone ? 0 : widths[next];
+                gaps[i] += widths[next] == kUnaligned ? 0 : widths[next];
                 ++next;
             }
         }

@@ -4,7 +4,7 @@
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_ends.h"
-#include "grammar/lsys/parse_named.h"
+#include "grammar/lsys/parse_with_names.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,42 +34,42 @@ void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain
 
 bool ParseSession::is_commented_out(std::size_t at) {
     const std::string_view text = scanned.text;
-    const std::size_t newline = text.substr(0, at).substr(line_sought_to_).rfind('\n');
-    if (newline != std::string_view::npos || line_sought_to_ == 0) {
+    const std::size_t newline = text.substr(0, at).substr(line_search_end_).rfind('\n');
+    if (newline != std::string_view::npos || line_search_end_ == 0) {
         const std::size_t line =
-            newline == std::string_view::npos ? 0 : line_sought_to_ + newline + 1;
+            newline == std::string_view::npos ? 0 : line_search_end_ + newline + 1;
         line_first_ = text.find_first_not_of(" \t", line);
     }
-    line_sought_to_ = at;
+    line_search_end_ = at;
     return line_first_ < at && text.substr(line_first_, 2) == "//";
 }
 
-void ParseSession::judge_fixes() {
+void ParseSession::offer_doubtful_fixes() {
     Diagnostics& diagnostics = context.diagnostics;
-    if (judged_.first != scan.first_diagnostic) {
-        judged_ = {scan.first_diagnostic, scan.first_diagnostic, false};
+    if (checked_.first != scan.first_diagnostic) {
+        checked_ = {scan.first_diagnostic, scan.first_diagnostic, false};
     }
-    if (judged_.end == diagnostics.all().size()) {
+    if (checked_.end == diagnostics.all().size()) {
         return;
     }
     if (is_commented_out(scan.statement_begin)) {
-        diagnostics.offer_fixes_from(judged_.end);
+        diagnostics.offer_fixes_from(checked_.end);
     }
-    if (judged_.is_partial) {
-        diagnostics.offer_fixes_from(judged_.end);
-    } else if (diagnostics.has_doubtful_error_from(judged_.end)) {
-        judged_.is_partial = true;
-        diagnostics.offer_fixes_from(judged_.first);
+    if (checked_.has_doubtful_error) {
+        diagnostics.offer_fixes_from(checked_.end);
+    } else if (diagnostics.has_doubtful_error_from(checked_.end)) {
+        checked_.has_doubtful_error = true;
+        diagnostics.offer_fixes_from(checked_.first);
     }
-    judged_.end = diagnostics.all().size();
+    checked_.end = diagnostics.all().size();
 }
 
 void ParseSession::end_statement(SourceSpan span, bool whole) {
     const bool is_kept = builder.finish_statement(span, whole);
-    if (is_kept && scan.semicolon_supplied) {
+    if (is_kept && scan.semicolon_inserted) {
         lsys_grammar::report_missing_semicolon(*this);
     }
-    judge_fixes();
+    offer_doubtful_fixes();
     if (context.statements != nullptr) {
         const std::uint32_t begin = scanned.source_begin(scan.statement_begin);
         context.statements->push_back({scanned.file, begin, std::max(begin, span.end)});
@@ -93,10 +93,10 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
 }
 
 Ast parse_lsys(FileId root, const ParseContext& context) {
-    return parse_lsys_named(root, {}, context);
+    return parse_lsys_with_names(root, {}, context);
 }
 
-Ast parse_lsys_named(FileId root, std::string_view names, const ParseContext& context) {
+Ast parse_lsys_with_names(FileId root, std::string_view names, const ParseContext& context) {
     Ast ast;
     ast.files.push_back({root, {}});
     IncludeChain includes(context, root);

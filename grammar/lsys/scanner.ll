@@ -51,7 +51,7 @@
     do {                                                                                           \
         if (scan.value_before) {                                                                   \
             yyless(0);                                                                             \
-            return supply_before_value(session);                                                   \
+            return insert_before_value(session);                                                   \
         }                                                                                          \
     } while (false)
 %}
@@ -60,7 +60,7 @@ BLANK   [ \t\r\n]
 IDENT   [A-Za-z_][A-Za-z0-9_]*
 SYMBOL  [-+/\\^&|$!"'.[\]{}%]
 NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
-LIKE    ([0-9]|"."[0-9])[0-9A-Za-z_.]*
+NUMBER_LIKE ([0-9]|"."[0-9])[0-9A-Za-z_.]*
 PLAIN   "-"?{BLANK}*{NUMBER}
 PLAINS  "("{BLANK}*{PLAIN}{BLANK}*(","{BLANK}*{PLAIN}{BLANK}*)*")"
 NAME    {IDENT}|{SYMBOL}
@@ -278,7 +278,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const SourceSpan span = session.token();
                           return number(session, TEXT, span);
                         }
-  {LIKE}                {
+  {NUMBER_LIKE}         {
                           const SourceSpan span = session.token();
                           report_malformed_number(session, TEXT, span);
                           return Token(Parser::token::TOK_BAD_VALUE, span);
@@ -347,7 +347,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           case StrayHandling::InsertColon:
                               SHORTEN(0);
                               scan.enter(Part::Condition);
-                              return Token(Parser::token::TOK_COLON, session.supplied());
+                              return Token(Parser::token::TOK_COLON, session.insertion_place());
                           case StrayHandling::Discard:
                               return discard_statement(session);
                           }
@@ -386,7 +386,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           scan.value_before = true;
                           return number(session, TEXT, span);
                         }
-  {LIKE}                {
+  {NUMBER_LIKE}         {
                           BEGIN_VALUE();
                           if (const std::size_t length = number_before_name(TEXT); length != 0) {
                               SHORTEN(static_cast<int>(length));

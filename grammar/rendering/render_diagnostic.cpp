@@ -142,8 +142,8 @@ std::string describe_rest(const std::array<std::uint64_t, 3>& counts) {
     return text;
 }
 
-/// Indices of the diagnostics to print: errors first, then warnings, then notes, at most `room`; in
-/// their order.
+/// Indices of at most `room` diagnostics to print, ascending. Errors are chosen before warnings,
+/// and warnings before notes.
 std::vector<std::size_t> choose_shown(const std::vector<Diagnostic>& all, std::size_t room) {
     std::vector<std::size_t> shown;
     for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Note}) {

@@ -20,7 +20,7 @@ struct RenderOptions {
     MessageFormat format = MessageFormat::Human;
     bool colour = false;
     std::uint32_t max_shown = 50; // a last line counts the rest
-    const char* program = "lsc";  // the place of a diagnostic of no file
+    const char* program = "lsc";  // replaces the path of a diagnostic without a file
 };
 
 /// Appends one diagnostic with a line end.

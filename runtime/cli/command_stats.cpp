@@ -268,8 +268,8 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
         counted = count_words(command, shown, grammar, console, growth);
         kind = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
                            grammar.bytecode.settings.seed,
-                           grammar.bytecode.cuts() ? "cuts branches off with `%`"
-                                                   : "has `#decompose`");
+                           grammar.bytecode.has_cuts() ? "cuts branches off with `%`"
+                                                       : "has `#decompose`");
         if (growth.low.empty()) {
             return counted;
         }

@@ -3,7 +3,7 @@
 //
 // 1. A fix is certain (Fix::machine_applicable) if its diagnostic has no other plausible repair.
 // 2. A statement with a syntax error without certain fix is not changed
-//    (ParseSession::judge_fixes).
+//    (ParseSession::offer_doubtful_fixes).
 // 3. Warnings are fixed after all errors, which may be their cause.
 // 4. The fixes of a statement are applied together: they are undone if it has a syntax error or a
 //    new error afterwards, or any error if a bracket or comma was repaired. Typographic characters

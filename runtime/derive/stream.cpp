@@ -138,7 +138,7 @@ stream(const Bytecode& bytecode, const DeriveOptions& options, const StreamConsu
     steps.rewriting = &plan;
     steps.seed = options.seed;
     steps.last_age = options.generations;
-    steps.prunes = bytecode.cuts();
+    steps.prunes = bytecode.has_cuts();
     const StageDepth depth = stage_depth(bytecode, Stage::Decompose);
     if (depth.passes != 0) {
         decomposing.emplace(bytecode, inputs, false, Stage::Decompose);

@@ -2,7 +2,7 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
-#include "grammar/lsys/parse_named.h"
+#include "grammar/lsys/parse_with_names.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/step.h"
 
@@ -183,7 +183,7 @@ Result<CompiledText> compile_text(const std::string& path,
     const ParseContext context{*grammar.sources,       grammar.names,  compiled.diagnostics, load,
                                options.bug_compatible, options.system, &compiled.statements};
     Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
-                            : parse_lsys_named(root, names, context);
+                            : parse_lsys_with_names(root, names, context);
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
     if (foreign && compiled.diagnostics.has_errors()) {
         return compiled; // there is no whole translation to check

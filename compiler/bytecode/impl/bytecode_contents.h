@@ -4,7 +4,7 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
-//   implied       a truth on which the word depends, computed from a field beside the word
+//   implied       a truth on which the word depends, computed from a field of beside_word()
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured

@@ -66,7 +66,7 @@ public:
         if (bytecode.settings.rewriting == RewritingMode::Sequential) {
             by_rule_.resize(bytecode.rewriting_rules());
             std::vector<std::uint32_t> rule_of(bytecode.symbols.size(), kNone);
-            for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
+            for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
                 const BytecodeProduction& production = bytecode.productions[p];
                 rule_of[static_cast<std::size_t>(
                     bytecode.patterns[production.predecessor.first].symbol)] = production.rule;
@@ -84,8 +84,8 @@ public:
     [[nodiscard]] std::uint64_t terms() const { return terms_; }
     [[nodiscard]] const std::vector<Bounds>& values() const { return values_; }
 
-    /// Advances the sizes from g generations to g + 1.
-    void step_back() {
+    /// Advances from the sizes after g generations to those after g + 1.
+    void advance() {
         if (by_rule_.empty()) {
             rewrite(all_);
         }
@@ -153,7 +153,7 @@ SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations) {
         if (g == generations) {
             return bounds;
         }
-        table.step_back();
+        table.advance();
     }
 }
 

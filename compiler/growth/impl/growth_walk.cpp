@@ -20,7 +20,8 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// a - b, at least 0. Logarithms hide small differences: 0 if b is one, a if only a is.
+/// a - b, at least 0. A logarithm hides small differences: the result is 0 if b is a logarithm, and
+/// a if only a is one.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -78,7 +79,7 @@ void GrowthWalk::list_rules() {
     const Bytecode& bytecode = classes_->bytecode();
     rules_.resize(bytecode.rewriting_rules());
     std::vector<std::map<ClassId, std::uint32_t>> max_counts; // of each sequence
-    for (std::uint32_t p = 0; p < bytecode.of(Stage::Rewrite).count; ++p) {
+    for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
         Rule& rule = rules_[production.rule];
         if (production.predecessor.count == 1) {
@@ -195,7 +196,7 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return matches;
 }
 
-/// Lowers the lower bounds by the modules of `matches` matches, since there may be as many.
+/// Lowers the lower bounds by the modules of `matches` matches, since that many may occur.
 void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;

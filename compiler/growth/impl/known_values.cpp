@@ -17,10 +17,9 @@ KnownValue known(const std::optional<std::uint32_t>& count) {
 
 /// The domain of numbers that may not be known.
 struct Known : UnknownDomain<KnownValue> {
-    Known(const Surroundings& inputs, std::uint64_t& counter)
-        : surroundings(inputs), work(counter) {}
+    Known(const ExpressionInputs& given, std::uint64_t& counter) : inputs(given), work(counter) {}
 
-    const Surroundings& surroundings;
+    const ExpressionInputs& inputs;
     std::uint64_t& work;
 
     bool enter() const {
@@ -29,10 +28,10 @@ struct Known : UnknownDomain<KnownValue> {
     }
     static KnownValue literal(float value) { return known(value); }
     [[nodiscard]] KnownValue formal(std::uint32_t index) const {
-        return index < surroundings.formals.size() ? surroundings.formals[index] : KnownValue{};
+        return index < inputs.formals.size() ? inputs.formals[index] : KnownValue{};
     }
-    [[nodiscard]] KnownValue step() const { return known(surroundings.step); }
-    [[nodiscard]] KnownValue steps() const { return known(surroundings.steps); }
+    [[nodiscard]] KnownValue step() const { return known(inputs.step); }
+    [[nodiscard]] KnownValue steps() const { return known(inputs.steps); }
     static KnownValue unary(Opcode opcode, KnownValue x) {
         return x.known ? known(arithmetic::apply(opcode, x.value, 0.0F)) : KnownValue{};
     }
@@ -47,7 +46,7 @@ struct Known : UnknownDomain<KnownValue> {
         return logical && decides ? known(arithmetic::truth(opcode == Opcode::Or)) : KnownValue{};
     }
     bool take(KnownValue /*x*/, const std::uint32_t* /*at*/) const {
-        --work; // computes nothing
+        --work; // Emit and Test compute nothing
         return false;
     }
 };
@@ -56,8 +55,8 @@ struct Known : UnknownDomain<KnownValue> {
 
 KnownValue Evaluator::run(std::span<const std::uint32_t> instructions,
                           std::uint32_t first,
-                          const Surroundings& surroundings) {
-    Known domain(surroundings, work_);
+                          const ExpressionInputs& inputs) {
+    Known domain(inputs, work_);
     interpret(instructions.data() + first, domain, stack_.data());
     return stack_.front();
 }

@@ -19,7 +19,7 @@ struct KnownValue {
 };
 
 /// Inputs of an expression. Formals beyond the span are not known.
-struct Surroundings {
+struct ExpressionInputs {
     std::span<const KnownValue> formals;
     std::optional<std::uint32_t> step;  // value of step(): age of the word being rewritten
     std::optional<std::uint32_t> steps; // value of steps(): generations asked for
@@ -31,7 +31,7 @@ public:
     /// The value of the expression at `first` up to the next Emit or Test.
     KnownValue run(std::span<const std::uint32_t> instructions,
                    std::uint32_t first,
-                   const Surroundings& surroundings);
+                   const ExpressionInputs& inputs);
     /// Instructions run so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 

@@ -156,7 +156,7 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
     }
 }
 
-TableRange ModuleClasses::instantiate(const CountedWord& word, const Surroundings& surroundings) {
+TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionInputs& inputs) {
     std::vector<ClassTerm> terms = word.fixed;
     std::vector<KnownValue> values;
     work_ += word.fixed.size() + word.variable.size();
@@ -164,9 +164,8 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const Surrounding
         values.assign(index_.relevant_count(static_cast<SymbolId>(module.code)), KnownValue{});
         if (!exhausted()) {
             for (std::size_t i = 0; i < values.size(); ++i) {
-                values[i] =
-                    evaluator_.run(bytecode_->instructions,
-                                   argument_starts_[module.first_argument + i], surroundings);
+                values[i] = evaluator_.run(bytecode_->instructions,
+                                           argument_starts_[module.first_argument + i], inputs);
             }
         }
         terms.push_back({valued_class(module.code, values), 1});
@@ -203,7 +202,7 @@ std::vector<ClassTerm> ModuleClasses::successor(ProductionId production) {
 
 // --- matching
 
-Surroundings ModuleClasses::surroundings(std::span<const KnownValue> formals) const {
+ExpressionInputs ModuleClasses::inputs(std::span<const KnownValue> formals) const {
     return {formals, index_.depends_on_age() ? std::optional(age_) : std::nullopt, steps_};
 }
 
@@ -220,17 +219,17 @@ KnownValue ModuleClasses::condition(std::uint32_t production,
         formals_.insert(formals_.end(), parameters.begin(), parameters.end());
         formals = formals_;
     }
-    return evaluator_.run(bytecode_->instructions, p.condition, surroundings(formals));
+    return evaluator_.run(bytecode_->instructions, p.condition, inputs(formals));
 }
 
 ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                             std::span<const KnownValue> point,
-                                            std::span<const KnownValue> sure) {
+                                            std::span<const KnownValue> parameters) {
     enum class Holds : std::uint8_t { No, Maybe, Yes };
     const auto holds = [&](std::uint32_t p) {
         const BytecodeProduction& production = bytecode_->productions[p];
         const bool context = production.has_left || production.has_right;
-        const KnownValue value = condition(p, context ? sure : point);
+        const KnownValue value = condition(p, context ? parameters : point);
         return !value.known          ? Holds::Maybe
                : value.value == 0.0F ? Holds::No
                : context             ? Holds::Maybe
@@ -294,7 +293,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     }
     work_ += 256 * conditions.size();
     const std::optional<ConditionGrid> grid = make_condition_grid(
-        bytecode_->instructions, conditions, parameters, surroundings({}), max_points);
+        bytecode_->instructions, conditions, parameters, inputs({}), max_points);
     if (!grid) {
         return match(symbol, parameters, parameters);
     }
@@ -375,7 +374,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             if (!word.made) {
                 count_word(bytecode_->productions[m.production].successor, word);
             }
-            outcome.terms = instantiate(word, surroundings(formals));
+            outcome.terms = instantiate(word, inputs(formals));
         }
         outcomes.push_back(outcome);
     }

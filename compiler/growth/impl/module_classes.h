@@ -2,7 +2,7 @@
 // A class is a code and the known values of its relevant parameters (production_index.h). A(12),
 // whose condition reads its parameter, is another class than A(11); F(2) and F(2.2) are one class
 // if no condition reads the parameter. An unknown value stands for every value. Beyond
-// kMaxValuedClasses values are dropped from new classes: results stay true but are less sharp.
+// kMaxValuedClasses values are dropped from new classes: bounds stay valid but become wider.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -118,14 +118,15 @@ private:
     ClassId unknown_class(Code code);
     void count_word(const WordTemplate& word, CountedWord& out);
     /// Appends the terms of a word to terms_, merged and in order of classes.
-    TableRange instantiate(const CountedWord& word, const Surroundings& surroundings);
+    TableRange instantiate(const CountedWord& word, const ExpressionInputs& inputs);
 
-    [[nodiscard]] Surroundings surroundings(std::span<const KnownValue> formals) const;
+    [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
-    /// The productions that may be taken. Conditions are evaluated at `point`, or at `sure` for
-    /// productions with contexts.
-    Matches
-    match(SymbolId symbol, std::span<const KnownValue> point, std::span<const KnownValue> sure);
+    /// The productions that may be taken. Conditions are evaluated at `point`; those of productions
+    /// with contexts with the known values of `parameters`.
+    Matches match(SymbolId symbol,
+                  std::span<const KnownValue> point,
+                  std::span<const KnownValue> parameters);
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
     ClassExpansion
     expand_matches(const Matches& matches, ClassId self, std::span<const KnownValue> parameters);

@@ -96,13 +96,14 @@ private:
     /// A closed branch, valid or not.
     struct Found {
         BranchSite site;
-        std::uint32_t kind = 0; // in structures_
+        std::uint32_t kind = 0; // in found_kinds_
         bool valid = false;
     };
-    struct Structure {
+    /// A set of equal branches, valid or not.
+    struct FoundKind {
         std::vector<std::uint32_t> formals;
         Effects effects;
-        std::uint32_t id = 0; // 0 until a valid branch has this structure
+        std::uint32_t id = 0; // 0 until a valid branch is of this kind
     };
 
     Diagnostic& refuse(SourceSpan span, std::string message) {
@@ -332,10 +333,10 @@ private:
         std::sort(open.formals.begin(), open.formals.end());
         open.formals.erase(std::unique(open.formals.begin(), open.formals.end()),
                            open.formals.end());
-        const auto [known, is_new] = structure_of_.emplace(
-            std::move(open.key), static_cast<std::uint32_t>(structures_.size()));
+        const auto [known, is_new] = kind_of_key_.emplace(
+            std::move(open.key), static_cast<std::uint32_t>(found_kinds_.size()));
         if (is_new) {
-            structures_.push_back({open.formals, open.effects, 0});
+            found_kinds_.push_back({open.formals, open.effects, 0});
         }
         Found& found = found_[open.site];
         found.site.production = production;
@@ -361,14 +362,14 @@ private:
             if (!found.valid) {
                 continue;
             }
-            Structure& structure = structures_[found.kind];
-            if (structure.id == 0) {
-                structure.id = static_cast<std::uint32_t>(branches_.kinds.size()) + 1;
+            FoundKind& kind = found_kinds_[found.kind];
+            if (kind.id == 0) {
+                kind.id = static_cast<std::uint32_t>(branches_.kinds.size()) + 1;
                 branches_.kinds.push_back({static_cast<std::uint32_t>(branches_.sites.size()),
-                                           structure.formals, structure.effects.depends_on_vertical,
-                                           structure.effects.is_random});
+                                           kind.formals, kind.effects.depends_on_vertical,
+                                           kind.effects.is_random});
             }
-            found.site.id = structure.id;
+            found.site.id = kind.id;
             found.site.number = number++;
             branches_.sites.push_back(found.site);
         }
@@ -381,8 +382,8 @@ private:
     std::vector<Effects> effects_;                             // by symbol
     std::vector<Open> open_;
     std::vector<Found> found_; // branches of the current word, in order of their `[`
-    std::vector<Structure> structures_;
-    std::unordered_map<std::string, std::uint32_t> structure_of_;
+    std::vector<FoundKind> found_kinds_;
+    std::unordered_map<std::string, std::uint32_t> kind_of_key_;
     std::vector<ValueId> values_;
     Branches branches_;
     bool instanceable_ = true;

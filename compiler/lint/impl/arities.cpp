@@ -62,7 +62,7 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
             row.kind != SymbolKind::Plain || row.ignored) {
             continue;
         }
-        // The rewritten module of this name with the nearest number of parameters.
+        // Among the rewritten modules of this name, the one with the nearest number of parameters.
         SymbolId nearest = kNoSymbol;
         bool any_used = false;
         for (const SymbolId other : use.same_name(program, symbol)) {

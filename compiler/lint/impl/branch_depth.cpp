@@ -54,7 +54,7 @@ public:
         }
     }
 
-    [[nodiscard]] Depth of(const ProgramWord& word) const {
+    [[nodiscard]] Depth depth_of(const ProgramWord& word) const {
         Depth total;
         for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
             total = after(total, depth_[static_cast<std::size_t>(symbol)]);
@@ -73,7 +73,7 @@ public:
             queued[p] = false;
             const auto s =
                 static_cast<std::size_t>(program_.productions[p].predecessor.items.front().symbol);
-            Depth next = either(depth_[s], of(program_.productions[p].successor));
+            Depth next = either(depth_[s], depth_of(program_.productions[p].successor));
             if (next == depth_[s]) {
                 continue;
             }
@@ -117,7 +117,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
     const Production* closing = nullptr;
     for (const Production& production : program.productions) {
         if (production.predecessor.items.size() != 1) {
-            return; // the number of such matches is not bounded here
+            return; // the analysis does not bound matches of several modules
         }
         const std::int64_t sum = balance(program, production.successor);
         opening = sum > 0 && opening == nullptr ? &production : opening;
@@ -128,7 +128,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
     }
     DepthAnalysis analysis(program);
     analysis.run();
-    if (analysis.of(program.axiom).lowest < 0) {
+    if (analysis.depth_of(program.axiom).lowest < 0) {
         return;
     }
     Diagnostic& diagnostic = diagnostics.add(

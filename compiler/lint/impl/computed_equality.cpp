@@ -56,7 +56,7 @@ private:
         return false;
     }
 
-    /// Finds the parameter that each formal in the expressions of a production is.
+    /// Maps each formal in the expressions of a production to the parameter of its module.
     void trace(const Production& production) {
         std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
         for (const ProgramPattern* pattern :
@@ -210,7 +210,7 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     std::vector<Level> levels_;         // by value
-    std::vector<std::uint32_t> source_; // by value: the parameter that a formal is
+    std::vector<std::uint32_t> source_; // by value: the module parameter of a formal, or kNone
     std::vector<std::uint32_t> base_;   // by symbol: its first parameter
     std::vector<Level> parameter_levels_;
 };

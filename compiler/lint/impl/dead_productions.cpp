@@ -41,14 +41,14 @@ public:
                     written[static_cast<std::size_t>(symbol)] || symbol != own;
             });
         }
-        for (const bool circles : {false, true}) {
+        for (const bool in_cycles : {false, true}) {
             for (std::size_t p = 0; p < program_.productions.size(); ++p) {
                 const ProgramPatternItem* item =
                     use_.reachable.usable[p]
                         ? nullptr
                         : missing_item(use_, program_.productions[p].predecessor);
                 if (item == nullptr || explained_[static_cast<std::size_t>(item->symbol)] ||
-                    (!circles && written[static_cast<std::size_t>(item->symbol)])) {
+                    (!in_cycles && written[static_cast<std::size_t>(item->symbol)])) {
                     continue;
                 }
                 report(program_.productions[p], *item);

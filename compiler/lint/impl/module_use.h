@@ -29,7 +29,7 @@ struct ModuleUse {
     std::vector<bool> declared;                  // by symbol: has a #module
     std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;
     bool draws = false;         // some module that occurs draws
-    std::vector<bool> reported; // by symbol: its name has had a message
+    std::vector<bool> reported; // by symbol: a message about its name has been reported
 
     [[nodiscard]] const std::vector<SymbolId>& same_name(const Program& program,
                                                          SymbolId id) const {

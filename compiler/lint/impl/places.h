@@ -14,7 +14,7 @@ namespace lsys {
 [[nodiscard]] SourceSpan
 module_span(const CheckInput& input, const ProgramWord& word, std::size_t index);
 
-/// The places of the arguments of that module.
+/// The places of the arguments of module `index`.
 [[nodiscard]] std::vector<SourceSpan>
 argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t index);
 

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxLabels = 12;
 
 struct Group {
     double sum = 0.0;
-    bool is_judged = true; // has no conditions and no errors
+    bool has_fixed_sum = true; // has no conditions and no errors
     std::vector<std::uint32_t> members;
 };
 
@@ -66,13 +66,14 @@ void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics) {
         if (production.stochastic) {
             Group& group = groups[production.group];
             group.sum += static_cast<double>(production.weight);
-            group.is_judged = group.is_judged && production.condition == kNoValue &&
-                              !std::isnan(production.weight);
+            group.has_fixed_sum = group.has_fixed_sum && production.condition == kNoValue &&
+                                  !std::isnan(production.weight);
             group.members.push_back(i);
         }
     }
     for (const Group& group : groups) {
-        if (!group.members.empty() && group.is_judged && std::fabs(group.sum - 1.0) > kTolerance) {
+        if (!group.members.empty() && group.has_fixed_sum &&
+            std::fabs(group.sum - 1.0) > kTolerance) {
             report(input, group, diagnostics);
         }
     }

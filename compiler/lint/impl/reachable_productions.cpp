@@ -73,7 +73,7 @@ private:
             }
             const auto [place, is_new] = met.emplace(key(p), p);
             const Production& earlier = production(place->second);
-            // Two constants may have one value by chance.
+            // Two constants may be equal by chance.
             const bool by_chance =
                 (names_constant(input_, production(p)) || names_constant(input_, earlier)) &&
                 input_.sources.text(production(p).condition_span) !=
@@ -93,7 +93,7 @@ private:
         }
     }
 
-    /// Reports productions after one without condition that matches wherever they could.
+    /// Reports productions behind an unconditional one that matches wherever they would.
     void check_unconditional(std::span<const std::uint32_t> productions) {
         std::uint32_t unconditional = kNone; // the first without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>

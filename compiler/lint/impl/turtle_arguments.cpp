@@ -12,9 +12,9 @@ namespace lsys {
 
 namespace {
 
-/// The fraction of a half turn that an angle is if it is meant in radians, with the precision in
-/// which such angles are usually written.
-std::optional<int> radians_degrees(float value) {
+/// The degrees of an angle that looks like radians: a usual fraction of a turn, written with about
+/// four decimals.
+std::optional<int> degrees_if_radians(float value) {
     constexpr double kPi = 3.14159265358979323846;
     constexpr std::array<int, 11> kDegrees{360, 270, 180, 150, 135, 120, 90, 60, 45, 36, 30};
     const double magnitude = std::fabs(static_cast<double>(value));
@@ -58,7 +58,7 @@ void check_word(const CheckInput& input, const ProgramWord& word, Diagnostics& d
                 }
                 return;
             }
-            if (const std::optional<int> degrees = radians_degrees(value.literal)) {
+            if (const std::optional<int> degrees = degrees_if_radians(value.literal)) {
                 Diagnostic& diagnostic =
                     diagnostics.add(DiagnosticCode::LikelyRadians, place(),
                                     fmt::format("{} looks like radians, but angles are in degrees",

@@ -11,11 +11,11 @@ namespace lsys {
 
 namespace {
 
-/// Maximum stack for operands in order from left to right. Beyond it the deeper operand is computed
-/// first (Sethi and Ullman 1970), so that the stack grows with the logarithm of the size of the
-/// expression.
-constexpr std::uint8_t kNaturalStack = 64;
-static_assert(kNaturalStack + 32 < kMaxStack);
+/// Maximum stack depth of operands computed from left to right. In deeper expressions the deeper
+/// operand is computed first (Sethi and Ullman 1970), so that the depth grows with the logarithm of
+/// the size of the expression.
+constexpr std::uint8_t kMaxLeftToRightStack = 64;
+static_assert(kMaxLeftToRightStack + 32 < kMaxStack);
 
 bool is_commutative(Opcode opcode) {
     switch (opcode) {
@@ -50,14 +50,14 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
         const std::uint8_t right = stack_need_[static_cast<std::size_t>(value.right)];
         const auto natural = static_cast<std::uint8_t>(std::max<int>(left, right + 1));
         const auto reversed = static_cast<std::uint8_t>(std::max<int>(right, left + 1));
-        stack_need_[i] = natural <= kNaturalStack ? natural : std::min(natural, reversed);
+        stack_need_[i] = natural <= kMaxLeftToRightStack ? natural : std::min(natural, reversed);
     }
 }
 
 bool CodeEmitter::right_first(const Value& value) const {
     const std::uint8_t left = stack_need_[static_cast<std::size_t>(value.left)];
     const std::uint8_t right = stack_need_[static_cast<std::size_t>(value.right)];
-    return std::max<int>(left, right + 1) > kNaturalStack && right > left;
+    return std::max<int>(left, right + 1) > kMaxLeftToRightStack && right > left;
 }
 
 std::uint32_t CodeEmitter::add_site(SourceSpan span) {

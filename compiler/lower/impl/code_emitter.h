@@ -1,5 +1,5 @@
-// Expressions to instructions. Writes Bytecode::instructions, sites and site_ranges; used by
-// lower().
+// Translates expressions to instructions: writes Bytecode::instructions, sites and site_ranges.
+// Used by lower().
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

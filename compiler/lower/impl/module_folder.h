@@ -1,5 +1,5 @@
-// Codes for modules with constant arguments, given in order of first appearance while the width of
-// a code does not grow.
+// Assigns codes to modules with constant arguments, in order of first appearance and as long as the
+// width of a code does not grow.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -28,8 +28,8 @@ void PlaceWriter::set_position(const SourceFile& file, std::uint32_t offset) {
     place_ = file.line_column(offset);
 }
 
-/// Moves on to a module. Returns whether the text from the last module to this one is ASCII of one
-/// line.
+/// Moves to the module at `offset`. Returns whether the text from the last module to this one is
+/// ASCII without a line end.
 bool PlaceWriter::move_to(std::uint32_t offset) {
     bool plain = true;
     bool ascii = true;
@@ -49,7 +49,7 @@ bool PlaceWriter::move_to(std::uint32_t offset) {
     return plain && ascii;
 }
 
-/// Inlined, as it runs for every module.
+/// Inline because it runs for every module.
 inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
                                             const ProgramModule& module) const {
     constexpr std::uint32_t kQuotes = 2;
@@ -77,7 +77,7 @@ std::uint32_t PlaceWriter::written_length(const ProgramWord& word,
 
 void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
     std::uint32_t code = first;
-    PlaceRun run; // the last one
+    PlaceRun run; // the current run, not yet in runs_
     std::size_t index = word.first_module;
     for (const std::size_t end = index + word.module_count; index < end;) {
         const std::span<const ProgramModule> row = program_.modules.row(index, end - index);

@@ -1,4 +1,4 @@
-// Writes the places of the modules of axiom and successors, Bytecode::template_places. Used by
+// Writes Bytecode::template_places, the places of the modules of axiom and successors. Used by
 // lower().
 #pragma once
 
@@ -44,8 +44,8 @@ private:
     std::vector<Spelling> spellings_; // by symbol
     const SourceFile* file_ = nullptr;
     std::string_view text_;
-    std::uint32_t offset_ = 0; // of the last module, and its place
-    LineColumn place_;
+    std::uint32_t offset_ = 0; // of the last module
+    LineColumn place_;         // of the last module
 };
 
 } // namespace lsys

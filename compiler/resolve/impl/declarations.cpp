@@ -164,7 +164,7 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
             resolution_.program.ignored.push_back({name, span});
         }
     };
-    const std::span<const NamePart> parts = module.is_whole
+    const std::span<const NamePart> parts = module.is_indivisible
                                                 ? std::span<const NamePart>{}
                                                 : splitter.parts(module.name, 0, module.span.file);
     if (parts.empty()) {

@@ -130,7 +130,8 @@ void DefinitionResolver::param(const ParamNode& node) {
     advance_draw_position(draws);
 }
 
-/// Makes the constant, drawn or not, with the value of -D if given.
+/// Adds a constant: with the value of -D if given, else as a global if it is drawn at random, else
+/// with its value.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
     const auto replaced = replacements_.empty()
                               ? replacements_.end()

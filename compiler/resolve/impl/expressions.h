@@ -1,6 +1,6 @@
-// Expressions of the Ast to values of the Program: names become formals and constants, functions
-// become instructions, constants are folded, ranges numbered. ExpressionPlace decides what an
-// expression may contain.
+// Resolves expressions of the Ast to values of the Program: names become formals and constants,
+// functions become instructions, constants are folded, ranges numbered. ExpressionPlace decides
+// what an expression may contain.
 #pragma once
 
 #include "compiler/resolve/impl/attempts.h"

@@ -150,7 +150,7 @@ void HeadResolver::append(const ModuleView& module,
                           std::uint32_t first_formal,
                           ProgramPattern& out) {
     const std::uint32_t count = module.arguments.count;
-    const bool may_split = &out != &production_->predecessor && !module.is_whole;
+    const bool may_split = &out != &production_->predecessor && !module.is_indivisible;
     const std::span<const NamePart> parts =
         may_split ? reading_.splitter.parts(module.name, count, module.span.file)
                   : std::span<const NamePart>{};

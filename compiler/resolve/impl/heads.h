@@ -1,4 +1,4 @@
-// Heads of productions: `left < predecessor > right` to patterns and formals.
+// Resolves heads of productions, `left < predecessor > right`, to patterns and formals.
 #pragma once
 
 #include "compiler/resolve/impl/constants.h"

@@ -103,7 +103,9 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     }
 }
 
-void SetResolver::bad_value(const SetNode& node, SourceSpan span, const std::string& message) {
+void SetResolver::report_bad_value(const SetNode& node,
+                                   SourceSpan span,
+                                   const std::string& message) {
     Diagnostic& error =
         resolution_.diagnostics.add(DiagnosticCode::BadSetting, span,
                                     fmt::format("`{}` {}", resolution_.text(node.key), message));
@@ -115,7 +117,7 @@ void SetResolver::bad_value(const SetNode& node, SourceSpan span, const std::str
 /// The one word of the statement; empty after an error.
 std::string_view SetResolver::word_of(const SetNode& node, const char* choices) {
     if (node.values.count != 1) {
-        bad_value(node, node.key_span, fmt::format("takes one of {}", choices));
+        report_bad_value(node, node.key_span, fmt::format("takes one of {}", choices));
         return {};
     }
     const SetValue value = resolution_.ast.set_values[node.values.first];
@@ -124,7 +126,7 @@ std::string_view SetResolver::word_of(const SetNode& node, const char* choices) 
     }
     if (value.value == kNoExpression ||
         resolution_.ast.expression(value.value).kind != ExpressionKind::Error) {
-        bad_value(node, value.span, fmt::format("takes one of {}", choices));
+        report_bad_value(node, value.span, fmt::format("takes one of {}", choices));
     }
     return {};
 }
@@ -171,7 +173,7 @@ SetResolver::number_of(const SetNode& node, std::uint32_t index, ExpressionResol
 void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressions) {
     const std::string_view key = resolution_.text(node.key);
     if (first_.at(scope_of(node)) != node.key_span) {
-        return; // a second one
+        return; // a duplicate
     }
     expressions.begin_statement();
     Settings& settings = resolution_.program.settings;
@@ -207,14 +209,14 @@ std::optional<float> SetResolver::read_one(const SetNode& node,
                                            const NumberRange& range,
                                            ExpressionResolver& expressions) {
     if (node.values.count != 1) {
-        bad_value(node, node.key_span, fmt::format("takes {}", range.wanted));
+        report_bad_value(node, node.key_span, fmt::format("takes {}", range.wanted));
         return std::nullopt;
     }
     const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
     const std::optional<float> number = number_of(node, 0, expressions);
     if (number && (!(*number >= range.min && *number <= range.max) ||
                    (range.is_whole && *number != std::floor(*number)))) {
-        bad_value(node, span, fmt::format("is {}, not {}", range.wanted, *number));
+        report_bad_value(node, span, fmt::format("is {}, not {}", range.wanted, *number));
         return std::nullopt;
     }
     return number;
@@ -223,14 +225,14 @@ std::optional<float> SetResolver::read_one(const SetNode& node,
 void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressions) {
     Settings& settings = resolution_.program.settings;
     if (node.values.count != settings.tropism.size()) {
-        bad_value(node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
+        report_bad_value(node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
         return;
     }
     for (std::uint32_t i = 0; i < settings.tropism.size(); ++i) {
         const std::optional<float> number = number_of(node, i, expressions);
         settings.tropism[i] = number.value_or(0.0F);
         if (number && !std::isfinite(*number)) {
-            bad_value(node, node.key_span, "takes finite numbers");
+            report_bad_value(node, node.key_span, "takes finite numbers");
             settings.tropism[i] = 0.0F;
         }
     }
@@ -248,7 +250,8 @@ void SetResolver::read_height(const SetNode& node, ExpressionResolver& expressio
 
 void SetResolver::read_pipe(const SetNode& node, ExpressionResolver& expressions) {
     if (node.values.count != 2) {
-        bad_value(node, node.key_span, "takes two numbers: the exponent and the width of a tip");
+        report_bad_value(node, node.key_span,
+                         "takes two numbers: the exponent and the width of a tip");
         return;
     }
     const std::optional<float> exponent = number_of(node, 0, expressions);
@@ -260,11 +263,11 @@ void SetResolver::read_pipe(const SetNode& node, ExpressionResolver& expressions
         return resolution_.ast.set_values[node.values.first + index].span;
     };
     if (!(*exponent >= kMinPipeExponent && *exponent <= kMaxPipeExponent)) {
-        bad_value(node, span_of(0),
-                  fmt::format("begins with an exponent from 1 to 4, not {}", *exponent));
+        report_bad_value(node, span_of(0),
+                         fmt::format("begins with an exponent from 1 to 4, not {}", *exponent));
     } else if (!(*width >= 0.0F && std::isfinite(*width))) {
-        bad_value(node, span_of(1),
-                  fmt::format("ends with the width of a tip, from 0 on, not {}", *width));
+        report_bad_value(node, span_of(1),
+                         fmt::format("ends with the width of a tip, from 0 on, not {}", *width));
     } else {
         resolution_.program.settings.pipe = {*exponent, *width};
         resolution_.program.pipe_span = node.key_span;
@@ -288,7 +291,7 @@ void SetResolver::read_spring(const SetNode& node, ExpressionResolver& expressio
 void SetResolver::read_seed(const SetNode& node, ExpressionResolver& expressions) {
     const char* wanted = "is a whole number from 0 to 18,446,744,073,709,551,615";
     if (node.values.count != 1) {
-        bad_value(node, node.key_span, wanted);
+        report_bad_value(node, node.key_span, wanted);
         return;
     }
     const SetValue value = resolution_.ast.set_values[node.values.first];
@@ -305,7 +308,7 @@ void SetResolver::read_seed(const SetNode& node, ExpressionResolver& expressions
         return;
     }
     if (!(*number >= 0.0F && *number < 0x1p64F) || *number != std::floor(*number)) {
-        bad_value(node, value.span, wanted);
+        report_bad_value(node, value.span, wanted);
         return;
     }
     settings.seed = static_cast<std::uint64_t>(*number);

@@ -15,10 +15,10 @@ namespace lsys {
 
 class SetResolver {
 public:
-    /// Whose statements `resolution` has.
+    /// Origin of the statements of `resolution`.
     enum class Origin : std::uint8_t {
         Grammar,
-        Options, // each replaces the values that the grammar gave; `names`: those of its root file
+        Options, // they replace values of the grammar, `names` the one of the root file
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 
@@ -32,7 +32,7 @@ private:
     [[nodiscard]] bool is_first(const SetNode& node);
     void read_mode(const SetNode& node, std::string_view key);
     void report_unknown_key(const SetNode& node);
-    void bad_value(const SetNode& node, SourceSpan span, const std::string& message);
+    void report_bad_value(const SetNode& node, SourceSpan span, const std::string& message);
     [[nodiscard]] std::string_view word_of(const SetNode& node, const char* choices);
     template <typename Enum, std::size_t size>
     void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);

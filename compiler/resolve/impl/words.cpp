@@ -30,8 +30,8 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
     const std::uint32_t count = module.arguments.count;
     const std::uint32_t begin = module.name_span.begin;
     const std::span<const NamePart> parts =
-        module.is_whole ? std::span<const NamePart>{}
-                        : reading.splitter.parts(module.name, count, module.span.file);
+        module.is_indivisible ? std::span<const NamePart>{}
+                              : reading.splitter.parts(module.name, count, module.span.file);
     if (parts.empty()) {
         const SymbolId symbol = reading.symbols.get(module.name, count);
         program.modules.push_back({symbol, begin});

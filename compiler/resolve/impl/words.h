@@ -1,4 +1,4 @@
-// Module lists of axiom and successors to words of the Program.
+// Resolves module lists of the axiom and of successors to words of the Program.
 #pragma once
 
 #include "compiler/resolve/impl/expressions.h"

@@ -1,6 +1,6 @@
-// .rules: the rule lists of Carey's forest generator. Settings of its form as a header, then a line
-// `LHS=RHS:ratio` for each rule. Rewriting is cyclic, a left side may be several symbols, ratios
-// are normalised.
+// .rules: the rule lists of Carey's forest generator. A header holds the settings of the
+// generator's form; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
+// several symbols, ratios are normalised.
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"

@@ -35,7 +35,7 @@ bool is_text(const LinePiece& piece) {
            piece.text[0] != '\0';
 }
 
-/// Reports a colon without a `=` before it; `has_equals`: there is one behind it.
+/// Reports a colon without a `=` before it. `has_equals`: a `=` follows the colon.
 void report_no_equals(const LinePiece& name,
                       const LinePiece& colon,
                       bool has_equals,
@@ -55,9 +55,9 @@ void report_no_equals(const LinePiece& name,
     error.help.push_back("the settings are " + names);
 }
 
-class Lines {
+class CareyReader {
 public:
-    Lines(FileId root, const ParseContext& context)
+    CareyReader(FileId root, const ParseContext& context)
         : context_(context), reader_(whole_file(root, context), {" \t\r"}, context) {}
 
     CareyFile read() {
@@ -161,7 +161,7 @@ const CareyKey* find_carey_key(std::string_view text) {
 }
 
 CareyFile read_carey(FileId root, const ParseContext& context) {
-    return Lines(root, context).read();
+    return CareyReader(root, context).read();
 }
 
 } // namespace lsys

@@ -12,7 +12,7 @@ namespace lsys {
 /// A setting that the generator's form has.
 struct CareyKey {
     std::string_view name;
-    std::string_view lsys; // its name in .lsys; empty: a statement
+    std::string_view lsys; // name of the setting in .lsys; empty for a statement
 };
 /// The key before a colon at the start of `text`; null if there is none.
 [[nodiscard]] const CareyKey* find_carey_key(std::string_view text);

@@ -14,7 +14,7 @@ namespace lsys {
 
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
-/// A left side as it is matched: without blanks.
+/// `text` without blanks, as left sides are compared.
 [[nodiscard]] std::string without_blanks(std::string_view text);
 
 class CareyWriter {

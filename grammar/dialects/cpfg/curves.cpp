@@ -13,14 +13,14 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kSamples = 100; // as many as cpfg takes where a view file does not say
-constexpr double kTolerance = 1e-3;   // of the height
+constexpr std::size_t kSamples = 100; // the default of cpfg
+constexpr double kTolerance = 1e-3;   // relative to the range of values of the curve
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxCurves = 256;
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-/// The next line of `text`, which loses it.
+/// Removes the first line of `text`; returns it without blanks at its ends.
 std::string_view next_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
@@ -81,20 +81,20 @@ CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, dou
     const auto knot = [&](std::size_t i) {
         return i <= degree ? 0.0 : static_cast<double>(std::min(i - degree, spans));
     };
-    std::array<CurvePoint, 4> of{};
+    std::array<CurvePoint, 4> control{};
     for (std::size_t i = 0; i <= degree; ++i) {
-        of[i] = points[span + i];
+        control[i] = points[span + i];
     }
     for (std::size_t level = 1; level <= degree; ++level) {
         for (std::size_t i = degree; i >= level; --i) {
             const double begin = knot(span + i);
             const double end = knot(span + i + degree - level + 1);
             const double part = end > begin ? (t - begin) / (end - begin) : 0.0;
-            of[i].x = of[i - 1].x * (1.0 - part) + of[i].x * part;
-            of[i].y = of[i - 1].y * (1.0 - part) + of[i].y * part;
+            control[i].x = control[i - 1].x * (1.0 - part) + control[i].x * part;
+            control[i].y = control[i - 1].y * (1.0 - part) + control[i].y * part;
         }
     }
-    return of[degree];
+    return control[degree];
 }
 
 std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
@@ -116,7 +116,7 @@ std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
     return samples;
 }
 
-/// The samples of a polyline within the tolerance (Douglas and Peucker).
+/// Simplifies samples to a polyline within the tolerance (Douglas and Peucker).
 std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     const auto [low, high] =
         std::minmax_element(samples.begin(), samples.end(),
@@ -144,16 +144,16 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
             spans.emplace_back(worst, to);
         }
     }
-    std::vector<CurvePoint> left;
+    std::vector<CurvePoint> kept;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (wanted[i]) {
-            left.push_back(samples[i]);
+            kept.push_back(samples[i]);
         }
     }
-    return left;
+    return kept;
 }
 
-/// With six digits after the point, as the files have them.
+/// `value` with six digits after the point, as in curve files.
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     std::array<char, 32> buffer{};
@@ -188,7 +188,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             if (const auto curve = beside(function->substr(0, function->find_first_of(" \t")))) {
                 read_curves(*curve, view.curves);
             }
-            view.curves.resize(before + 1); // a missing file keeps the numbers of those behind it
+            view.curves.resize(before + 1); // a missing file counts: later curves keep their number
         }
     }
     return view;

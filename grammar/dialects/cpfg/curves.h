@@ -1,7 +1,7 @@
 // The functions that cpfg models draw as curves: `func(3, x)`. A view file beside the L-system
 // lists their files (`function: leaf.func 100`) or a set of them with names (`function set:
-// all.fset`). A curve is a B-spline in a plane whose x ascends; as an expression it is a row of
-// chords.
+// all.fset`). A curve is a B-spline in a plane whose x ascends; the .lsys expression approximates
+// it by chords.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct CurvePoint {
 };
 
 struct CpfgCurve {
-    std::string name;               // empty: a file of its own has none
-    std::vector<CurvePoint> points; // of its polygon of control, x ascends
+    std::string name;               // empty for a curve in a file of its own
+    std::vector<CurvePoint> points; // control polygon; x ascends
 };
 
 /// Contents of a view file that words depend on.

@@ -181,7 +181,7 @@ CpfgTerm CpfgExpressions::curve(const CpfgExpression& node) {
     }
     CpfgTerm x = term(node.parts[1]);
     if (index < curves_.size() && !curves_[index].points.empty()) {
-        if (x.is_random) { // it stands in each chord
+        if (x.is_random) { // each chord would draw its own number
             return chosen_by_chance(node.span, "a function of a random number");
         }
         return {curve_at(curves_[index], x.text), false, 0};
@@ -213,7 +213,7 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
             return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
         }
     }
-    if (node.text == "atan2" && wants(2)) { // x first
+    if (node.text == "atan2" && wants(2)) { // its first argument is x
         return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
     }
     if (node.text == "trunc" && wants(1)) {
@@ -257,7 +257,7 @@ CpfgTerm CpfgExpressions::binary(const CpfgExpression& node) {
 }
 
 CpfgTerm CpfgExpressions::term(int index) {
-    const CpfgExpression node = node_at(index); // the vector may not grow, but terms are long
+    const CpfgExpression node = node_at(index); // a copy, which stays valid if the vector grows
     CpfgTerm made;
     switch (node.kind) {
     case CpfgKind::Number:

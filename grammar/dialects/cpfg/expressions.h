@@ -35,7 +35,7 @@ enum class CpfgDraws : std::uint8_t {
     Elsewhere, // by another statement; terms made here do not depend on them
 };
 
-/// Needs of a production beyond one expression per value.
+/// Random numbers that a production needs.
 struct CpfgNeeds {
     bool bound_draws = false; // a random number is used twice or decides a choice
     int draws = 0;            // random numbers, where they are bound
@@ -63,9 +63,10 @@ public:
     /// A copy that reports nothing, to find the needs of a production.
     [[nodiscard]] CpfgExpressions probe() const;
     [[nodiscard]] const CpfgNeeds& needs() const { return needs_; }
-    /// The parameter that random number `index` is where they are bound.
+    /// Name of the parameter that holds bound random number `index`.
     [[nodiscard]] std::string draw_name(int index) const;
-    /// A decision by a random number; an error where random numbers are not bound.
+    /// Notes that a decision depends on a random number, which must be bound; reports an error if
+    /// random numbers are drawn inline. Returns a placeholder.
     [[nodiscard]] CpfgTerm chosen_by_chance(SourceSpan span, const std::string& message);
 
     /// Warns once per `what` that lsc leaves it out.
@@ -119,9 +120,9 @@ private:
     const std::vector<CpfgCurve>& curves_;
     Variables variables_;
     Variables globals_;
-    std::map<Stage, Variables> states_;     // globals that steps change, as productions see them
+    std::map<Stage, Variables> states_;     // values of changing globals in productions, by stage
     std::map<std::string, int> increments_; // by global: the expression that each step adds to it
-    std::set<std::string> reset_;           // globals that each step makes anew
+    std::set<std::string> reset_;           // globals that each step assigns before reading them
     std::vector<CpfgConstant> constants_;
     std::map<std::string, Array> arrays_;
     std::set<std::string> formals_;
@@ -130,16 +131,16 @@ private:
     CpfgNeeds needs_;
     Stage stage_ = Stage::Rewrite;
     bool in_header_ = false;
-    bool in_step_ = false; // blocks of each step
+    bool in_step_ = false; // in a block that runs in each step
     CpfgDraws draws_ = CpfgDraws::Inline;
     bool probes_ = false;
 };
 
-/// The text is a number; a number that is 0.
 [[nodiscard]] bool is_cpfg_number(std::string_view text);
+/// Whether a number is 0. Precondition: is_cpfg_number(text).
 [[nodiscard]] bool is_cpfg_zero(std::string_view text);
 [[nodiscard]] std::string in_cpfg_parentheses(const std::string& text);
-/// Bytes of an expression. Variables that are put into one another make longer ones.
+/// Maximum bytes of an expression, which grows as variables are replaced by their values.
 inline constexpr std::size_t kMaxCpfgTerm = 20'000;
 
 } // namespace lsys

@@ -19,7 +19,7 @@ bool is_letter(const std::string& name) {
 
 } // namespace
 
-/// Names of all modules, and of those that productions look at.
+/// Collects the names of all modules, and of the modules in predecessors and contexts.
 void CpfgWriter::find_names() {
     const auto note = [&](std::vector<CpfgModule>& list, bool matched) {
         for (CpfgModule& module : list) {
@@ -56,7 +56,7 @@ void CpfgWriter::keep_tilde(CpfgProduction& production) const {
         const auto& named = session_.considers ? session_.considered : session_.ignored;
         const bool is_named = std::any_of(named.begin(), named.end(),
                                           [](const auto& module) { return module.name == "~"; });
-        if (is_named == session_.considers) { // else contexts do not see it
+        if (is_named == session_.considers) { // otherwise contexts skip the `~`
             production.left.push_back(production.predecessor.front());
         }
         production.predecessor.erase(production.predecessor.begin());
@@ -88,14 +88,14 @@ void CpfgWriter::check_module(CpfgModule& module) {
     } else if ((name == "{" || name == "}") && module.has_arguments) {
         expressions_.warn_left_out(module.span, "{(", "parameters of `" + name + "` are left out");
     }
-    // text of a label
+    // Drop strings, the texts of labels.
     std::erase_if(module.arguments, [&](int argument) {
         return name.starts_with("@") && expression(argument).kind == CpfgKind::String;
     });
     module.has_arguments = !module.arguments.empty();
 }
 
-/// The symbol after a `~`.
+/// Records the symbol after a `~` as a surface.
 void CpfgWriter::add_surface(const CpfgModule& module) {
     surfaces_.insert(module.name);
     expressions_.warn_left_out(module.span, "surface " + module.name,
@@ -140,8 +140,8 @@ void CpfgWriter::write_setting(const char* begin, int expression, const char* fa
     out_.put(";\n", span);
 }
 
-/// A stage whose random numbers are bound takes one pass more; in a stage of several passes, up to
-/// twice as many.
+/// Writes the number of passes of a stage. Bound random numbers take additional passes: those of
+/// this stage up to one per pass, those of Rewrite one pass of Decompose.
 void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
@@ -160,7 +160,7 @@ void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
     out_.put(begin + ("(" + text + ")") + ";\n", header_);
 }
 
-/// The view file of the object lies beside the L-system, under its name.
+/// Reads the view file, which lies beside the L-system and has its name.
 void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
@@ -223,7 +223,7 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     }
 }
 
-/// Symbols that stand for themselves.
+/// Declares the modules that no production rewrites and that draw nothing.
 void CpfgWriter::write_declarations() {
     std::set<std::string> rewritten;
     for (const CpfgProduction& production : session_.productions) {

@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Bytes that macros may write; only a macro that writes itself needs more.
+/// Maximum bytes of all expanded macros; only macros that expand to themselves reach it.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 
@@ -75,7 +75,7 @@ public:
 private:
     struct Condition {
         bool holds = false;
-        bool held = false; // a part of it has been taken
+        bool held = false; // one of its branches has been taken
         std::uint32_t begin = 0;
     };
 
@@ -88,7 +88,7 @@ private:
                            [](const Condition& each) { return each.holds; });
     }
 
-    /// `#` is a symbol of the turtle too: a line that begins with another word is none.
+    /// Whether a known directive follows the `#`, which is also a symbol of the turtle.
     static bool is_directive(std::string_view text) {
         const std::string_view rest = trimmed(text.substr(1));
         const std::string_view word = rest.substr(0, name_length(rest));

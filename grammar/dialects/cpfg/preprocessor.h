@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-/// The text of `root` without directives and comments, macros replaced; each part stands for its
+/// The text of `root` without directives and comments, with macros expanded; each part keeps its
 /// place in the files. Mistakes are reported.
 [[nodiscard]] Translation preprocess_cpfg(FileId root, const ParseContext& context);
 

@@ -1,6 +1,6 @@
-/* The tokens of cpfg files, after the preprocessor. Symbols of modules stand for themselves; within the
-   parentheses of a module, in conditions and in statements there are expressions. A line ends where the next
-   does not begin with a tab; within braces it never ends. */
+/* The tokens of cpfg files, after the preprocessor. Expressions stand within the parentheses of a module, in
+   conditions and in statements; elsewhere each character is the symbol of a module. A line that begins with a tab
+   continues the line before; line ends within braces do not count. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs

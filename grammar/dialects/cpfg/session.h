@@ -1,5 +1,5 @@
-// One parse of a cpfg file: what scanner, parser and writer share. Nodes lie in vectors, children
-// before parents.
+// The state of one parse of a cpfg file, shared by scanner, parser and writer. Nodes lie in
+// vectors, children before parents.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -54,7 +54,7 @@ struct CpfgModule {
     std::vector<int> arguments;
 };
 
-/// A list of modules, -1: none is written.
+/// A production. Missing parts are empty lists or -1.
 struct CpfgProduction {
     Stage stage = Stage::Rewrite;
     std::vector<CpfgModule> left;
@@ -103,7 +103,7 @@ public:
     Mode mode = Mode::Line;
     int nesting = 0;           // brackets open in an expression
     bool in_arguments = false; // of a module: the last `)` leads back to symbols
-    bool label = false;        // the words of the label
+    bool label = false;        // in the words of the label
 
     /// The place of the next `length` bytes.
     SourceSpan take(std::uint32_t length) {

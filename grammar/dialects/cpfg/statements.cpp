@@ -44,8 +44,8 @@ void CpfgExpressions::read_header() {
     in_header_ = false;
 }
 
-/// Sorts the variables that blocks of a step assign: incremented by each step, assigned anew by
-/// each step, or unknown.
+/// Classifies the variables that blocks of a step assign: incremented by each step, assigned anew
+/// by each step, or unknown.
 void CpfgExpressions::read_each_step() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);
@@ -113,8 +113,8 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
     });
 }
 
-/// Increment of the variable per step, an expression; -1: none. The only statement that assigns it
-/// is `v = v + e;`, not within an `if`, and no step changes `e`.
+/// The expression that each step adds to the variable, or -1. It exists if the only assignment to
+/// the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
 int CpfgExpressions::step_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {
@@ -137,7 +137,7 @@ int CpfgExpressions::step_of(const std::string& variable) const {
     return -1;
 }
 
-/// Returns true when statements assign the variable before they read it; nullopt: neither.
+/// Whether statements assign the variable before they read it; nullopt if they do neither.
 std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& statements,
                                                        const std::string& variable) const {
     for (const int index : statements) {

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Random numbers of one choice; each production of the module has them all as parameters.
+/// Maximum random numbers of one choice; each production of the module has them all as parameters.
 constexpr int kMaxDraws = 1000;
 
 } // namespace
@@ -165,12 +165,12 @@ void CpfgWriter::write_modules(const std::vector<CpfgModule>& list) {
     }
 }
 
-/// Predecessor or context: its parameters are names.
+/// Writes a predecessor or context, whose parameters are names.
 void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
         if (module.name == "=" && next != nullptr && next->name == "]") {
-            continue; // what follows in the branch does not matter, and so it is in .lsys
+            continue; // the rest of the branch does not matter, as in .lsys
         }
         write_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {
@@ -274,11 +274,11 @@ void CpfgWriter::write_draws(const std::vector<std::string>& names, int count, S
 
 void CpfgWriter::write_production(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
-    const Binds& binds = bindings_[index];
+    const BoundDraws& bound = bindings_[index];
     if (!check(production)) {
         return;
     }
-    if (binds.binding == Binding::Group) {
+    if (bound.binding == Binding::Group) {
         if (groups_.count(index) != 0) {
             write_group(index);
         }
@@ -286,7 +286,7 @@ void CpfgWriter::write_production(std::size_t index) {
     }
     const std::vector<std::string> names = formals_of(production);
     write_head(production, label_of(production.stage, index));
-    const bool own = binds.binding == Binding::Own;
+    const bool own = bound.binding == Binding::Own;
     expressions_.begin({names.begin(), names.end()}, production.stage,
                        own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
     expressions_.run(production.before);
@@ -356,7 +356,8 @@ void CpfgWriter::write_bound_production(std::size_t index) {
     out_.put(";\n", production.arrow);
 }
 
-/// Draws random numbers for a module; which of its productions it takes depends on them.
+/// Writes the productions of a module that is rewritten by a random choice: the first draws the
+/// random numbers, on which the others depend.
 void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];
@@ -440,7 +441,7 @@ void CpfgWriter::write_weight(const CpfgProduction& production) {
 }
 
 /// Writes the condition of the choice: the last random number, times the sum of the weights of all
-/// matching productions, falls into the weight of this one.
+/// matching productions, lies in the interval of the weight of this one.
 void CpfgWriter::write_weighted_condition(const CpfgProduction& production, std::size_t index) {
     const std::vector<std::string> own = formals_of(production);
     std::string until;
@@ -463,7 +464,7 @@ void CpfgWriter::write_weighted_condition(const CpfgProduction& production, std:
             other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
         part += condition.empty() ? "" : " * (" + condition + " != 0)";
         all += (all.empty() ? "" : " + ") + part;
-        if (all.size() > kMaxCpfgTerm) { // it stands in the conditions of all of them
+        if (all.size() > kMaxCpfgTerm) { // the sum is part of the condition of each production
             session_.report_unsupported(
                 session_.productions[groups_.at(index).front()].span,
                 "so many productions for one module that the sum of their weights is "

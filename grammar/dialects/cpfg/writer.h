@@ -1,8 +1,8 @@
 // Writes a parsed cpfg file as .lsys text.
 //
-// An expression of .lsys draws a random number where it stands, so one that is used twice, or that
-// decides something, is a parameter of a module that is written first and decomposed at once:
-// `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
+// A random range of .lsys draws a number at each place where it is written. So a random number that
+// is used twice, or that decides something, becomes a parameter of an intermediate module, which is
+// decomposed at once: `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -28,12 +28,12 @@ private:
     enum class Binding : std::uint8_t {
         None,
         Own,   // the production matches, then its random numbers are drawn
-        Group, // they are drawn, then one of the productions of the module is chosen
+        Group, // random numbers are drawn, then one of the productions of the module is chosen
     };
-    struct Binds {
+    struct BoundDraws {
         Binding binding = Binding::None;
-        int first_draw = 0; // of a group: of those of the production itself
-        int draws = 0;      // of the module
+        int first_draw = 0; // in a group: index of the first number of this production
+        int draws = 0;      // count of the numbers of the module
     };
 
     // --- names
@@ -85,7 +85,7 @@ private:
     SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
-    std::vector<Binds> bindings_;                            // of each production
+    std::vector<BoundDraws> bindings_;                       // of each production
     std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
     std::set<Stage> bound_;                                  // stages with bindings
     std::set<std::string> used_;                             // names of all modules

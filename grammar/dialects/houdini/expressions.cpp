@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// Functions that .lsys has under another or the same name.
+/// A function of Houdini and its name in .lsys.
 struct Function {
     std::string_view name;
     std::string_view in_lsys;
@@ -25,7 +25,7 @@ constexpr std::array<Function, 21> kFunctions{{
 }};
 
 /// Variables of the turtle, unknown to rules.
-constexpr std::string_view kOfTurtle = "xyzALTUVW";
+constexpr std::string_view kTurtleVariables = "xyzALTUVW";
 
 std::string_view operator_of(std::string_view text) {
     if (text[0] == '&') {
@@ -123,7 +123,7 @@ void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope&
         report_unsupported(node.span,
                            "where a module stands in the word, `i`, is not known to rules of lsc, "
                            "except as the seed of `rand`");
-    } else if (name.size() == 1 && kOfTurtle.find(name[0]) != std::string_view::npos) {
+    } else if (name.size() == 1 && kTurtleVariables.find(name[0]) != std::string_view::npos) {
         report_unsupported(node.span,
                            "`" + std::string(name) +
                                "` is of the turtle, which draws when all rules have been applied");

@@ -1,5 +1,6 @@
-// The rule texts of Houdini's L-system node: settings, the premise, then a rule
-// `left<symbol>right:condition=replacement:probability` a line. Its turtle is the profile `sidefx`.
+// The rule texts of Houdini's L-system node: settings, the premise, then one rule
+// `left<symbol>right:condition=replacement:probability` per line. The turtle is the profile
+// `sidefx`.
 #include "grammar/dialects/houdini/session.h"
 #include "grammar/dialects/houdini/writer.h"
 #include "grammar/dialects/impl/frontends.h"
@@ -40,7 +41,8 @@ bool is_setting(std::string_view line) {
     return find_houdini_setting(key) != nullptr;
 }
 
-/// A symbol, perhaps with contexts, parameters and a condition, a `=`, and no arrow.
+/// A rule has a symbol, perhaps with contexts, parameters and a condition, then a `=`; a line with
+/// an arrow is no rule.
 LineKind kind_of_rule(std::string_view line, std::size_t equals) {
     std::string_view head = trimmed(line.substr(0, equals));
     head = trimmed(head.substr(0, head.find(':')));
@@ -66,7 +68,7 @@ LineKind kind_of(std::string_view line) {
     if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
         return kind_of_rule(line, equals);
     }
-    // Words, braces of other formats, numbers only: no premise.
+    // A premise has a letter, and no blanks, colons, braces or back quotes as in other formats.
     constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     const bool fits = line.find_first_of(kLetters) != std::string_view::npos &&
                       line.find(' ') == std::string_view::npos &&

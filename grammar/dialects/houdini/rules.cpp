@@ -1,4 +1,4 @@
-// Rules: the part of HoudiniWriter that writes them.
+// The part of HoudiniWriter that writes rules.
 #include "grammar/ast/number.h"
 #include "grammar/dialects/houdini/writer.h"
 
@@ -8,7 +8,8 @@ namespace lsys {
 
 namespace {
 
-/// Numbers of parameters with which a symbol of the turtle stands in words, else as in the head.
+/// The parameter counts of a symbol of the turtle in words; if no word has it, its count in the
+/// head.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {
@@ -21,7 +22,7 @@ std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t 
 
 } // namespace
 
-/// Rules of one group compete: the same symbols in predecessor and contexts.
+/// Key of a group: rules with the same symbols in predecessor and contexts, which compete.
 std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
     std::string group;
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
@@ -61,8 +62,8 @@ std::string HoudiniWriter::chance_of(int condition) const {
     return sign[0] == '<' ? number : "(1 - " + number + ")";
 }
 
-/// Two rules of a group, of which the first has `rand(seed) < number` for its condition and the
-/// second has none, are a choice.
+/// Finds pairs of rules that are a random choice: the only two of a group, the first with the
+/// condition `rand(seed) < number`, the second without a condition.
 void HoudiniWriter::find_chances() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
     std::map<std::string_view, std::size_t> rules_of; // by symbol

@@ -1,6 +1,5 @@
-/* The tokens of Houdini's rule texts. A line is a setting, the premise or a rule; within parentheses, and behind a
-   `:`, stand expressions, elsewhere every character is a symbol. No pattern that may be long
-   contains NUL. */
+/* The tokens of Houdini's rule texts. A line is a setting, the premise or a rule. Expressions stand within
+   parentheses and behind a `:`; elsewhere every character is a symbol. No pattern that may be long contains NUL. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs
@@ -129,7 +128,7 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
 
 namespace lsys {
 
-/// The text with a line's end behind it, which the last line may lack.
+/// Scans the text with a line end appended, since the last line may lack one.
 HoudiniScanning::HoudiniScanning(HoudiniSession& session, std::string_view text) {
     const int failed = houdini_yylex_init_extra(&session, &scanner_);
     LSYS_CHECK(failed == 0);

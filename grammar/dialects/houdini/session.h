@@ -1,4 +1,4 @@
-// One parse of a Houdini rule text: what scanner, parser and writer share.
+// The state of one parse of a Houdini rule text, shared by scanner, parser and writer.
 #pragma once
 
 #include "grammar/base/contract.h"
@@ -48,7 +48,7 @@ struct HoudiniRule {
     std::vector<HoudiniModule> right;
     std::vector<HoudiniModule> successor;
     int condition = -1;           // a node; -1: none
-    int probability = -1;         // the same
+    int probability = -1;         // a node; -1: none
     std::uint32_t first_node = 0; // of the nodes of its line
     std::uint32_t end_node = 0;
     SourceSpan span;

@@ -17,7 +17,7 @@ enum class HoudiniSettingKind : std::uint8_t {
 };
 
 struct HoudiniSettingRow {
-    std::string_view key; // as houdini_key() has it
+    std::string_view key; // in the form of houdini_key()
     HoudiniSettingKind kind{};
     std::string_view name; // of the setting in .lsys
 };

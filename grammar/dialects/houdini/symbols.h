@@ -1,6 +1,6 @@
 // Facts about each symbol of a Houdini rule text: numbers of parameters, whether rules rewrite it,
-// whether they ask for its age. Houdini does not tell modules apart by the number of
-// their parameters, and takes 0 for those that are left out; .lsys does.
+// whether they read its age. Houdini takes 0 for parameters that are left out; in .lsys modules
+// with different numbers of parameters are different modules.
 #pragma once
 
 #include "grammar/dialects/houdini/session.h"

@@ -94,7 +94,7 @@ bool HoudiniWriter::reads_variable(std::string_view value) const {
     return false;
 }
 
-/// The values b, c and d, which -D can replace.
+/// Defines the values b, c and d as constants, which -D can replace.
 void HoudiniWriter::write_values() {
     for (const std::string_view value : {"b", "c", "d"}) {
         if (!reads_variable(value)) {
@@ -279,7 +279,7 @@ void HoudiniWriter::write_left_out(const HoudiniModule& module,
     }
 }
 
-/// The parameters of a module of a word, but for the first `skip`.
+/// Writes the parameters of a module of a word, without the first `skip`.
 void HoudiniWriter::write_arguments(const HoudiniModule& module,
                                     std::uint32_t skip,
                                     const HoudiniScope& scope) {

@@ -80,7 +80,7 @@ void write_letter(const LetterModule& module,
                   const ParseContext& context,
                   Translation& translation) {
     const std::string spelled = spelled_letter(module.character);
-    if (spelled.size() == 1) { // as it stands in the file
+    if (spelled.size() == 1) { // spelled as in the file
         translation.copy(module.span, context.sources);
     } else {
         translation.put(spelled, module.span);

@@ -69,7 +69,7 @@ bool LineReader::expect(bool fits,
         at_ = std::min(text_.find('\n', at_), text_.size());
         const bool has_line_ends = format_.blanks.find('\n') == std::string_view::npos;
         if (has_line_ends) {
-            static_cast<void>(next(nullptr)); // no piece is in front of it
+            static_cast<void>(next(nullptr)); // the next piece is the line end
         }
     }
     return false;

@@ -1,4 +1,4 @@
-// Small questions about texts that several front ends ask.
+// Text functions that several front ends use.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@ namespace lsys {
 
 namespace {
 
-/// Maximum difference of a cell from the median, and of the widest cell from it; beyond it the cell
-/// is not aligned.
+/// Maximum excess of an aligned cell over the median width, and maximum padding of an aligned cell.
+/// Other cells are not aligned.
 constexpr std::uint32_t kWidestGap = 24;
 /// A longer head leaves too little of the line for modules.
 constexpr std::uint32_t kLongHead = 50;
@@ -36,7 +36,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
             if (cell + 1 < row.cell_count) {
                 blanks = widths[next++];
             }
-            if (blanks == kAlone) {
+            if (blanks == kUnaligned) {
                 blanks = 0;
                 row.cell_count = static_cast<std::uint8_t>(cell); // no later cell is aligned
             }
@@ -142,7 +142,7 @@ void pad(std::vector<std::uint32_t>& widths) {
         column = width <= max_width ? std::max(column, width) : column;
     }
     for (std::uint32_t& width : widths) {
-        width = width > column || column - width > kWidestGap ? kAlone : column - width;
+        width = width > column || column - width > kWidestGap ? kUnaligned : column - width;
     }
 }
 

@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// Cells of a production: name, predecessor, condition, successor; the maximum of all statements.
+/// Cells of a production: name, predecessor, condition, successor. Other statements have fewer.
 inline constexpr std::size_t kCells = 4;
 
 /// The measures of a statement without columns.
@@ -37,9 +37,10 @@ struct LayoutRow {
 /// Replaces the widths of cells by blanks.
 void line_up(std::span<LayoutRow> rows);
 
-inline constexpr std::uint32_t kAlone = 0xFFFFFFFFu;
+/// In place of the padding of a width that is not aligned.
+inline constexpr std::uint32_t kUnaligned = 0xFFFFFFFFu;
 
-/// Replaces each width by its difference from the common column, or by kAlone.
+/// Replaces each width by its difference from the common column, or by kUnaligned.
 void pad(std::vector<std::uint32_t>& widths);
 
 } // namespace lsys

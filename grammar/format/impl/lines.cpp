@@ -62,7 +62,8 @@ void LineWriter::new_line(std::uint32_t depth) {
     one_line_ = false;
 }
 
-/// The best place that makes the line short enough, of equals the last; else the first candidate.
+/// Index of the break to use: the best one right of kShortLine that makes the line short enough,
+/// the last of equal ones; else the last one that does; else the first.
 std::size_t LineWriter::best_break() const {
     std::size_t best = breaks_.size();
     std::size_t last_short = breaks_.size();

@@ -8,7 +8,8 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMaxRowLength = 16;
+/// Maximum number of equal symbols in a piece, as in `////`.
+constexpr std::uint32_t kMaxRepeats = 16;
 
 bool is_tight(const Lexeme& lexeme) {
     return lexeme.kind == LexemeKind::Operator &&
@@ -72,7 +73,7 @@ void append_comment(std::string_view comment, std::string& out) {
 }
 
 PieceReader::PieceReader(std::string_view text, std::size_t begin) : reader_(text, begin) {
-    done_ = !reader_.next(now_);
+    done_ = !reader_.next(current_);
     shape_ = reader_.shape();
 }
 
@@ -84,22 +85,22 @@ bool PieceReader::next(Piece& piece) {
     describe(piece);
     for (;;) {
         take(piece);
-        before_ = now_;
-        if (before_.kind == LexemeKind::Semicolon || !reader_.next(now_)) {
+        previous_ = current_;
+        if (previous_.kind == LexemeKind::Semicolon || !reader_.next(current_)) {
             done_ = true;
             piece.ends_statement = true;
             break;
         }
-        if (ends_before(now_)) {
+        if (ends_before(current_)) {
             break;
         }
-        if (blank_between(before_, now_)) {
+        if (blank_between(previous_, current_)) {
             piece.text += ' ';
         }
     }
     end_ = reader_.offset();
     if (piece.break_class == BreakClass::Fine && piece.text.starts_with("//")) {
-        piece.break_class = BreakClass::Poor; // a line with this begin looks like a comment
+        piece.break_class = BreakClass::Poor; // a line that begins with `//` looks like a comment
     }
     const std::string_view written = piece.text;
     piece.several_lines = has_comment_ && written.find('\n') != written.npos;
@@ -116,9 +117,9 @@ bool PieceReader::next(Piece& piece) {
 bool PieceReader::skip_rest() {
     bool several_lines = false;
     while (!done_) {
-        several_lines = several_lines || (now_.kind == LexemeKind::BlockComment &&
-                                          now_.text.find('\n') != now_.text.npos);
-        done_ = now_.kind == LexemeKind::Semicolon || !reader_.next(now_);
+        several_lines = several_lines || (current_.kind == LexemeKind::BlockComment &&
+                                          current_.text.find('\n') != current_.text.npos);
+        done_ = current_.kind == LexemeKind::Semicolon || !reader_.next(current_);
     }
     end_ = reader_.offset();
     return several_lines;
@@ -126,31 +127,32 @@ bool PieceReader::skip_rest() {
 
 void PieceReader::describe(Piece& piece) {
     const bool first = index_ == 0;
-    piece.blank_before = !first && blank_between(before_, now_);
+    piece.blank_before = !first && blank_between(previous_, current_);
     piece.begins_cell = !first && begins_cell();
     piece.in_list = in_list_;
-    const bool keeps_line = now_.kind != LexemeKind::Semicolon;
-    piece.own_line = in_list_ && keeps_line && now_.newlines_before > 0;
+    const bool keeps_line = current_.kind != LexemeKind::Semicolon;
+    piece.own_line = in_list_ && keeps_line && current_.newlines_before > 0;
     piece.break_class = first ? BreakClass::Never : break_class();
-    piece.depth = brackets_ - (closes_bracket(now_) && brackets_ > 0 ? 1U : 0U);
+    piece.depth = brackets_ - (closes_bracket(current_) && brackets_ > 0 ? 1U : 0U);
     piece.rank = 0;
     if (in_list_) {
-        // Outer levels first, then blanks, then branches.
-        piece.rank = brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(now_, '[') ? 0 : 1);
+        // Prefer breaks at outer levels, then at blanks, then before branches.
+        piece.rank =
+            brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
     }
     piece.ends_statement = false;
-    piece.semicolon_only = now_.kind == LexemeKind::Semicolon;
+    piece.semicolon_only = current_.kind == LexemeKind::Semicolon;
 }
 
 bool PieceReader::begins_cell() const {
-    if (parentheses_ > 0 || now_.kind == LexemeKind::BlockComment) {
+    if (parentheses_ > 0 || current_.kind == LexemeKind::BlockComment) {
         return false;
     }
     switch (shape_) {
     case StatementShape::Production:
-        return now_.kind == LexemeKind::Colon && colons_ < 3;
+        return current_.kind == LexemeKind::Colon && colons_ < 3;
     case StatementShape::Definition:
-        return index_ <= 2 || now_.opens_bounds;
+        return index_ <= 2 || current_.opens_bounds;
     case StatementShape::Setting:
     case StatementShape::Declaration:
         return index_ <= 2;
@@ -164,29 +166,30 @@ bool PieceReader::begins_cell() const {
 BreakClass PieceReader::break_class() const {
     using enum LexemeKind;
     if (in_list_) {
-        if (opens_bracket(before_) || now_.kind == BlockComment || now_.kind == Semicolon) {
+        if (opens_bracket(previous_) || current_.kind == BlockComment ||
+            current_.kind == Semicolon) {
             return BreakClass::Never;
         }
-        return closes_bracket(now_) ? BreakClass::Poor : BreakClass::Fine;
+        return closes_bracket(current_) ? BreakClass::Poor : BreakClass::Fine;
     }
-    switch (now_.kind) {
+    switch (current_.kind) {
     case Operator:
-        return before_.kind == Keyword ? BreakClass::Never : BreakClass::Fine;
+        return previous_.kind == Keyword ? BreakClass::Never : BreakClass::Fine;
     case Context:
     case Module:
         return BreakClass::Fine;
     default:
-        return before_.kind == Colon && now_.kind != Semicolon ? BreakClass::Fine
-                                                               : BreakClass::Never;
+        return previous_.kind == Colon && current_.kind != Semicolon ? BreakClass::Fine
+                                                                     : BreakClass::Never;
     }
 }
 
 /// Whether `after` repeats the symbol before it.
 bool PieceReader::continues_repeat(const Lexeme& after) const {
-    return after.kind == LexemeKind::Module && before_.kind == LexemeKind::Module &&
-           !after.blank_before && after.text[0] == before_.text[0] && after.text.size() == 1 &&
-           before_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
-           repeat_count_ < kMaxRowLength;
+    return after.kind == LexemeKind::Module && previous_.kind == LexemeKind::Module &&
+           !after.blank_before && after.text[0] == previous_.text[0] && after.text.size() == 1 &&
+           previous_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
+           repeat_count_ < kMaxRepeats;
 }
 
 bool PieceReader::ends_before(const Lexeme& after) const {
@@ -199,18 +202,18 @@ bool PieceReader::ends_before(const Lexeme& after) const {
     if (in_list_ && after.kind == LexemeKind::Open) {
         return false;
     }
-    return blank_between(before_, after);
+    return blank_between(previous_, after);
 }
 
 void PieceReader::take(Piece& piece) {
-    repeat_count_ = !piece.text.empty() && continues_repeat(now_) ? repeat_count_ + 1 : 1;
-    if (now_.kind == LexemeKind::BlockComment) {
+    repeat_count_ = !piece.text.empty() && continues_repeat(current_) ? repeat_count_ + 1 : 1;
+    if (current_.kind == LexemeKind::BlockComment) {
         has_comment_ = true;
-        append_comment(now_.text, piece.text);
+        append_comment(current_.text, piece.text);
     } else {
-        piece.text += now_.text;
+        piece.text += current_.text;
     }
-    switch (now_.kind) {
+    switch (current_.kind) {
     case LexemeKind::BlockComment:
         return;
     case LexemeKind::Open:
@@ -227,9 +230,9 @@ void PieceReader::take(Piece& piece) {
                    shape_ == StatementShape::List;
         break;
     case LexemeKind::Module:
-        if (opens_bracket(now_)) {
+        if (opens_bracket(current_)) {
             ++brackets_;
-        } else if (closes_bracket(now_)) {
+        } else if (closes_bracket(current_)) {
             brackets_ -= brackets_ > 0 ? 1U : 0U;
         }
         break;

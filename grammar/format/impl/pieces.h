@@ -54,12 +54,12 @@ private:
     void take(Piece& piece);
 
     LexemeReader reader_;
-    Lexeme before_;
-    Lexeme now_;
+    Lexeme previous_;
+    Lexeme current_;
     std::size_t end_ = 0;
     bool done_ = false;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t index_ = 0; // of now_, comments not counted
+    std::uint32_t index_ = 0; // of current_, comments not counted
     std::uint32_t colons_ = 0;
     std::uint32_t parentheses_ = 0;
     std::uint32_t brackets_ = 0;

@@ -140,7 +140,7 @@ Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool had_name = scan.name_before;
     scan.after_operator();
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     const bool in_list = !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
     const std::string_view text = session.scanned.text;
     const bool adjacent = scan.begin == scan.last_end;
@@ -160,7 +160,7 @@ Token between_values(ParseSession& session) {
             add_fix(diagnostic, "add `,`", place, ",",
                     lacks_comma(text, scan.last_end, scan.begin, scan.end));
         }
-        return Token(Parser::token::TOK_COMMA, place).as_supplied();
+        return Token(Parser::token::TOK_COMMA, place).as_inserted();
     }
     const bool joins_conditions = scan.part == Part::Condition && scan.open.empty() && !adjacent;
     if (session.wants(DiagnosticCode::MissingOperator)) {
@@ -187,12 +187,12 @@ Token between_values(ParseSession& session) {
     }
     return (joins_conditions ? Token(Parser::token::TOK_AND, place)
                              : Token(Parser::token::TOK_STAR, place))
-        .as_supplied();
+        .as_inserted();
 }
 
 } // namespace
 
-Token supply_before_value(ParseSession& session) {
+Token insert_before_value(ParseSession& session) {
     Token token = between_values(session);
     session.scan.end = session.scan.begin;
     return token;
@@ -255,7 +255,7 @@ std::optional<Token> closing_bracket(ParseSession& session, char character) {
     }
     // An inner bracket of the other kind must be closed first.
     const OpenBracket& inner = scan.open.back();
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::string closer = is_brace ? ")" : "}";
         Diagnostic& diagnostic = session.report(
@@ -266,9 +266,9 @@ std::optional<Token> closing_bracket(ParseSession& session, char character) {
         add_fix(diagnostic, "add `" + closer + "`", place, closer, true);
     }
     if (scan.pop() == OpenBracket::Kind::Brace) {
-        return Token(Parser::token::TOK_RBRACE, place).as_supplied();
+        return Token(Parser::token::TOK_RBRACE, place).as_inserted();
     }
-    return Token(Parser::token::TOK_RPAREN, place).as_supplied();
+    return Token(Parser::token::TOK_RPAREN, place).as_inserted();
 }
 
 namespace {
@@ -333,7 +333,7 @@ bool is_word_for_operator(ParseSession& session, std::string_view word) {
         const std::string right = word == "and" ? "&&" : "||";
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                                 "there is no operator `" + std::string(word) + "`");
-        // Between arguments it may be a name without its commas.
+        // Between arguments the word may be a name without its commas.
         const bool in_list =
             !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
         add_fix(diagnostic, "write `" + right + "`", diagnostic.span, right, !in_list);

@@ -19,7 +19,7 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
 
 /// Reports and inserts a `,` or an operator before the current value, which follows another one.
 /// The value is read again, unless the statement is skipped.
-Token supply_before_value(ParseSession& session);
+Token insert_before_value(ParseSession& session);
 /// Whether a `{` would begin the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 

@@ -49,7 +49,7 @@ bool may_search(ParseSession& session) {
     return session.scan.bracket_searches++ < kMaxBracketSearches;
 }
 
-/// Reports a `)` without `(`, for which a `[` may stand.
+/// Reports a `)` without `(`. `branch`: the place of a `[` that may be meant as the `(`.
 void report_missing_open(ParseSession& session,
                          std::uint32_t at,
                          std::optional<std::uint32_t> branch) {

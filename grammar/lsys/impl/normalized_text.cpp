@@ -157,7 +157,7 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
     const NameId letters = scratch.names.intern("letters");
     const NameId characters = scratch.names.intern("characters");
     lsys_grammar::Scanning scanning(session);
-    int matched = 0; // of: SET names
+    int matched = 0; // tokens of `#set names`
     while (true) {
         const auto token = lsys_grammar::next_token(session, scanning.scanner());
         if (token.kind() == Kind::S_YYEOF) {
@@ -186,10 +186,11 @@ NormalizedText normalize_source(FileId file, const ParseContext& context) {
     const std::string_view source = context.sources.file(file).text();
     normalized.scanned = {file, source, nullptr, nullptr};
     if (!is_ascii(source)) {
-        normalized.own = std::make_unique<std::string>();
-        const Validity validity = check_utf8(file, source, context.diagnostics, *normalized.own);
+        normalized.repaired = std::make_unique<std::string>();
+        const Validity validity =
+            check_utf8(file, source, context.diagnostics, *normalized.repaired);
         if (validity.has_invalid) {
-            normalized.scanned.text = *normalized.own;
+            normalized.scanned.text = *normalized.repaired;
         }
         if (validity.has_beyond_ascii) {
             normalize_source(context, context.diagnostics, normalized);

@@ -10,9 +10,9 @@
 
 namespace lsys {
 
-/// The text for the scan of a file. `scanned` refers to `own` and `map`.
+/// The text for the scan of a file. `scanned` refers to `repaired` and `map`.
 struct NormalizedText {
-    std::unique_ptr<std::string> own;
+    std::unique_ptr<std::string> repaired; // without invalid UTF-8; null if the file has none
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
     /// Value of the first `#set names` of the file.
@@ -34,7 +34,7 @@ namespace lsys_grammar {
 /// reported.
 int normalize_character(ParseSession& session, char* character, int length);
 /// Records the confusables of the current name in back quotes. In a translation they are errors,
-/// because the .lsys text would be read as a different one.
+/// because .lsys would read the name as a different one.
 void normalize_quoted(ParseSession& session, std::string_view text);
 
 } // namespace lsys_grammar

@@ -21,7 +21,7 @@ struct StrayCharacter {
     friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
 };
 
-/// The replacement of `point`: the ASCII of a confusable, a part of a name for a letter, else a
+/// The replacement of `point`: ASCII for a confusable, `_` and the code point for a letter, else a
 /// blank.
 [[nodiscard]] std::string normalized_form(char32_t point);
 

@@ -43,7 +43,7 @@ public:
     // Set by the parser too, so no token may depend on them: scans without a parser yield the same
     // tokens.
     bool failed = false;         // the statement has a syntax error and gets no further reports
-    bool token_supplied = false; // the last token was inserted
+    bool token_inserted = false; // the last token was inserted
 
     /// The current match.
     [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
@@ -57,7 +57,7 @@ public:
         return match();
     }
     /// The span of an inserted token, after the last token.
-    [[nodiscard]] SourceSpan supplied() const { return scanned.after(scan.last_end); }
+    [[nodiscard]] SourceSpan insertion_place() const { return scanned.after(scan.last_end); }
 
     /// Whether syntax errors are reported: not after the first one of a statement.
     [[nodiscard]] bool wants_reports() const { return !silent && !failed; }
@@ -84,23 +84,24 @@ public:
     }
 
 private:
-    /// Whether the line of `at` begins with `//`, so that it is read only because the statement
-    /// before has no end. `at` never falls between calls: each reads on where the last one ended.
+    /// Whether the line of `at` begins with `//` and is no comment only because the statement
+    /// before it has no end. Each call searches on from the last `at`. Precondition: `at` never
+    /// decreases between calls.
     [[nodiscard]] bool is_commented_out(std::size_t at);
-    /// Offers, rather than applies, the fixes of a statement that stays wrong in part or stands
-    /// behind `//`. Statements that may belong together are judged together.
-    void judge_fixes();
+    /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if it
+    /// stands behind `//`. Statements that may belong together count as one.
+    void offer_doubtful_fixes();
 
     /// Range of indices in context.diagnostics: those of statements that may belong together.
-    struct JudgedDiagnostics {
+    struct CheckedDiagnostics {
         std::size_t first = 0;
-        std::size_t end = 0;     // diagnostics before this index are judged
-        bool is_partial = false; // one of the errors has no certain fix
+        std::size_t end = 0;             // diagnostics before this index have been checked
+        bool has_doubtful_error = false; // one of the errors has no certain fix
     };
 
     Ast& ast_;
-    JudgedDiagnostics judged_;
-    std::size_t line_sought_to_ = 0;
+    CheckedDiagnostics checked_;
+    std::size_t line_search_end_ = 0;
     std::size_t line_first_ = std::string_view::npos; // first character that is not blank
 };
 

@@ -46,7 +46,7 @@ enum class Part : std::uint8_t {
     Successor,
 };
 
-/// Why the scanner inserts tokens before it goes on.
+/// The text before which the scanner inserts missing tokens.
 enum class Insertion : std::uint8_t {
     None,
     Colon,         // a `:` inside parentheses
@@ -74,7 +74,7 @@ struct ScanState {
     bool statement_open = false;     // between `#word` and `;`
     bool part_empty = true;          // the part has no token yet
     bool skipping = false;           // to the `;` of the statement
-    bool semicolon_supplied = false;
+    bool semicolon_inserted = false;
     bool value_before = false; // the last token ends a value
     bool name_before = false;  // the last token is a name in an expression
     std::uint32_t statement_begin = 0;
@@ -88,7 +88,7 @@ struct ScanState {
     // Inside expressions. Right-associative operators (unary, `^`) count as nesting.
     std::vector<OpenBracket> open;
     std::uint32_t open_braces = 0;
-    std::uint32_t chain = 0;
+    std::uint32_t chain = 0; // operators `-`, `!` and `^` that wait for operands at this level
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
     Insertion inserting = Insertion::None;

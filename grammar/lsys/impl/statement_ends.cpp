@@ -186,7 +186,7 @@ void report_missing_semicolon(ParseSession& session) {
         comment = comment_behind_modules(text, scan.part_begin, scan.last_end,
                                          session.builder.module_names() != ModuleNames::Words);
     }
-    SourceSpan place = session.supplied();
+    SourceSpan place = session.insertion_place();
     if (comment) {
         const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
         place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
@@ -207,8 +207,8 @@ void report_missing_semicolon(ParseSession& session) {
          comment->certain ? "a comment begins here" : "a comment may begin here"});
     add_fix(diagnostic, "add `;` before the comment", place, ";", comment->certain);
     if (!comment->certain) {
-        add_fix(diagnostic, "if no comment is meant, add `;` at the end", session.supplied(), ";",
-                false);
+        add_fix(diagnostic, "if no comment is meant, add `;` at the end", session.insertion_place(),
+                ";", false);
     }
 }
 

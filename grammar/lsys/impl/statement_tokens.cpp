@@ -54,7 +54,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.colons.reset();
     scan.skipping = false;
     session.failed = false;
-    scan.semicolon_supplied = false;
+    scan.semicolon_inserted = false;
     scan.open.clear();
     scan.open_braces = 0;
     scan.chain = 0;
@@ -131,8 +131,8 @@ bool is_axiom_by_another_name(ParseSession& session, std::string_view word) {
     return is_synonym(word, Keyword::Axiom) && colons_of_statement(session) == 1;
 }
 
-/// Whether the next character is the only `:` of the statement, and a number follows it, which
-/// begins no predecessor.
+/// Whether the next character is the only `:` of the statement, and a number, which cannot begin a
+/// predecessor, follows it.
 bool is_number_after_colon(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t colon = text.find(':', session.scan.end);
@@ -218,12 +218,12 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
                              keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
-    const bool after_statement = // on its line, after its `;`
+    const bool after_statement = // on the line of a statement, after its `;`
         scan.part == Part::Between && scan.last_end != 0 &&
         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
     const bool after_modules =
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
-    // A text after a statement may belong to it; then its `;` and its fixes are wrong.
+    // Text behind a statement may belong to the statement, whose `;` and fixes are then wrong.
     if (is_statement || !after_statement) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
@@ -256,7 +256,7 @@ Token opening_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.keyword == Keyword::Generations && colons_of_statement(session) == 1) {
         const char next = next_character(session.scanned.text, scan.end);
-        if (is_digit(next) || next == '.' || next == '(') { // which begins no predecessor
+        if (is_digit(next) || next == '.' || next == '(') { // cannot begin a predecessor
             if (session.wants(DiagnosticCode::SyntaxError)) {
                 const SourceSpan span = session.match();
                 Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
@@ -321,7 +321,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
     if (!wants_equals && !opens_with_colon(scan)) {
         return std::nullopt;
     }
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     const std::string sign = wants_equals ? "=" : ":";
     const auto code = wants_equals ? DiagnosticCode::SyntaxError : DiagnosticCode::MissingColon;
     if (session.wants(code)) {
@@ -334,10 +334,10 @@ std::optional<Token> missing_opening(ParseSession& session) {
     scan.end = scan.begin; // reads the match again
     if (wants_equals) {
         scan.enter(Part::Value);
-        return Token(Parser::token::TOK_ASSIGN, place).as_supplied();
+        return Token(Parser::token::TOK_ASSIGN, place).as_inserted();
     }
     after_opening_colon(session);
-    return Token(Parser::token::TOK_COLON, place).as_supplied();
+    return Token(Parser::token::TOK_COLON, place).as_inserted();
 }
 
 bool is_needless_sign(ParseSession& session) {
@@ -419,7 +419,7 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // It may belong to a statement that another `;` has ended too early.
+        // The `;` may belong to a statement that another `;` has ended too early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;
@@ -449,7 +449,7 @@ void report_unclosed(ParseSession& session) {
         closing += scan.open[i - 1].kind == OpenBracket::Kind::Brace ? '}' : ')';
     }
     if (closing.size() == scan.open.size()) {
-        add_fix(diagnostic, "add `" + closing + "`", session.supplied(), closing, true);
+        add_fix(diagnostic, "add `" + closing + "`", session.insertion_place(), closing, true);
     }
 }
 
@@ -474,7 +474,7 @@ void report_missing_parts(ParseSession& session) {
     if (!session.wants(DiagnosticCode::MissingColon)) {
         return;
     }
-    const SourceSpan place = session.supplied();
+    const SourceSpan place = session.insertion_place();
     Diagnostics& diagnostics = session.context.diagnostics;
     if (scan.part == Part::Head) {
         Diagnostic& diagnostic =
@@ -529,15 +529,15 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
 Token insert_token(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.open.empty()) {
-        const SourceSpan place = session.supplied();
+        const SourceSpan place = session.insertion_place();
         switch (scan.pop()) {
         case OpenBracket::Kind::Module:
-            return Token(Parser::token::TOK_CLOSE, place).as_supplied();
+            return Token(Parser::token::TOK_CLOSE, place).as_inserted();
         case OpenBracket::Kind::Brace:
-            return Token(Parser::token::TOK_RBRACE, place).as_supplied();
+            return Token(Parser::token::TOK_RBRACE, place).as_inserted();
         case OpenBracket::Kind::Call:
         case OpenBracket::Kind::Group:
-            return Token(Parser::token::TOK_RPAREN, place).as_supplied();
+            return Token(Parser::token::TOK_RPAREN, place).as_inserted();
         }
     }
     if (scan.inserting == Insertion::Colon) {
@@ -549,14 +549,14 @@ Token insert_token(ParseSession& session) {
     }
     if (scan.part == Part::Condition) {
         scan.enter(Part::Successor);
-        return Token(Parser::token::TOK_COLON, session.supplied()).as_supplied();
+        return Token(Parser::token::TOK_COLON, session.insertion_place()).as_inserted();
     }
     if (scan.part == Part::Head) {
         scan.enter(Part::Successor); // which is empty
-        return Token(Parser::token::TOK_YYerror, session.supplied()).as_supplied();
+        return Token(Parser::token::TOK_YYerror, session.insertion_place()).as_inserted();
     }
     if (scan.statement_open) {
-        const SourceSpan place = session.supplied();
+        const SourceSpan place = session.insertion_place();
         scan.statement_open = false;
         scan.skipping = false;
         scan.ended_part = std::exchange(scan.part, Part::Between);
@@ -568,10 +568,10 @@ Token insert_token(ParseSession& session) {
         if (scan.inserting == Insertion::NextStatement) {
             scan.inserting = Insertion::None;
         }
-        scan.semicolon_supplied = true;
-        return Token(Parser::token::TOK_SEMICOLON, place).as_supplied();
+        scan.semicolon_inserted = true;
+        return Token(Parser::token::TOK_SEMICOLON, place).as_inserted();
     }
-    return Token(Parser::token::TOK_END, session.supplied()).as_supplied();
+    return Token(Parser::token::TOK_END, session.insertion_place()).as_inserted();
 }
 
 Token discard_statement(ParseSession& session) {
@@ -585,8 +585,9 @@ Token discard_statement(ParseSession& session) {
 
 namespace {
 
-/// Whether `text`, in the place of a condition and before a character that no condition has, begins
-/// a successor: it is empty, or it begins with a symbol or a capital letter and compares nothing.
+/// Whether `text`, which stands in the place of a condition and before the character `stray` that
+/// no condition has, begins a successor: `text` is empty, or it begins with a symbol or a capital
+/// letter and compares nothing.
 bool begins_successor(std::string_view text, char stray) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
@@ -597,8 +598,9 @@ bool begins_successor(std::string_view text, char stray) {
            text.find_first_of("<>=~&|!*") == std::string_view::npos;
 }
 
-/// Whether the statement from `first` on can only be a successor: no word of it is a parameter of
-/// the predecessor, and nothing but a symbol that no condition has follows, without a blank.
+/// Whether the text from `first` to the current character can only be a successor: none of its
+/// words is a parameter of the predecessor, and the current character is a symbol that no condition
+/// has, without a blank before it.
 bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

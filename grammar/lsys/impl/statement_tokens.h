@@ -17,12 +17,13 @@ Token start_statement(ParseSession& session, std::string_view text);
 /// The first token of a statement without `#`: at `word`, or another character if it is empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
-/// The current `:` after `#word`, which stands for the `=` in `#n : 4;`.
+/// The current `:` after `#word`; in `#n : 4;` it is reported and read as `=`.
 Token opening_colon(ParseSession& session);
-/// After `#word`: enters the part after the `:`; the token of a `=` or `,`; the missing sign before
-/// any other character (nothing if none is required).
+/// Enters the part after the `:` of `#word :`.
 void after_opening_colon(ParseSession& session);
+/// The token of the current `=` or `,` after `#word`.
 Token opening_sign(ParseSession& session);
+/// The missing `:` or `=` between `#word` and another character; nothing if none is required.
 std::optional<Token> missing_opening(ParseSession& session);
 /// Whether the current `=` or `:` is superfluous, as in `#define NAME = 3;`; reports it.
 bool is_needless_sign(ParseSession& session);
@@ -31,13 +32,13 @@ bool is_needless_sign(ParseSession& session);
 bool is_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 Token colon_in_expression(ParseSession& session);
-/// The current `;`; nothing for a reported one between statements.
+/// The current `;`; nothing for a `;` between statements, which is reported.
 std::optional<Token> semicolon(ParseSession& session);
 
 /// Starts to insert the tokens missing before the event `kind`; returns the first of them.
 /// `written`: the span of the current `:` or `;`, if any.
 Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written);
-/// The next token of the insertion, at the end the written one.
+/// The next inserted token; after the last one, the written token.
 Token insert_token(ParseSession& session);
 
 /// Discards the statement and skips its rest.

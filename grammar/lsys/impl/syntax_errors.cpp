@@ -175,7 +175,7 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, error.place, "expected a value, found `+`");
-        // Before a blank it is more likely an operator without its first operand.
+        // A `+` before a blank is more likely an operator without its first operand.
         const std::string_view text = session.scanned.text;
         const bool is_sign =
             session.scan.end < text.size() &&
@@ -210,17 +210,17 @@ void report_unexpected_token(ParseSession& session,
                              SourceSpan place,
                              std::span<const Parser::symbol_kind_type> expected) {
     ScanState& scan = session.scan;
-    const bool is_supplied = session.token_supplied;
+    const bool is_inserted = session.token_inserted;
     // Inserted tokens have been reported already, except for a `;`.
-    if (session.wants_reports() && (!is_supplied || token == Kind::S_SEMICOLON)) {
+    if (session.wants_reports() && (!is_inserted || token == Kind::S_SEMICOLON)) {
         const Part part = scan.statement_open ? scan.part : scan.ended_part;
-        const std::string_view text = is_supplied ? std::string_view{} : session.match_text();
+        const std::string_view text = is_inserted ? std::string_view{} : session.match_text();
         const Unexpected error{token, place, expected, part, text};
         const bool in_production = part == Part::Head || part == Part::Condition;
         const bool reported =
             report_modules_in_parentheses(session, error) ||
             report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
-            (in_production && scan.open.empty() && !is_supplied && lacks_colon(session, "")) ||
+            (in_production && scan.open.empty() && !is_inserted && lacks_colon(session, "")) ||
             report_unary_plus(session, error);
         if (!reported) {
             report_expected(session, error);

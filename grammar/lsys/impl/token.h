@@ -16,9 +16,9 @@ struct Token {
     Token(Kind token, float number, SourceSpan span) : Token(token, span) { value.number = number; }
 
     /// The token, marked as inserted.
-    [[nodiscard]] Token as_supplied() const {
+    [[nodiscard]] Token as_inserted() const {
         Token token = *this;
-        token.supplied = true;
+        token.inserted = true;
         return token;
     }
     /// The symbol of the token; the parser uses one numbering for both.
@@ -29,7 +29,7 @@ struct Token {
     Kind type;
     TokenValue value;
     SourceSpan location;
-    bool supplied = false; // inserted and reported by the scanner
+    bool inserted = false; // inserted and reported by the scanner
 };
 
 } // namespace lsys::lsys_grammar

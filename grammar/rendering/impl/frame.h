@@ -33,7 +33,7 @@ struct Mark {
 };
 
 /// Appends the lines of `primary` with marks, and the marks of those `others` that lie in the shown
-/// part of its first line; returns the others.
+/// part of its first line; returns the remaining ones.
 [[nodiscard]] std::vector<Mark> append_frame(const Mark& primary,
                                              const std::vector<Mark>& others,
                                              const SourceFile& file,

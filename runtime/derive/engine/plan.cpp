@@ -34,7 +34,7 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 
 Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation, Stage stage)
     : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
-      productions_(bytecode.of(stage)),
+      productions_(bytecode.productions_of(stage)),
       parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel ||
                 bytecode.settings.rewriting == RewritingMode::Leftmost) {
     if (bytecode.settings.random == RandomSource::Glibc) {

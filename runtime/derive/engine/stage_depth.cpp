@@ -69,7 +69,7 @@ std::optional<std::uint32_t> longest_path(const std::vector<std::vector<std::uin
 } // namespace
 
 StageDepth stage_depth(const Bytecode& bytecode, Stage stage) {
-    const TableRange range = bytecode.of(stage);
+    const TableRange range = bytecode.productions_of(stage);
     if (range.count == 0) {
         return {};
     }
