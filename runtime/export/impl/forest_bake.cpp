@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// Vertices and indices of a piece of the trees: at first their counts, then their positions in the
-/// mesh.
+/// Counts of the vertices and indices of a piece of the trees; later the next free position of each
+/// in the mesh.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -45,7 +45,7 @@ public:
                     messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
         };
         if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
-            return limit(); // before shares are counted
+            return limit(); // without the work of counting shares
         }
         count_shares();
         std::uint64_t vertices = ground_vertices();
@@ -90,6 +90,7 @@ public:
     }
 
 private:
+    /// Clears the flags of optional arrays that `mesh` lacks.
     void use(const Mesh& mesh) {
         textured_ = textured_ && is_complete(mesh, mesh.texture_coordinates);
         tangents_ = tangents_ && is_complete(mesh, mesh.tangents);
@@ -215,7 +216,7 @@ private:
     std::size_t kinds_ = 0;
     std::vector<Share> shares_;
     LargeVector<std::uint32_t> indices_;   // of the mesh, which takes them when complete
-    std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
+    std::vector<std::uint64_t> ground_at_; // by material
     bool textured_ = true;
     bool tangents_ = true;
     bool colours_ = true;

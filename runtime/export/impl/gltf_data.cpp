@@ -12,7 +12,8 @@
 
 namespace lsys {
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
 static_assert(sizeof(glm::vec2) == 8 && sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16);
 
 namespace {
@@ -40,7 +41,7 @@ bool is_coloured(const Mesh& mesh, const MeshPart& part) {
     return false;
 }
 
-/// The validator of glTF allows lengths to be off by 0.005; this is a tenth of that.
+/// Tolerance of the length: 0.0005, a tenth of that of the glTF validator.
 bool is_unit(const glm::vec3& v) {
     return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
 }

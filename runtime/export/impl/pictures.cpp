@@ -81,7 +81,7 @@ Texture paint(const Picture& picture) {
 std::string encode_picture(const Picture& picture) {
     const bool as_it_is = picture.file != nullptr && picture.kind == PictureKind::Colour &&
                           picture.tint == glm::vec3(1.0F);
-    if (as_it_is) { // without a copy: it may be large
+    if (as_it_is) { // without a copy: the file may be large
         return encode_png(*picture.file);
     }
     return encode_png(paint(picture));

@@ -46,7 +46,7 @@ template <std::size_t kCount>
 
 /// A mesh prim.
 struct UsdaSurface {
-    const Mesh& mesh; // may have further vertices
+    const Mesh& mesh; // may have vertices that the prim has not
     std::string name;
     std::uint64_t vertices = 0;
     std::span<const MeshPart> parts;
@@ -55,9 +55,9 @@ struct UsdaSurface {
 };
 void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
-/// `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v, is_point)`: a vector of
-/// the mesh in the coordinates of the prim. `corner(i)`: the vertex of the prim at corner i of the
-/// triangles of all parts, asked for in order.
+/// Writes a mesh prim. `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v,
+/// is_point)`: a vector of the mesh in the coordinates of the prim. `corner(i)`: the vertex of the
+/// prim at corner i of the triangles of all parts, called with rising i.
 template <typename Vertex, typename Turn, typename Corner>
 void put_usda_surface(PieceWriter& out,
                       const UsdaSurface& surface,
