@@ -165,9 +165,9 @@ private:
                     return;
                 }
                 char* at = out_.room(kUsdaItemBytes + kNumberBytes);
-                at = put_text(at, count == 0                      ? ""
-                                  : count % kUsdaItemsOfLine == 0 ? ",\n            "
-                                                                  : ", ");
+                at = put_text(at, count == 0                       ? ""
+                                  : count % kUsdaItemsPerLine == 0 ? ",\n            "
+                                                                   : ", ");
                 out_.used(put(branch, at));
                 ++count;
             });
