@@ -62,7 +62,8 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
 /// their exits.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
-    // Exits at an entry are few, in chains no longer than the depth of brackets.
+    // Repeats until nothing changes: exits at the entry of their instance form chains, which are
+    // no longer than the depth of brackets.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t s = 0; s < cache.slots.size(); ++s) {
@@ -83,8 +84,9 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// The heroes' skeleton with its forks, in which the parent of an object or polygon is its own
-/// number: items are numbered segments first, then polygons, then objects.
+/// The heroes' skeleton with its forks marked and its items numbered: segments first, then
+/// polygons, then objects. The parent of a polygon or object is set to its own number, so that
+/// Mesh::segments names the item of each vertex.
 Skeleton number_items(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
     const std::vector<bool> begins = find_slots_with_segments(cache);
@@ -144,11 +146,11 @@ public:
           owners_(
               find_owners(mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
 
-    /// Indices of an instance by part of the mesh.
+    /// Adds the counts of the instance's indices in each part of the mesh.
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
         visit(instance, [&](std::size_t part, std::uint32_t) { counts[part] += 3; });
     }
-    /// `at`: the next index of each part.
+    /// Writes the instance's indices; `at`: position of the next index of each part.
     void write(const Instance& instance,
                std::span<std::uint64_t> at,
                LargeVector<std::uint32_t>& indices) const {

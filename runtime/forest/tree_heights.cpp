@@ -12,11 +12,11 @@ namespace lsys {
 
 namespace {
 
-/// As of single plants (scale_to_height()).
+/// Fraction of the size of the plant, as in scale_to_height().
 constexpr double kLeastHeight = 1e-6;
 constexpr std::uint64_t kTreesOfPiece = 1024;
 
-/// Calls visit(point) for all points that a box holds.
+/// Calls visit(point) for all points of an instance.
 template <typename Visit>
 void for_each_point(const InstanceCache& cache, const Instance& instance, const Visit& visit) {
     const Skeleton& skeleton = cache.skeleton;
@@ -57,12 +57,12 @@ void add_points(const InstanceCache& cache,
     });
 }
 
-/// The direction of the heroes' coordinates that points upwards in an instance so placed.
+/// World up in the coordinates of the heroes, for an instance with this pose.
 glm::dvec3 up_of(const InstancePose& pose) {
     return glm::conjugate(glm::dquat(pose.rotation)) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// The measures of the last stages of all species of a forest, for one thread.
+/// A TreeMeasure for the last stage of each species of a forest, for one thread.
 class Measures {
 public:
     Measures(const Forest& forest, const std::vector<HeightTable>& tables)
