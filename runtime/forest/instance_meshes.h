@@ -26,7 +26,7 @@ struct InstanceMeshes {
         return std::span(mesh.parts)
             .subspan(first_part[instance], first_part[instance + 1] - first_part[instance]);
     }
-    [[nodiscard]] std::uint64_t triangles_of(std::uint32_t instance) const {
+    [[nodiscard]] std::uint64_t triangle_count_of(std::uint32_t instance) const {
         std::uint64_t triangles = 0;
         for (const MeshPart& part : parts_of(instance)) {
             triangles += part.index_count / 3;

@@ -20,7 +20,7 @@ struct HeightTable {
     std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
     /// Heights of instances without exits; none for others.
     std::vector<std::optional<double>> whole;
-    double least = 0.0; // m: a lower tree counts as flat
+    double min_height = 0.0; // m: a lower tree counts as flat
 };
 [[nodiscard]] HeightTable make_height_table(const InstanceCache& cache);
 

@@ -184,7 +184,7 @@ std::optional<Stop> make_form(const InstanceCache& cache,
         form.mesh_triangles[level].resize(cache.instances.size());
         for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
             form.mesh_triangles[level][i] =
-                static_cast<std::uint32_t>(levels[level].triangles_of(i));
+                static_cast<std::uint32_t>(levels[level].triangle_count_of(i));
         }
     }
     const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);

@@ -138,7 +138,7 @@ void ForestPlan::count_pieces(std::uint32_t threads) {
         }
         for (const ForestKind& kind : kinds_) {
             for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-                if (counts[kind.first + i] > 0 && kind.meshes->triangles_of(i) > 0) {
+                if (counts[kind.first + i] > 0 && kind.meshes->triangle_count_of(i) > 0) {
                     piece.counts_before.emplace_back(kind.first + i, counts[kind.first + i]);
                 }
             }
@@ -163,7 +163,7 @@ void ForestPlan::find_groups() {
             cell.branches += count;
             uses_[instance] += count;
             const ForestKind& kind = kind_of_instance(instance);
-            triangles_ += kind.meshes->triangles_of(instance - kind.first) * count;
+            triangles_ += kind.meshes->triangle_count_of(instance - kind.first) * count;
         }
         branches_ += cell.branches;
     }
