@@ -135,7 +135,8 @@ public:
     /// order. Depends on cache, key and tree alone. Returns the count.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
-    /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the time.
+    /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
+    /// time.
     template <typename Visit>
     std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
     /// The first instance of expand(): a whole plant.

@@ -130,7 +130,7 @@ private:
 };
 
 std::uint8_t byte(float value) {
-    // Half of a number that is cut off is rounded, without a call of the library for each texel.
+    // Rounds by truncating twice the value, without a library call for each texel.
     const auto twice = static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.0F) * 510.0F);
     return static_cast<std::uint8_t>((twice + 1) / 2);
 }
@@ -165,7 +165,7 @@ Texture paint_bark() {
 }
 
 /// Half the width of the leaf in the picture, 0 to 1: the outline of the mesh with rounded corners
-/// and a margin, so that mostly the mesh ends the leaf.
+/// and a margin, so that in most places the mesh, not the opacity, bounds the leaf.
 float leaf_half(float distance) {
     constexpr float kMax = 0.25F;
     constexpr float kMargin = 0.04F;
@@ -192,7 +192,7 @@ Texture paint_leaf() {
         // One texel of slope around the outline, for filters.
         const float opacity = smooth(-1.5F, 1.5F, (half - side) * static_cast<float>(kSize) / 2.0F);
         const float midrib = 1.0F - smooth(0.012F, 0.03F + 0.03F * v, side);
-        // Veins leave the midrib and lean towards v = 0; the first number is how many there are.
+        // Eight veins on each side leave the midrib and lean towards v = 0.
         const float along = 8.0F * (v + 0.45F * side) + 0.3F * bends(column, row);
         const float from_vein = std::abs(fraction(along) - 0.5F);
         const float vein = (1.0F - smooth(0.04F, 0.16F, from_vein)) * (1.0F - 0.5F * side);

@@ -1,7 +1,7 @@
-// TriangleList: the indices of a mesh, three for each triangle, compressed: regular ones are stored
-// as bands between rings and fans. The indices of a tube would take as much memory as its positions
-// and normals; as bands they take some bytes for a whole axis. Writing memory is most of the cost
-// of a large mesh.
+// TriangleList: the indices of a mesh, three for each triangle, compressed: regular triangles are
+// stored as bands between rings, and as fans. The indices of a tube would take as much memory as
+// its positions and normals; as bands they take some bytes for a whole axis. Writing memory is most
+// of the cost of a large mesh.
 #pragma once
 
 #include "runtime/base/large_vector.h"

@@ -229,7 +229,7 @@ private:
         if (known.contains(name.name)) {
             return true;
         }
-        // A node of the set, its place in the table, an item of the list that may just be moved.
+        // Bound: a node and a bucket of the set, an item of a list that may be reallocating.
         const std::uint64_t bytes =
             2 * name.name.size() + 8 * sizeof(void*) + sizeof(std::string) + 3 * sizeof(ObjName);
         if (!has_memory(bytes)) {
@@ -386,7 +386,7 @@ private:
             fail(line, fmt::format("a face needs three corners and has {}", count));
         }
     }
-    /// Returns false without memory for it.
+    /// Returns false if memory runs out.
     bool add_triangle(const Corner& a, const Corner& b, const Corner& c) {
         const glm::dvec3 p(positions_[a.position]);
         const glm::dvec3 area = glm::cross(glm::dvec3(positions_[b.position]) - p,

@@ -69,8 +69,8 @@ public:
     [[nodiscard]] std::uint64_t branches() const { return branches_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-    /// Calls visit(kind, number of the instance among all kinds, branch) for all branches of a cell,
-    /// even without triangles, tree by tree in the order of the forest.
+    /// Calls visit(kind, number of the instance among all kinds, branch) for all branches of a
+    /// cell, even without triangles, tree by tree in the order of the forest.
     template <typename Visit>
     void for_each_branch(const ForestCell& cell, const Visit& visit) const {
         for_each_branch_of(cell.first_tree, cell.tree_count, visit);

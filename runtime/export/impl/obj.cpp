@@ -109,7 +109,8 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
         };
         for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
             const MaterialPictures& shown = pictures.of_materials[i];
-            // White beside a picture: the picture contains the colour, and readers multiply the two.
+            // White beside a picture: the picture contains the colour, and readers multiply the
+            // two.
             const glm::vec4 colour = shown.colour
                                          ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
                                          : mesh.materials[i].colour;

@@ -25,7 +25,7 @@ constexpr float kFacing = 0.35F;
 constexpr float kOutside = 1.25F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
 
-/// Min extent that floats can represent at the place of the segment.
+/// Whether the segment is large enough for the resolution of floats at its place.
 bool is_drawn(const Segment& segment) {
     const glm::vec3 end = tip(segment);
     const float far =
@@ -36,7 +36,7 @@ bool is_drawn(const Segment& segment) {
            radius > 1e-12F && radius < 1e12F && far < 1e12F;
 }
 
-/// A segment and the place where it grows.
+/// Makes the boxes of all segments, parents first.
 class BoxMesher {
 public:
     BoxMesher(const Skeleton& skeleton, float width) : skeleton_(skeleton), width_(width) {}
@@ -111,7 +111,7 @@ private:
         const glm::vec3 along = heading(own.frame);
         const float length = own.length;
         writer_.begin_segment(own, segment, w.base);
-        // Rest between its joint and its tip.
+        // Length of the segment that is covered so far.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {
             writer_.begin_root(w.base);

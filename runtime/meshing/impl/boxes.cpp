@@ -35,7 +35,7 @@ struct Parts {
     std::map<std::uint16_t, std::size_t> of_colour;
 };
 
-/// Sizes after `steps` steps, each of which makes quads, four of one or one for each corner.
+/// Sizes after `steps` subdivision steps: each makes a quad for each corner of a face.
 Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
     std::map<MaterialKey, std::uint64_t> sizes;
     std::uint32_t begin = 0;
@@ -127,7 +127,7 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     }
 }
 
-/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
+/// Writes a face as a fan, a quad split along its shorter diagonal, to the front of `room`.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,
@@ -177,7 +177,7 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     const MeshCounts counts = refined_counts(boxes, steps);
     MeshBlock block;
     if (skeleton.segments.size() > kMaxSegments || counts.corners >= kMaxCorners) {
-        // Beyond any limit of vertices.
+        // Fails on purpose: so many vertices are beyond any limit.
         (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;
     }

@@ -68,7 +68,7 @@ std::uint32_t CatmullClark::previous(std::uint32_t half) const {
     return half > face_begin(face) ? half - 1 : mesh_.face_ends[face] - 1;
 }
 
-/// Pairs half-edges that join the same vertices, by buckets of the lower one.
+/// Pairs half-edges that join the same vertices, in buckets by their lower vertex.
 void CatmullClark::find_twins() {
     const auto count = static_cast<std::uint32_t>(mesh_.corners.size());
     twins_.resize(count);

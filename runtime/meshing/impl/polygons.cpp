@@ -39,7 +39,7 @@ std::span<const glm::vec3> corners_of(const Skeleton& skeleton, const Polygon& p
     return std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count);
 }
 
-/// Newell's normal; for a polygon whose parts cancel each other, that of its largest corner.
+/// Newell's normal; the normal of the largest triangle of a fan if the areas cancel each other.
 bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
     glm::dvec3 largest{0.0};
     double max_length = 0.0;

@@ -17,8 +17,8 @@ namespace lsys {
 
 namespace {
 
-// Joints between the bases of two consecutive segments, at most: two edges of a collar, each cut
-// for noise into at most sixteen.
+// Max joints between the bases of two consecutive segments: two edges of a collar, each cut for
+// noise into at most sixteen.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
@@ -192,9 +192,9 @@ private:
     std::span<VertexSegments> segments_;
     Workers workers_;
     Axes axes_;
-    std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones behind it
+    std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones after it
     std::vector<std::uint32_t> places_;       // in chain_, of each joint
-    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and behind it
+    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and after it
     std::uint64_t vertex_ = 0;
 };
 

@@ -53,7 +53,7 @@ bool cross_each_other(const glm::dvec2& a,
 
 } // namespace
 
-/// Corners in the unit square and in a counter-clockwise ring.
+/// Scales the corners to the unit square and links them in a counter-clockwise ring.
 void Triangulator::load(std::span<const glm::dvec2> corners) {
     nodes_.clear();
     left_ = 0;
@@ -274,7 +274,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     while (left_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // Not needed: on a line with its neighbours, or on one of them.
+            // A corner on a line with its neighbours, or on one of them, is not needed.
             remove(node);
             node = nodes_[node].previous;
             without = 0;

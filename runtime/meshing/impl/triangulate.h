@@ -3,7 +3,7 @@
 // method of mapbox/earcut, after Held 2001, "FIST: Fast Industrial-Strength Triangulation of
 // Polygons", section 3.4). A convex polygon is a fan.
 //
-// A polygon that crosses itself gets triangles that are valid each, but may overlap.
+// A polygon that crosses itself gets triangles that are each valid but may overlap.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -44,8 +44,8 @@ struct LongRun {
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // of those of the piece
     std::uint64_t end_vertex = 0;
-    std::vector<TubeWriter::Place> places; // begins of parts
-    std::atomic<std::size_t> known{1};     // of the places
+    std::vector<TubeWriter::Place> places; // where each part begins
+    std::atomic<std::size_t> known{1};     // count of places found so far
 };
 
 /// A range of segments, and the runs of the axes that begin there.
