@@ -26,7 +26,7 @@ constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
 constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMaxSegments = 100'000'000;
-constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
+constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 
 /// Triangles of the faces, by part.
 struct Parts {
@@ -150,9 +150,9 @@ void write_face(const PolygonMesh& mesh,
 void write(const CatmullClark& surface, Parts& parts, Workers& workers, const MeshBlock& block) {
     const PolygonMesh& mesh = surface.mesh();
     const std::uint64_t vertices = mesh.positions.size();
-    workers.for_each((vertices + kVerticesOfPiece - 1) / kVerticesOfPiece, [&](std::uint64_t i) {
-        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesOfPiece);
-        for (std::uint64_t vertex = i * kVerticesOfPiece; vertex < end; ++vertex) {
+    workers.for_each((vertices + kVerticesPerPiece - 1) / kVerticesPerPiece, [&](std::uint64_t i) {
+        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesPerPiece);
+        for (std::uint64_t vertex = i * kVerticesPerPiece; vertex < end; ++vertex) {
             write_vertex(surface, static_cast<std::uint32_t>(vertex), block);
         }
     });

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kCornersOfPiece = 1U << 14;
+constexpr std::uint64_t kCornersPerPiece = 1U << 14;
 
 /// The plane of a polygon: unit axes, `across` x `along` = `normal`.
 struct Plane {
@@ -184,9 +184,9 @@ void write(const Job& job, const Piece& piece, std::uint16_t palette, const Mesh
 
 std::vector<Piece> cut_into_pieces(const Job& job, const Group& group) {
     std::vector<Piece> pieces;
-    std::uint64_t corners = kCornersOfPiece;
+    std::uint64_t corners = kCornersPerPiece;
     for (std::uint64_t i = group.first; i < group.first + group.count; ++i) {
-        if (corners >= kCornersOfPiece) {
+        if (corners >= kCornersPerPiece) {
             pieces.emplace_back().first_item = i;
             corners = 0;
         }

@@ -55,7 +55,7 @@ public:
         : skeleton_(skeleton), options_(options), segments_(segments), workers_(options.threads),
           axes_(find_axes(skeleton, workers_)) {}
 
-    void name_all() {
+    void fill_all() {
         AxisReader reader(skeleton_, axes_, options_);
         OwnRun own;
         OwnRun next;
@@ -70,7 +70,7 @@ public:
                 // A run ends before the next one, or with the axis.
                 read_chain(own.run.first_segment, more ? next.run.first_segment : kNoSegment);
                 find_places(own.joints);
-                name(own);
+                write_run(own);
                 std::swap(own, next);
             }
         }
@@ -160,7 +160,7 @@ private:
     }
 
     /// Writes in the order of a TubeWriter.
-    void name(const OwnRun& own) {
+    void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;
         put(own.run.begin == TubeEnd::Flat ? 1 : 0, segments_of_[0]);
@@ -200,10 +200,10 @@ private:
 
 } // namespace
 
-void name_ring_segments(const Skeleton& skeleton,
+void fill_ring_segments(const Skeleton& skeleton,
                         const MeshOptions& options,
                         std::span<VertexSegments> segments) {
-    RingSegments(skeleton, options, segments).name_all();
+    RingSegments(skeleton, options, segments).fill_all();
 }
 
 } // namespace lsys

@@ -9,7 +9,7 @@
 namespace lsys {
 
 /// Fills `segments` of the vertices that append_tubes() wrote with the same options.
-void name_ring_segments(const Skeleton& skeleton,
+void fill_ring_segments(const Skeleton& skeleton,
                         const MeshOptions& options,
                         std::span<VertexSegments> segments);
 
