@@ -96,7 +96,7 @@ struct FileWatch::State {
         static_cast<void>(::write(wake.get(), &one, sizeof one));
     }
 
-    /// Watches the files asked for; returns false to stop the thread.
+    /// Watches the requested files; returns false to stop the thread.
     bool take_asked() {
         std::optional<std::vector<std::string>> paths;
         {

@@ -13,12 +13,13 @@ namespace lsys::view {
 
 namespace {
 
-// Time for baking of impostors between two events, s.
+// Time budget for baking of impostors between two events, s.
 constexpr double kBakeTime = 0.02;
 // Limit per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
-// Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
+// Draw time above which pictures have reduced quality during motion, s.
 constexpr double kSlowPicture = 0.12;
+// Time without motion before a redraw at full quality, s.
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kMinTriangles = 20'000;
 
@@ -426,7 +427,7 @@ void ForestView::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    // The file identifies them by number only.
+    // The file identifies erased trees by number only.
     const bool is_doubtful = is_other_placement_ && painting_.has_erased();
     set_note(fmt::format("saved {}{}", scene,
                          is_doubtful

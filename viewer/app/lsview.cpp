@@ -68,7 +68,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    // A forest that grows is shown again and again.
+    // Copied for a growing forest, which is shown once per picture.
     if (const Result<void> shown =
             made.renderer->show_forest(options.grow ? document.model : std::move(document.model));
         !shown) {

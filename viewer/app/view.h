@@ -73,7 +73,7 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// Implements draw().
+    /// Draws `frame` unless nothing changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
     void take_messages(const Messages& messages, bool fine);
