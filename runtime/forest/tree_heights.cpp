@@ -13,7 +13,7 @@ namespace lsys {
 namespace {
 
 /// Fraction of the size of the plant, as in scale_to_height().
-constexpr double kMinHeight = 1e-6;
+constexpr double kMinHeightFraction = 1e-6;
 constexpr std::uint64_t kTreesPerPiece = 1024;
 
 /// Calls visit(point) for all points of an instance.
@@ -109,7 +109,7 @@ HeightTable make_height_table(const InstanceCache& cache) {
         }
     }
     const glm::dvec3 size = glm::dvec3(all.high) - glm::dvec3(all.low);
-    table.min_height = kMinHeight * std::max({size.x, size.y, size.z});
+    table.min_height = kMinHeightFraction * std::max({size.x, size.y, size.z});
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
         const Instance& instance = cache.instances[i];
         if (instance.slot == 0 && instance.exit_count == 0 && !table.boxes[i].empty) {
