@@ -96,7 +96,7 @@ std::string stats_text(const ViewOptions& options,
 
 /// Shows the messages of a growth step. Messages about the grammar and its last generation were
 /// shown with the document.
-ExitStatus take_news(const Outcome<void>& outcome, const Console& console) {
+ExitStatus show_step_messages(const Outcome<void>& outcome, const Console& console) {
     if (!outcome) {
         return console.take(outcome);
     }
@@ -155,7 +155,7 @@ ExitStatus take_pictures(const ViewOptions& options,
         prepare = [&](const Frame& /*frame*/) {
             const GrowthMoment moment =
                 moment_of_frame(frame_number++, options.frames, growth->last_generation());
-            ExitStatus status = take_news(growth->pose(moment, project, pose), console);
+            ExitStatus status = show_step_messages(growth->pose(moment, project, pose), console);
             if (status == ExitStatus::Ok) {
                 status =
                     console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);

@@ -96,7 +96,7 @@ public:
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
     /// The moment of growth that is shown instead of the last plant; null: none.
-    [[nodiscard]] const FilmMoment* grown() const { return is_part_grown_ ? &grown_ : nullptr; }
+    [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
 private:
     void take_outcome(LoadOutcome outcome);
@@ -126,7 +126,7 @@ private:
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
     bool plays_next_ = false;      // from the next swap on
-    bool is_part_grown_ = false;   // `grown_` is shown
+    bool shows_growth_ = false;    // `grown_` is shown
     FilmMoment grown_;
     std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;

@@ -63,7 +63,7 @@ public:
         if (has_old_note) {
             // The warning has left the screen, so the next Ctrl+Q must warn again.
             panels_.asked_to_quit = false;
-            switcher_.ask_again();
+            switcher_.reset_warning();
         }
         if (input.any || has_news || has_old_note) {
             pictures_left_ = kPicturesAfterInput;
