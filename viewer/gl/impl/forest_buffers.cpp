@@ -84,7 +84,7 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     return {snorm8(e.x), snorm8(e.y)};
 }
 
-/// Textured by the program; pictures from files are reduced to their mean colour.
+/// Whether a built-in texture is drawn; pictures from files are reduced to their mean colour.
 bool is_textured(const Material& material) {
     return material.textured && material.picture == nullptr;
 }
@@ -125,7 +125,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     return numbers;
 }
 
-/// Index of draw commands.
+/// Index in DrawBuffers::commands.
 constexpr std::size_t place_of(std::size_t kind, bool blends) {
     return kind + (blends ? kBranchClasses : 0);
 }
