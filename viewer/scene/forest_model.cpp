@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Min radius of twigs by level, as a part of the tree's height.
+/// Min radius of twigs by level, as a fraction of the tree's height.
 constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
 /// Leaves per shown leaf by level.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
@@ -234,7 +234,7 @@ std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
                                      const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
-    // Depth first: the target of an exit before the instance with the exit.
+    // Depth first: the slot of an exit comes before the instance with the exit.
     std::vector<std::uint32_t> pending{0};
     std::vector<bool> begun(cache.slots.size());
     while (!pending.empty()) {
