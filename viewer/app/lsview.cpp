@@ -44,8 +44,8 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
         return report_error(renderer.error(), console);
     }
     made.renderer = std::move(renderer.value());
-    console.detail(
-        fmt::format("drawing by {}: {}", made.context->way(), made.renderer->device_name()));
+    console.detail(fmt::format("drawing by {}: {}", made.context->description(),
+                               made.renderer->device_name()));
     return ExitStatus::Ok;
 }
 
