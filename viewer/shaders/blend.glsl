@@ -1,7 +1,7 @@
-// Blending of LOD bands: each draws a range of the pixels. BlendRange has the ranges.
+// Blending of LOD bands by dithering: each band draws a range of the pixels: BlendRange in C++.
 
-// Number of a pixel of the picture, 0 to 1; numbers of neighbours lie far apart (Jimenez 2014, "Next
-// Generation Post Processing in Call of Duty", interleaved gradient noise).
+// Dither threshold of a pixel of the picture, 0 to 1; thresholds of neighbours lie far apart (Jimenez
+// 2014, "Next Generation Post Processing in Call of Duty", interleaved gradient noise).
 float pixel_number() {
     vec2 at = floor(gl_FragCoord.xy) + frame.viewport.xy;
     return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))));
@@ -9,8 +9,8 @@ float pixel_number() {
 bool is_in_range(float number, vec2 range) {
     return number >= range.x && number < range.y;
 }
-// Keeps the samples of a pixel whose numbers are in `range`. Sample numbers are evenly spaced from the
-// number of the pixel on.
+// Keeps the samples of a pixel whose thresholds are in `range`. Sample thresholds are evenly spaced,
+// from the threshold of the pixel on.
 void keep_range(vec2 range) {
     float number = pixel_number();
     int mask = 0;

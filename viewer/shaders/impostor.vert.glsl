@@ -32,7 +32,7 @@ void main() {
     int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
     float turns = (atan(eye.x, eye.z) - tree.yaw) / 6.2831853;
     is_cluster = int(forms[tree.form].layers.y);
-    // Clusters are adjacent: shift the change of view, so that it does not run along one line.
+    // Adjacent clusters change views at shifted angles, so that the changes form no visible line.
     float early = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
     int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
     vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));

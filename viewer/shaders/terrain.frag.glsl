@@ -8,7 +8,7 @@ out vec4 colour;
 // Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
-    // Patterns fade before their repetition is visible.
+    // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible.
     float away = fog.z;
     vec4 coarse = texture(noise, world_position.xz * (1.0 / 173.0));
     vec4 between = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0)),
