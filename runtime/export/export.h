@@ -30,8 +30,8 @@ enum class ExportFormat : std::uint8_t {
 enum class ExportPictures : std::uint8_t {
     None,
     Inside,           // embedded in the file; readers multiply them by the colour of the material
-    FilesWithOpacity, // separate files, likewise; the opacity of leaves in further files
-    FilesWithRelief,  // separate files, likewise; relief of bark as normal maps
+    FilesWithOpacity, // files with the colour of the material; opacity of leaves in further files
+    FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
 };
 
 struct ExportJob;
@@ -41,7 +41,7 @@ class PieceWriter;
 /// A row of formats.def.
 struct FormatTraits {
     std::string_view name;    // value of `--format` and extension of files
-    std::string_view content; // for README.md
+    std::string_view content; // row of the table in README.md
     bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
     /// Max size of a mesh in the format.
     std::uint64_t max_vertices = ~std::uint64_t{0};
@@ -66,7 +66,7 @@ struct FormatTraits {
 /// Takes the next bytes; returns false to stop the export.
 using ByteSink = std::function<bool(std::string_view)>;
 
-/// Joints of a skin that move, at most: glTF counts joints in 16 bits, and joint 0 stands still.
+/// Max count of moving joints of a skin: glTF numbers joints in 16 bits, and joint 0 stands still.
 inline constexpr std::uint32_t kMaxJoints = 65'535;
 
 /// Subject of a file in messages.
@@ -75,7 +75,7 @@ enum class ExportSubject : std::uint8_t { Plant, Forest };
 /// Origin and contents of a file.
 struct ExportInfo {
     ExportSubject subject = ExportSubject::Plant;
-    std::string grammar; // its name
+    std::string grammar; // name of the grammar
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
     std::string generator; // the program and its version
@@ -93,8 +93,8 @@ struct ExportInfo {
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.
-/// Stops before the first byte: Failed, nothing to draw or more than the format can hold; Limit,
-/// more than kMaxJoints. Stops at any byte: Cancelled, by the sink; OutOfMemory.
+/// Stops before the first byte: Failed (nothing to draw, or more than the format can hold), Limit
+/// (more than kMaxJoints). Stops at any byte: Cancelled (by the sink), OutOfMemory.
 Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,

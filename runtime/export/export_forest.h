@@ -22,10 +22,10 @@ struct ForestScene {
 };
 
 enum class ForestForm : std::uint8_t {
-    Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes a branch instance
+    Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes per branch instance
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
-/// Branch instances of ForestForm::Expanded, at most. Each takes about 200 bytes of the file.
+/// Max count of branch instances of ForestForm::Expanded. Each takes about 200 bytes of the file.
 inline constexpr std::uint64_t kMaxForestNodes = 1'000'000;
 
 struct ForestExportInfo {
@@ -36,15 +36,15 @@ struct ForestExportInfo {
     bool textures = true;
     std::string picture_prefix; // as in ExportInfo
     std::uint32_t threads = 0;  // 0: as many as the machine has
-    /// Buffer for transforms, at most. A smaller one takes more walks over the trees.
+    /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
-/// Writes the trees as instances, in a format with FormatTraits::write_forest. Beside the scene it
-/// takes 8 bytes a tree, 24 bytes for each pair of a cell and an instance that stands there, 16
-/// bytes for each pair of 512 trees of a cell and an instance that stands in them, and
-/// ForestExportInfo::window_bytes. Precondition: trees' species have meshes. Stops as
-/// export_mesh(); Limit: Expanded, more than kMaxForestNodes.
+/// Writes the trees as instances, in a format with FormatTraits::write_forest. Memory beside the
+/// scene: 8 bytes per tree; 24 bytes per cell and distinct instance in it; 16 bytes per piece (512
+/// trees of a cell) and distinct instance in it; ForestExportInfo::window_bytes. Precondition: the
+/// species of all trees have meshes. Stops as export_mesh(); Limit for Expanded with more than
+/// kMaxForestNodes.
 Outcome<void> export_forest(const ForestScene& scene,
                             ExportFormat format,
                             ForestForm form,
@@ -56,9 +56,9 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
                                                             const ForestExportInfo& info);
 
 /// All triangles in world coordinates, parts by the order of materials in species and ground.
-/// Texture coordinates, tangents and colours are kept where every surface has them. Stops: Limit
-/// for more than `max_bytes`, found before memory is taken for it; Failed for more vertices than 32
-/// bits count; OutOfMemory.
+/// Texture coordinates, tangents and colours are kept only if every surface has them. Stops: Limit
+/// for more than `max_bytes`, checked before the memory is allocated; Failed for more vertices than
+/// 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 /// Counts trees with different segments, regardless of their instances: number, lengths and places
@@ -67,7 +67,7 @@ Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
 
 struct ForestStatsOptions {
-    bool different_trees = false; // takes about 100 bytes a tree
+    bool different_trees = false; // takes about 100 bytes per tree
     std::uint32_t threads = 0;
 };
 /// One JSON object in a line: counts of the forest, its species, their stages and caches, with

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kTreesOfPiece = 4096;
+constexpr std::uint64_t kTreesPerPiece = 4096;
 
 /// Hash of a branch; sums of hashes distinguish sets of branches.
 std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstance& branch) {
@@ -65,7 +65,7 @@ void ForestCounts::add(const ForestCounts& other) {
 }
 
 std::uint64_t piece_count(const Forest& forest) {
-    return (forest.trees.size() + kTreesOfPiece - 1) / kTreesOfPiece;
+    return (forest.trees.size() + kTreesPerPiece - 1) / kTreesPerPiece;
 }
 
 void for_each_piece(const Forest& forest,
@@ -74,8 +74,8 @@ void for_each_piece(const Forest& forest,
     Workers workers(threads);
     const std::span<const Tree> trees(forest.trees);
     workers.for_each(piece_count(forest), [&](std::uint64_t piece) {
-        const std::uint64_t begin = piece * kTreesOfPiece;
-        visit(piece, trees.subspan(begin, std::min(kTreesOfPiece, trees.size() - begin)));
+        const std::uint64_t begin = piece * kTreesPerPiece;
+        visit(piece, trees.subspan(begin, std::min(kTreesPerPiece, trees.size() - begin)));
     });
 }
 

@@ -25,7 +25,8 @@ struct ForestSpecies {
     std::vector<ForestStage> stages; // by rising generations; at least one
     /// Years between two stages; 0: all plants have the last stage.
     float years_of_stage = 0.0F;
-    /// m, of the grammar's `#set height`: tree 0 of the last stage has it at scale 1; 0: none.
+    /// Height in m of tree 0 of the last stage at scale 1, from the grammar's `#set height`; 0: not
+    /// set.
     float height = 0.0F;
 };
 
@@ -70,7 +71,8 @@ void for_each_piece(const Forest& forest,
                     const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);
 [[nodiscard]] std::uint64_t piece_count(const Forest& forest);
 
-/// Expands every tree. Time is linear in the branches, memory does not grow with the trees.
+/// Counts by expanding every tree. Time is linear in the branches; memory does not grow with the
+/// trees.
 [[nodiscard]] ForestCounts count_forest(const Forest& forest, std::uint32_t threads);
 
 } // namespace lsys

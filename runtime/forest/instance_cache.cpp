@@ -46,7 +46,7 @@ public:
             ++slot.recorded;
             if (options_.cap != 0 && variants.size() >= options_.cap) {
                 ++slot.dropped;
-                active_.emplace_back(); // of no instance
+                active_.emplace_back(); // not recorded
                 return true;
             }
             start(index, branch.place, branch.drawn);
@@ -104,7 +104,7 @@ private:
     struct Active {
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
-        std::size_t suspended_below = 0; // suspended_ before it, if it suspends
+        std::size_t suspended_below = 0; // suspended_ to restore, if `suspends`
         bool suspends = false;           // suspends the enclosing instances
     };
 
@@ -197,7 +197,7 @@ private:
 
     void add(std::uint32_t word) { key_.append(reinterpret_cast<const char*>(&word), sizeof word); }
 
-    /// The bits of a value, or its number of tolerances.
+    /// Adds the bits of a value or, with a tolerance, its number of rounding steps.
     void add_real(std::uint32_t id, float value) {
         const std::uint32_t part = part_++;
         if (options_.tolerance == 0.0F) {
@@ -211,7 +211,7 @@ private:
         }
         const double steps = std::round(static_cast<double>(value) /
                                         (static_cast<double>(options_.tolerance) * scale->second));
-        const auto bits = std::bit_cast<std::uint64_t>(steps + 0.0); // one zero
+        const auto bits = std::bit_cast<std::uint64_t>(steps + 0.0); // -0 becomes 0
         add(static_cast<std::uint32_t>(bits));
         add(static_cast<std::uint32_t>(bits >> 32));
     }
@@ -222,7 +222,7 @@ private:
     std::vector<std::vector<DrawnRange>> ranges_;      // by instance
     std::vector<std::vector<std::uint32_t>> variants_; // by slot
     std::vector<Active> active_;
-    std::size_t suspended_ = 0; // in active_: instances before it are suspended
+    std::size_t suspended_ = 0; // count of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_; // by id and part of the key
     std::string key_;

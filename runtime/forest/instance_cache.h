@@ -89,8 +89,9 @@ struct CacheOptions {
     std::uint32_t heroes = 10; // at least 1
     std::uint32_t generations = 0;
     std::uint64_t seed = 0; // hero k has seed + k
-    std::uint32_t cap = 0;  // most instances of one key; 0: any number
-    /// Tolerance of values of one key, as a part of the first value of their kind; 0: equal values.
+    std::uint32_t cap = 0;  // max instances per key; 0: any number
+    /// Step to which the values in keys are rounded, as a fraction of the first value recorded at
+    /// the same place of a key; 0: exact values.
     float tolerance = 0.0F;
     /// Per id: whether the drawing depends on the up direction, which is then part of the key.
     std::vector<bool> depends_on_vertical;
@@ -134,7 +135,8 @@ public:
     /// order. Depends on cache, key and tree alone. Returns the count.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
-    /// Calls visit(instance) for the instances of expand(), without places: in a third of the time.
+    /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
+    /// time.
     template <typename Visit>
     std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
     /// The first instance of expand(): a whole plant.
@@ -149,7 +151,7 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
-    /// Instances to visit, the next one last. Grows by many at a time: most instances add one or
+    /// Instances to visit, the next one last. Doubles when full: most instances add only one or
     /// two.
     template <typename T>
     class Stack {

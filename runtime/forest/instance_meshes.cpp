@@ -14,7 +14,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() - 1;
-constexpr std::uint64_t kInstancesOfPiece = 256;
+constexpr std::uint64_t kInstancesPerPiece = 256;
 
 /// Slots that a tree can contain.
 std::vector<bool> find_reached(const InstanceCache& cache) {
@@ -62,7 +62,8 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
 /// their exits.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
-    // Exits at an entry are few, in chains no longer than the depth of brackets.
+    // Repeats until nothing changes: exits at the entry of their instance form chains, which are
+    // no longer than the depth of brackets.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t s = 0; s < cache.slots.size(); ++s) {
@@ -83,8 +84,9 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// The heroes' skeleton with its forks, in which the parent of an object or polygon is its own
-/// number: items are numbered segments first, then polygons, then objects.
+/// The heroes' skeleton with its forks marked and its items numbered: segments first, then
+/// polygons, then objects. The parent of a polygon or object is set to its own number, so that
+/// Mesh::segments names the item of each vertex.
 Skeleton number_items(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
     const std::vector<bool> begins = find_slots_with_segments(cache);
@@ -103,37 +105,38 @@ Skeleton number_items(const InstanceCache& cache) {
 }
 
 /// Triangles of each segment, object and polygon, in the order of the mesh.
-struct Owners {
+struct ItemTriangles {
     LargeVector<std::uint32_t> first; // of each item; at the end the number of triangles
     LargeVector<std::uint32_t> triangles;
 };
 
-Owners
-find_owners(const Mesh& mesh, std::span<const std::uint32_t> indices, std::uint64_t item_count) {
+ItemTriangles find_item_triangles(const Mesh& mesh,
+                                  std::span<const std::uint32_t> indices,
+                                  std::uint64_t item_count) {
     const std::uint64_t count = indices.size() / 3;
     const auto owner = [&](std::uint64_t triangle) {
         const std::uint32_t item = mesh.segments[indices[3 * triangle]][0];
         LSYS_CHECK(item < item_count, item, item_count);
         return item;
     };
-    Owners owners;
-    owners.first.assign(item_count + 1, 0);
-    owners.triangles.resize(count);
+    ItemTriangles result;
+    result.first.assign(item_count + 1, 0);
+    result.triangles.resize(count);
     for (std::uint64_t t = 0; t < count; ++t) {
-        ++owners.first[owner(t)];
+        ++result.first[owner(t)];
     }
     std::uint32_t sum = 0;
-    for (std::uint32_t& first : owners.first) {
+    for (std::uint32_t& first : result.first) {
         sum += std::exchange(first, sum);
     }
     for (std::uint64_t t = 0; t < count; ++t) {
-        owners.triangles[owners.first[owner(t)]++] = static_cast<std::uint32_t>(t);
+        result.triangles[result.first[owner(t)]++] = static_cast<std::uint32_t>(t);
     }
     for (std::uint64_t i = item_count; i > 0; --i) { // restore the start offsets
-        owners.first[i] = owners.first[i - 1];
+        result.first[i] = result.first[i - 1];
     }
-    owners.first[0] = 0;
-    return owners;
+    result.first[0] = 0;
+    return result;
 }
 
 class ListWriter {
@@ -141,14 +144,14 @@ public:
     ListWriter(const InstanceCache& cache, const Mesh& mesh)
         : cache_(cache), mesh_(mesh), indices_(mesh.indices.expanded()),
           segments_(cache.skeleton.segments.size()), polygons_(cache.skeleton.polygons.size()),
-          owners_(
-              find_owners(mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
+          item_triangles_(find_item_triangles(
+              mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
 
-    /// Indices of an instance by part of the mesh.
+    /// Adds the counts of the instance's indices in each part of the mesh.
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
         visit(instance, [&](std::size_t part, std::uint32_t) { counts[part] += 3; });
     }
-    /// `at`: the next index of each part.
+    /// Writes the instance's indices; `at`: position of the next index of each part.
     void write(const Instance& instance,
                std::span<std::uint64_t> at,
                LargeVector<std::uint32_t>& indices) const {
@@ -175,13 +178,14 @@ private:
     void visit_run(std::uint64_t begin, std::uint64_t end, const Visit& visit) const {
         std::size_t part = 0;
         for (std::uint64_t item = begin; item < end; ++item) {
-            for (std::uint32_t i = owners_.first[item]; i < owners_.first[item + 1]; ++i) {
-                const std::uint64_t index = std::uint64_t{3} * owners_.triangles[i];
+            for (std::uint32_t i = item_triangles_.first[item]; i < item_triangles_.first[item + 1];
+                 ++i) {
+                const std::uint64_t index = std::uint64_t{3} * item_triangles_.triangles[i];
                 part = index < mesh_.parts[part].first_index ? 0 : part;
                 while (index >= mesh_.parts[part].first_index + mesh_.parts[part].index_count) {
                     ++part;
                 }
-                visit(part, owners_.triangles[i]);
+                visit(part, item_triangles_.triangles[i]);
             }
         }
     }
@@ -191,7 +195,7 @@ private:
     LargeVector<std::uint32_t> indices_; // of the mesh
     std::uint64_t segments_;
     std::uint64_t polygons_;
-    Owners owners_;
+    ItemTriangles item_triangles_;
 };
 
 /// Replaces the heroes' triangles by the lists of the instances.
@@ -204,15 +208,15 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     const ListWriter lists(cache, mesh);
     mesh.segments = {};
     const std::vector<bool> reached = find_reached(cache);
-    const std::size_t heroes_parts = mesh.parts.size();
+    const std::size_t hero_part_count = mesh.parts.size();
     Workers workers(options.threads);
     const auto for_each_reached = [&](const auto& visit) {
         const std::uint64_t pieces =
-            (cache.instances.size() + kInstancesOfPiece - 1) / kInstancesOfPiece;
+            (cache.instances.size() + kInstancesPerPiece - 1) / kInstancesPerPiece;
         workers.for_each(pieces, [&](std::uint64_t piece) {
             const std::uint64_t end =
-                std::min<std::uint64_t>((piece + 1) * kInstancesOfPiece, cache.instances.size());
-            for (std::uint64_t i = piece * kInstancesOfPiece; i < end; ++i) {
+                std::min<std::uint64_t>((piece + 1) * kInstancesPerPiece, cache.instances.size());
+            for (std::uint64_t i = piece * kInstancesPerPiece; i < end; ++i) {
                 if (reached[cache.instances[i].slot]) {
                     visit(i, cache.instances[i]);
                 }
@@ -220,9 +224,9 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
         });
     };
     LargeVector<std::uint64_t> places;
-    places.assign(cache.instances.size() * heroes_parts, 0);
+    places.assign(cache.instances.size() * hero_part_count, 0);
     const auto places_of = [&](std::uint64_t instance) {
-        return std::span(places).subspan(instance * heroes_parts, heroes_parts);
+        return std::span(places).subspan(instance * hero_part_count, hero_part_count);
     };
     for_each_reached(
         [&](std::uint64_t i, const Instance& instance) { lists.count(instance, places_of(i)); });
@@ -232,7 +236,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     for (std::uint64_t i = 0; i < cache.instances.size(); ++i) {
         meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
         const std::span<std::uint64_t> of_instance = places_of(i);
-        for (std::size_t part = 0; part < heroes_parts; ++part) {
+        for (std::size_t part = 0; part < hero_part_count; ++part) {
             if (of_instance[part] > 0) {
                 parts.push_back({mesh.parts[part].material, indices, of_instance[part]});
             }

@@ -26,7 +26,7 @@ struct InstanceMeshes {
         return std::span(mesh.parts)
             .subspan(first_part[instance], first_part[instance + 1] - first_part[instance]);
     }
-    [[nodiscard]] std::uint64_t triangles_of(std::uint32_t instance) const {
+    [[nodiscard]] std::uint64_t triangle_count_of(std::uint32_t instance) const {
         std::uint64_t triangles = 0;
         for (const MeshPart& part : parts_of(instance)) {
             triangles += part.index_count / 3;
@@ -40,11 +40,11 @@ struct InstanceMeshes {
     }
 };
 
-/// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
-/// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
-/// the heroes. MeshOptions::segments is ignored; max_bytes limits the result. Returns as make_mesh()
-/// does; also Failed for MeshMethod::Boxes, since a branch and its parent are one surface there,
-/// which cannot be cut.
+/// A triangle belongs to all instances that contain its segment, object or polygon. Where a branch
+/// is left out, its parent ends as if the branch were there. Droop and bark noise are those of the
+/// heroes. MeshOptions::segments is ignored; max_bytes limits the result. Returns as make_mesh()
+/// does; also Failed for MeshMethod::Boxes, which makes a branch and its parent one surface that
+/// cannot be cut.
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

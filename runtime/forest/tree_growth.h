@@ -12,12 +12,12 @@ namespace lsys {
 /// Height of a tree of scale 1 with the species and age of `tree`, m; 0: unknown.
 using TreeHeight = std::function<float(const Tree& tree)>;
 
-/// The trees `part` of the way, 0 to 1, from one year to the next: at 0 exactly `before`, at 1
-/// `after`. Between them a tree of both keeps its age and takes the size that it will have: its scale
-/// changes steadily, and where the next age has another stage, to that at which both stages are
-/// equally high, so that only its branches change at the year. New trees grow from nothing, dead
-/// ones shrink to nothing in their place, both slowly at first and last. `before` and `after`: by
-/// rising Tree::number; so is the result.
+/// The trees at fraction `part` of the way from one year to the next: exactly `before` at 0,
+/// exactly `after` at 1. In between, a tree of both years keeps its age, and its scale changes
+/// linearly to that of the next year; if the next age has another stage, to the scale at which both
+/// stages are equally high, so that only the branches change at the year. New trees grow from scale
+/// 0 and dead trees shrink to 0, both eased by a smoothstep. `before`, `after` and the result are
+/// sorted by Tree::number.
 [[nodiscard]] LargeVector<Tree> trees_between(std::span<const Tree> before,
                                               std::span<const Tree> after,
                                               double part,

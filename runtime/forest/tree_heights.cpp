@@ -12,11 +12,11 @@ namespace lsys {
 
 namespace {
 
-/// As of single plants (scale_to_height()).
-constexpr double kLeastHeight = 1e-6;
-constexpr std::uint64_t kTreesOfPiece = 1024;
+/// Fraction of the size of the plant, as in scale_to_height().
+constexpr double kMinHeightFraction = 1e-6;
+constexpr std::uint64_t kTreesPerPiece = 1024;
 
-/// Calls visit(point) for all points that a box holds.
+/// Calls visit(point) for all points of an instance.
 template <typename Visit>
 void for_each_point(const InstanceCache& cache, const Instance& instance, const Visit& visit) {
     const Skeleton& skeleton = cache.skeleton;
@@ -57,12 +57,12 @@ void add_points(const InstanceCache& cache,
     });
 }
 
-/// The direction of the heroes' coordinates that points upwards in an instance so placed.
+/// World up in the coordinates of the heroes, for an instance with this pose.
 glm::dvec3 up_of(const InstancePose& pose) {
     return glm::conjugate(glm::dquat(pose.rotation)) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// The measures of the last stages of all species of a forest, for one thread.
+/// A TreeMeasure for the last stage of each species of a forest, for one thread.
 class Measures {
 public:
     Measures(const Forest& forest, const std::vector<HeightTable>& tables)
@@ -84,13 +84,13 @@ private:
 };
 
 std::uint64_t pieces_of(const Forest& forest) {
-    return (forest.trees.size() + kTreesOfPiece - 1) / kTreesOfPiece;
+    return (forest.trees.size() + kTreesPerPiece - 1) / kTreesPerPiece;
 }
 
 std::span<const Tree> piece_of(const Forest& forest, std::uint64_t piece) {
-    const std::uint64_t begin = piece * kTreesOfPiece;
+    const std::uint64_t begin = piece * kTreesPerPiece;
     return std::span<const Tree>(forest.trees)
-        .subspan(begin, std::min(kTreesOfPiece, forest.trees.size() - begin));
+        .subspan(begin, std::min(kTreesPerPiece, forest.trees.size() - begin));
 }
 
 } // namespace
@@ -109,7 +109,7 @@ HeightTable make_height_table(const InstanceCache& cache) {
         }
     }
     const glm::dvec3 size = glm::dvec3(all.high) - glm::dvec3(all.low);
-    table.least = kLeastHeight * std::max({size.x, size.y, size.z});
+    table.min_height = kMinHeightFraction * std::max({size.x, size.y, size.z});
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
         const Instance& instance = cache.instances[i];
         if (instance.slot == 0 && instance.exit_count == 0 && !table.boxes[i].empty) {
@@ -125,9 +125,11 @@ HeightTable make_height_table(const InstanceCache& cache) {
 std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
     Tree tree;
     tree.number = number;
-    const auto known = [&](double height) { return height > table_.least ? height : 0.0; };
+    const auto zero_if_flat = [&](double height) {
+        return height > table_.min_height ? height : 0.0;
+    };
     if (const std::optional<double> whole = table_.whole[expander_.root_instance(tree)]) {
-        return known(*whole);
+        return zero_if_flat(*whole);
     }
     parts_.clear();
     expander_.expand(tree, [&](const BranchInstance& branch) {
@@ -167,7 +169,7 @@ std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
             add(part);
         }
     }
-    return known(extent.high - extent.low);
+    return zero_if_flat(extent.high - extent.low);
 }
 
 void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache) {
@@ -189,12 +191,12 @@ size_trees(std::span<const double> heights, std::uint32_t threads, Forest& fores
         }
     }
     constexpr std::uint32_t kNoSpecies = ~std::uint32_t{0};
-    std::vector<std::uint32_t> flat(pieces_of(forest), kNoSpecies);
+    std::vector<std::uint32_t> flat_species(pieces_of(forest), kNoSpecies);
     Workers workers(threads);
-    workers.for_each(flat.size(), [&](std::uint64_t piece) {
+    workers.for_each(flat_species.size(), [&](std::uint64_t piece) {
         Measures measures(forest, tables);
-        for (std::uint64_t i = piece * kTreesOfPiece;
-             i < std::min<std::uint64_t>(forest.trees.size(), (piece + 1) * kTreesOfPiece); ++i) {
+        for (std::uint64_t i = piece * kTreesPerPiece;
+             i < std::min<std::uint64_t>(forest.trees.size(), (piece + 1) * kTreesPerPiece); ++i) {
             Tree& tree = forest.trees[i];
             if (heights[tree.species] == 0.0) {
                 continue;
@@ -204,15 +206,15 @@ size_trees(std::span<const double> heights, std::uint32_t threads, Forest& fores
                 continue;
             }
             if (*height == 0.0) {
-                flat[piece] = std::min<std::uint32_t>(flat[piece], tree.species);
+                flat_species[piece] = std::min<std::uint32_t>(flat_species[piece], tree.species);
                 continue;
             }
             tree.scale = static_cast<float>(static_cast<double>(tree.scale) *
                                             heights[tree.species] / *height);
         }
     });
-    const auto first = std::min_element(flat.begin(), flat.end());
-    if (first == flat.end() || *first == kNoSpecies) {
+    const auto first = std::min_element(flat_species.begin(), flat_species.end());
+    if (first == flat_species.end() || *first == kNoSpecies) {
         return std::nullopt;
     }
     return static_cast<std::uint16_t>(*first);

@@ -15,12 +15,12 @@
 
 namespace lsys {
 
-/// What the heights of a cache's trees are computed from.
+/// Extents of a cache's instances, from which the heights of its trees are computed.
 struct HeightTable {
     std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
     /// Heights of instances without exits; none for others.
     std::vector<std::optional<double>> whole;
-    double least = 0.0; // m: a lower box counts as flat
+    double min_height = 0.0; // m: a lower tree counts as flat
 };
 [[nodiscard]] HeightTable make_height_table(const InstanceCache& cache);
 
@@ -31,9 +31,9 @@ public:
     TreeMeasure(const InstanceCache& cache, const HeightTable& table, std::uint64_t key)
         : cache_(cache), table_(table), expander_(cache, key) {}
 
-    /// m, from the lowest to the highest point: axes of segments, places of objects, corners of
-    /// polygons. 0: the tree is flat; none: nothing of it is drawn. Only instances whose boxes
-    /// reach beyond the points known so far are read.
+    /// Height in m from the lowest to the highest point: axes of segments, places of objects,
+    /// corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads points only of
+    /// instances whose boxes reach beyond the points known so far.
     [[nodiscard]] std::optional<double> height_of(std::uint32_t number);
 
 private:
@@ -56,14 +56,13 @@ private:
 void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache);
 
 /// Multiplies the scale of every tree of species s by heights[s] / its height at scale 1, so that
-/// it is scale * heights[s] metres high; a younger tree by that of its last stage. heights[s] = 0
-/// leaves the species as it is, and trees of which nothing is drawn stay. Returns the first species
-/// with a flat tree, whose scale is then left. 0 threads: as many as the machine has.
+/// it is scale * heights[s] metres high. Younger trees use the height of their species' last stage.
+/// Scales stay for heights[s] = 0, and for trees that are flat or draw nothing. Returns the first
+/// species with a flat tree. 0 threads: as many as the machine has.
 [[nodiscard]] std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);
 
-/// m, of the tallest tree: its scale times the height of its plant, for all trees. Time is linear
-/// in the branches.
+/// Height in m of the tallest tree, its scale included. Time is linear in the branches.
 [[nodiscard]] double tallest_tree(const Forest& forest, std::uint32_t threads);
 
 } // namespace lsys

@@ -28,7 +28,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
         if (options.segments && !builder.stop()) {
-            name_ring_segments(skeleton, options, builder.segments());
+            fill_ring_segments(skeleton, options, builder.segments());
         }
         break;
     case MeshMethod::Cylinders:
@@ -58,7 +58,7 @@ std::optional<Stop> make_mesh(const Skeleton& skeleton,
 
 glm::vec3 palette_colour(std::uint32_t index) {
     // Grammars count colours up as a plant grows, so the first ones are wood and foliage.
-    static constexpr std::array<std::array<float, 3>, 25> kRound{{
+    static constexpr std::array<std::array<float, 3>, 25> kPalette{{
         {0.162F, 0.098F, 0.054F}, // bark
         {0.082F, 0.235F, 0.028F}, // leaf
         {0.095F, 0.252F, 0.031F}, // greens, from deep to light
@@ -76,8 +76,9 @@ glm::vec3 palette_colour(std::uint32_t index) {
         {0.019F, 0.337F, 0.319F},                           // teal
         {0.402F, 0.402F, 0.402F},                           // grey
     }};
-    const std::size_t entry = index < kRound.size() ? index : 2 + (index - 2) % (kRound.size() - 2);
-    return {kRound[entry][0], kRound[entry][1], kRound[entry][2]};
+    const std::size_t entry =
+        index < kPalette.size() ? index : 2 + (index - 2) % (kPalette.size() - 2);
+    return {kPalette[entry][0], kPalette[entry][1], kPalette[entry][2]};
 }
 
 } // namespace lsys

@@ -42,7 +42,7 @@ struct MeshPart {
     std::uint64_t index_count = 0;
 };
 
-/// The two segments that carry a vertex, half each; equal for one, kNoSegment for none.
+/// The two segments that a vertex is bound to, half each; equal: one segment; kNoSegment: none.
 using VertexSegments = std::array<std::uint32_t, 2>;
 
 struct Mesh {
@@ -66,7 +66,7 @@ struct Mesh {
 
 enum class MeshMethod : std::uint8_t {
     Tubes,     // linked tubes along axes, joints shared
-    Cylinders, // one closed cylinder a segment (Crankshaw 2019)
+    Cylinders, // one closed cylinder per segment (Crankshaw 2019)
     Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (report of the .sys forest)
 };
 
@@ -76,14 +76,15 @@ struct MeshOptions {
     std::uint32_t level = 0;
     /// Sides of every cross-section; 0: those of the skeleton.
     std::uint32_t sides = 0;
-    /// Tubes: distance in metres of a ring from its circle, at most; rings get the fewest sides
-    /// that keep it, up to those of their level. 0: rings have the sides of their level.
+    /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides that
+    /// keep it, at most those of their level. 0: rings have the sides of their level.
     float deviation = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;
     bool segments = false; // Mesh::segments, for a skin
-    /// Part of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0: none.
+    /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
+    /// none.
     float bark_noise = 0.0F;
     /// Bending of leaves by gravity, 0 (none) to 1 (they hang).
     float droop = 0.0F;
@@ -110,7 +111,7 @@ struct UserMesh {
     std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
     std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
     std::vector<std::string> files;                 // tried in search of the picture
-    [[nodiscard]] float length() const;             // greatest y, at least 0
+    [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };
 

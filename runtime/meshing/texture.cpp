@@ -36,18 +36,18 @@ float fraction(float x) {
 }
 
 /// Position of a texel in the picture, 0 to 1.
-float middle(std::uint32_t texel) {
+float texel_centre(std::uint32_t texel) {
     return (static_cast<float>(texel) + 0.5F) / static_cast<float>(kSize);
 }
 
 /// Position of a texel between two points of a repeating lattice of `cells`.
-struct Between {
+struct LatticePosition {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
     float share = 0.0F;
 };
-Between between(std::uint32_t texel, std::uint32_t cells) {
-    const float x = middle(texel) * static_cast<float>(cells);
+LatticePosition lattice_position(std::uint32_t texel, std::uint32_t cells) {
+    const float x = texel_centre(texel) * static_cast<float>(cells);
     const auto low = static_cast<std::uint32_t>(x) % cells;
     return {low, (low + 1) % cells, smooth(0.0F, 1.0F, fraction(x))};
 }
@@ -64,13 +64,13 @@ public:
                 points[i] = lattice(i, line, layer);
             }
             for (std::uint32_t column = 0; column < kSize; ++column) {
-                const Between at = between(column, columns);
+                const LatticePosition at = lattice_position(column, columns);
                 lines[std::size_t{line} * kSize + column] =
                     mix(points[at.low], points[at.high], at.share);
             }
         }
         for (std::uint32_t row = 0; row < kSize; ++row) {
-            const Between at = between(row, rows);
+            const LatticePosition at = lattice_position(row, rows);
             const float* const low = &lines[std::size_t{at.low} * kSize];
             const float* const high = &lines[std::size_t{at.high} * kSize];
             for (std::uint32_t column = 0; column < kSize; ++column) {
@@ -96,7 +96,7 @@ public:
           narrow_(4 * count, 5 * rows, layer + 1) {}
     [[nodiscard]] float operator()(std::uint32_t column, std::uint32_t row) const {
         const float bend = 1.5F * (wide_(column, row) - 0.5F) + 0.25F * narrow_(column, row);
-        return std::abs(2.0F * fraction(middle(column) * count_ + bend) - 1.0F);
+        return std::abs(2.0F * fraction(texel_centre(column) * count_ + bend) - 1.0F);
     }
 
 private:
@@ -130,7 +130,7 @@ private:
 };
 
 std::uint8_t byte(float value) {
-    // Half of a number that is cut off is rounded, without a call of the library for each texel.
+    // Rounds by truncating twice the value, without a library call for each texel.
     const auto twice = static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.0F) * 510.0F);
     return static_cast<std::uint8_t>((twice + 1) / 2);
 }
@@ -165,7 +165,7 @@ Texture paint_bark() {
 }
 
 /// Half the width of the leaf in the picture, 0 to 1: the outline of the mesh with rounded corners
-/// and a margin, so that mostly the mesh ends the leaf.
+/// and a margin, so that in most places the mesh, not the opacity, bounds the leaf.
 float leaf_half(float distance) {
     constexpr float kMax = 0.25F;
     constexpr float kMargin = 0.04F;
@@ -183,16 +183,16 @@ Texture paint_leaf() {
     const Noise cells(24, 24, 12);
     std::array<float, kSize> halves{};
     for (std::uint32_t row = 0; row < kSize; ++row) {
-        halves[row] = leaf_half(1.0F - middle(row));
+        halves[row] = leaf_half(1.0F - texel_centre(row));
     }
     return paint([&](std::uint32_t column, std::uint32_t row) {
-        const float v = middle(row);
+        const float v = texel_centre(row);
         const float half = halves[row];
-        const float side = std::abs(2.0F * middle(column) - 1.0F);
+        const float side = std::abs(2.0F * texel_centre(column) - 1.0F);
         // One texel of slope around the outline, for filters.
         const float opacity = smooth(-1.5F, 1.5F, (half - side) * static_cast<float>(kSize) / 2.0F);
         const float midrib = 1.0F - smooth(0.012F, 0.03F + 0.03F * v, side);
-        // Veins leave the midrib and lean towards v = 0; the first number is how many there are.
+        // Eight veins on each side leave the midrib and lean towards v = 0.
         const float along = 8.0F * (v + 0.45F * side) + 0.3F * bends(column, row);
         const float from_vein = std::abs(fraction(along) - 0.5F);
         const float vein = (1.0F - smooth(0.04F, 0.16F, from_vein)) * (1.0F - 0.5F * side);

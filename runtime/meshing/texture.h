@@ -30,17 +30,17 @@ struct Texture {
 /// The relief of the bark as normals.
 [[nodiscard]] Texture bark_normals();
 
-/// Texels of a picture that is read, in all and along a side, at most.
+/// Max texels of a picture file, in total and along a side.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t kMaxTextureSide = 16384;
-/// Reads a PNG file whose texels take at most `max_bytes`. Other formats are refused by name.
+/// Reads a PNG file whose texels take at most `max_bytes`. The error names any other known format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// Whether any texel is less than half opaque.
 [[nodiscard]] bool has_holes(const Texture& texture);
 /// Mean linear colour of texels that are at least half opaque; white without such texels.
 [[nodiscard]] glm::vec3 mean_colour(const Texture& texture);
 
-/// The bytes of a PNG file; without opacity if all texels are opaque. Empty without memory for it.
+/// The bytes of a PNG file; without opacity if all texels are opaque. Empty if memory runs out.
 [[nodiscard]] std::string encode_png(const Texture& texture);
 
 } // namespace lsys

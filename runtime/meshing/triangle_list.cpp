@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kMaxPatchSides = 255;
 // Indices of a unit of a patch: one band, or the whole of any other shape.
-constexpr std::size_t kMaxOfUnit = std::size_t{6} * kMaxPatchSides;
+constexpr std::size_t kMaxUnitIndices = std::size_t{6} * kMaxPatchSides;
 constexpr std::uint32_t kMaxBands = 1U << 20; // at once
-constexpr std::uint32_t kMaxOfBlock = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kMaxBlockIndices = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace
 
@@ -22,7 +22,7 @@ constexpr std::uint32_t kMaxOfBlock = std::numeric_limits<std::uint32_t>::max();
 struct TriangleList::Pattern {
     std::uint32_t sides = 0;
     bool seam = false;
-    std::array<std::uint32_t, kMaxOfUnit> offsets;
+    std::array<std::uint32_t, kMaxUnitIndices> offsets;
 
     void set(std::uint32_t new_sides, bool new_seam) {
         if (sides == new_sides && seam == new_seam) {
@@ -73,7 +73,7 @@ void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uin
             const std::uint32_t after = corner(low, sides, i + 1);
             *to++ = patch.upwards ? low + i : after;
             *to++ = patch.upwards ? after : low + i;
-            *to++ = high + (patch.each_its_own ? i : 0);
+            *to++ = high + (patch.point_per_side ? i : 0);
         }
         return;
     }
@@ -103,7 +103,7 @@ void TriangleList::read_patches(const Block& block,
     auto patch = std::upper_bound(
         block.patches.begin(), block.patches.end(), first,
         [](std::uint64_t index, const Patch& candidate) { return index < candidate.end; });
-    std::array<std::uint32_t, kMaxOfUnit> part;
+    std::array<std::uint32_t, kMaxUnitIndices> part;
     for (; !to.empty(); ++patch) {
         const std::uint64_t begin = patch == block.patches.begin() ? 0 : std::prev(patch)->end;
         const bool bands = patch->shape == Shape::Bands;
@@ -215,7 +215,7 @@ void TriangleList::append(TriangleList list, std::uint32_t first_vertex) {
 
 void TriangleList::append_patch(Patch patch, std::uint32_t indices) {
     if (blocks_.empty() || blocks_.back().patches.empty() ||
-        indices > kMaxOfBlock - blocks_.back().patches.back().end) {
+        indices > kMaxBlockIndices - blocks_.back().patches.back().end) {
         blocks_.push_back({.begin = size_, .patches = {}, .listed = {}});
     }
     std::vector<Patch>& patches = blocks_.back().patches;
@@ -235,7 +235,8 @@ void TriangleList::append_bands(const RingCorners& low, std::uint32_t bands) {
     if (!blocks_.empty() && !blocks_.back().patches.empty()) {
         Patch& patch = blocks_.back().patches.back();
         if (patch.shape == Shape::Bands && patch.second == low.first && patch.sides == low.sides &&
-            patch.seam == low.seam && indices <= kMaxOfBlock - patch.end) { // continues the patch
+            patch.seam == low.seam &&
+            indices <= kMaxBlockIndices - patch.end) { // continues the patch
             patch.second = behind;
             patch.end += indices;
             size_ += indices;
@@ -263,7 +264,7 @@ void TriangleList::append_uneven_band(const RingCorners& low, const RingCorners&
 
 void TriangleList::append_fan(const RingCorners& ring,
                               std::uint32_t point,
-                              bool each_its_own,
+                              bool point_per_side,
                               bool upwards) {
     LSYS_CHECK(ring.sides > 0 && ring.sides <= kMaxPatchSides, ring.sides);
     append_patch({.first = ring.first,
@@ -271,7 +272,7 @@ void TriangleList::append_fan(const RingCorners& ring,
                   .shape = Shape::Fan,
                   .sides = static_cast<std::uint8_t>(ring.sides),
                   .seam = ring.seam,
-                  .each_its_own = each_its_own,
+                  .point_per_side = point_per_side,
                   .upwards = upwards},
                  3 * ring.sides);
 }

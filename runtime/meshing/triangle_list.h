@@ -1,7 +1,7 @@
-// TriangleList: the indices of a mesh, three for each triangle, compressed: regular ones are stored
-// as bands between rings and fans. The indices of a tube would take as much memory as its positions
-// and normals; as bands they take some bytes for a whole axis. Writing memory is most of the cost
-// of a large mesh.
+// TriangleList: the indices of a mesh, three for each triangle, compressed: regular triangles are
+// stored as bands between rings, and as fans. The indices of a tube would take as much memory as
+// its positions and normals; as bands they take some bytes for a whole axis. Writing memory is most
+// of the cost of a large mesh.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -56,9 +56,10 @@ public:
     void append_bands(const RingCorners& low, std::uint32_t bands);
     /// Appends the triangles between two rings with different sides.
     void append_uneven_band(const RingCorners& low, const RingCorners& high);
-    /// Appends a triangle from each side of a ring to vertex `point`, or with `each_its_own` to the
-    /// vertices from `point` on. `upwards`: the ring is counter-clockwise seen from there.
-    void append_fan(const RingCorners& ring, std::uint32_t point, bool each_its_own, bool upwards);
+    /// Appends a triangle from each side of a ring to vertex `point`, or with `point_per_side` to
+    /// the vertices from `point` on. `upwards`: the ring is counter-clockwise seen from there.
+    void
+    append_fan(const RingCorners& ring, std::uint32_t point, bool point_per_side, bool upwards);
 
 private:
     enum class Shape : std::uint8_t { Bands, UnevenBand, Fan };
@@ -71,7 +72,7 @@ private:
         std::uint8_t sides = 0;
         std::uint8_t second_sides = 0;
         bool seam : 1 = false;
-        bool each_its_own : 1 = false;
+        bool point_per_side : 1 = false;
         bool upwards : 1 = false;
     };
 

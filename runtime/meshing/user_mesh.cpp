@@ -119,7 +119,7 @@ private:
     [[nodiscard]] bool ends_here(std::size_t at) const {
         return at >= text_.size() || text_[at] == '\n' || text_[at] == '\r';
     }
-    void pass_end() {
+    void skip_line_end() {
         if (at_ < text_.size()) {
             at_ += text_.substr(at_, 2) == "\r\n" ? 2U : 1U;
             ++line_;
@@ -131,7 +131,7 @@ private:
                 ++at_;
             } else if (text_[at_] == '\\' && at_ + 1 < text_.size() && ends_here(at_ + 1)) {
                 ++at_;
-                pass_end();
+                skip_line_end();
             } else {
                 return;
             }
@@ -159,7 +159,7 @@ private:
     // --- memory
     [[nodiscard]] std::uint64_t held_bytes() const {
         const auto of = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
-        return of(positions_) + of(normals_) + of(texture_coordinates_) + of(around_) +
+        return of(positions_) + of(normals_) + of(texture_coordinates_) + of(area_sums_) +
                of(mesh_.indices) + numbers_.byte_count() + name_bytes_;
     }
     /// Whether `more` bytes fit; sets the error if not.
@@ -207,7 +207,7 @@ private:
         }
         while (!word().empty()) {
         }
-        pass_end();
+        skip_line_end();
     }
 
     /// Names may have blanks in them, but not at their ends.
@@ -229,7 +229,7 @@ private:
         if (known.contains(name.name)) {
             return true;
         }
-        // A node of the set, its place in the table, an item of the list that may just be moved.
+        // Bound: a node and a bucket of the set, an item of a list that may be reallocating.
         const std::uint64_t bytes =
             2 * name.name.size() + 8 * sizeof(void*) + sizeof(std::string) + 3 * sizeof(ObjName);
         if (!has_memory(bytes)) {
@@ -386,7 +386,7 @@ private:
             fail(line, fmt::format("a face needs three corners and has {}", count));
         }
     }
-    /// Returns false without memory for it.
+    /// Returns false if memory runs out.
     bool add_triangle(const Corner& a, const Corner& b, const Corner& c) {
         const glm::dvec3 p(positions_[a.position]);
         const glm::dvec3 area = glm::cross(glm::dvec3(positions_[b.position]) - p,
@@ -407,13 +407,13 @@ private:
         for (const Corner* corner : {&a, &b, &c}) {
             mesh_.indices.push_back(numbers_.number(*corner));
             if (!has_normal(*corner)) {
-                if (around_.size() < positions_.size()) {
-                    if (!make_room(around_, positions_.size() - around_.size())) {
+                if (area_sums_.size() < positions_.size()) {
+                    if (!make_room(area_sums_, positions_.size() - area_sums_.size())) {
                         return false;
                     }
-                    around_.resize(positions_.size());
+                    area_sums_.resize(positions_.size());
                 }
-                around_[corner->position] += area;
+                area_sums_[corner->position] += area;
             }
         }
         return true;
@@ -431,8 +431,8 @@ private:
         }
         for (const Corner& corner : corners) {
             mesh_.positions.push_back(positions_[corner.position]);
-            const glm::dvec3 normal =
-                has_normal(corner) ? glm::dvec3(normals_[corner.normal]) : around_[corner.position];
+            const glm::dvec3 normal = has_normal(corner) ? glm::dvec3(normals_[corner.normal])
+                                                         : area_sums_[corner.position];
             const double length = std::sqrt(glm::dot(normal, normal));
             // Faces of a vertex may cancel each other.
             mesh_.normals.push_back(length > 0.0 ? glm::vec3(normal / length)
@@ -456,7 +456,7 @@ private:
     std::vector<glm::vec3> positions_;
     std::vector<glm::vec3> normals_;
     std::vector<glm::vec2> texture_coordinates_;
-    std::vector<glm::dvec3> around_; // sums of twice the areas of faces, by vertex
+    std::vector<glm::dvec3> area_sums_; // sums of twice the areas of faces, by vertex
     CornerNumbers numbers_;
     ObjName material_; // of the next faces
     std::string last_material_;

@@ -1,4 +1,4 @@
-// Meshes of `#object X "leaf.obj"`: Wavefront OBJ, the geometry of it (v, vt, vn, f) and the names
+// Meshes of `#object X "leaf.obj"`: Wavefront OBJ, its geometry (v, vt, vn, f) and the names
 // of its materials (mtllib, usemtl). Other lines are skipped. A mesh that was read has unit
 // normals, indices in range and no triangle without area; its v goes down.
 #pragma once

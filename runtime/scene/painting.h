@@ -39,7 +39,7 @@ struct Painting {
     friend bool operator==(const Painting&, const Painting&) = default;
 };
 
-/// The tree of a painted one, on the terrain.
+/// The Tree of a painted tree, standing on the terrain.
 [[nodiscard]] Tree painted_tree(const PaintedTree& painted, const Terrain& terrain);
 
 /// Removes the erased trees and appends those painted within `region`.

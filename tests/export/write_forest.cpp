@@ -87,7 +87,7 @@ std::string facts_of(const ForestScene& scene, const Mesh& baked) {
         const std::vector<InstanceMeshes>& meshes = scene.meshes[tree.species];
         TreeExpander expander(cache, scene.forest.key);
         expander.expand(tree, [&](const BranchInstance& branch) {
-            branches += meshes[scene.forest.stage_of(tree)].triangles_of(branch.instance) > 0;
+            branches += meshes[scene.forest.stage_of(tree)].triangle_count_of(branch.instance) > 0;
         });
     }
     return fmt::format(R"({{"trees":{},"branches":{},"triangles":{},"vertices":{},)"

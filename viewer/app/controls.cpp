@@ -15,7 +15,7 @@ bool is_held(const WindowInput& input, Key key) {
     return std::find(input.held.begin(), input.held.end(), key) != input.held.end();
 }
 
-float held_way(const WindowInput& input, Key forwards, Key backwards) {
+float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
@@ -164,8 +164,8 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
                          glm::distance(camera.eye, camera.target);
     camera =
-        moved(camera, metres * held_way(input, Key::D, Key::A),
-              metres * held_way(input, Key::E, Key::Q), metres * held_way(input, Key::W, Key::S));
+        moved(camera, metres * held_axis(input, Key::D, Key::A),
+              metres * held_axis(input, Key::E, Key::Q), metres * held_axis(input, Key::W, Key::S));
 }
 
 bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {

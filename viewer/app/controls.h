@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Overlays that are open.
+/// Open overlays, and modes of the window.
 struct PanelState {
     bool panels = true;
     bool statistics = true;

@@ -96,8 +96,8 @@ struct FileWatch::State {
         static_cast<void>(::write(wake.get(), &one, sizeof one));
     }
 
-    /// Watches the files asked for; returns false to stop the thread.
-    bool take_asked() {
+    /// Watches the requested files; returns false to stop the thread.
+    bool take_requested() {
         std::optional<std::vector<std::string>> paths;
         {
             const std::lock_guard lock(mutex);
@@ -237,7 +237,7 @@ struct FileWatch::State {
 
     void run() {
         Clock::time_point next_check = Clock::now() + options.poll;
-        while (take_asked()) {
+        while (take_requested()) {
             const Clock::time_point before = Clock::now();
             const auto until_check =
                 std::max(std::chrono::duration_cast<std::chrono::milliseconds>(next_check - before),

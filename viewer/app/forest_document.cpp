@@ -80,7 +80,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
-    constexpr std::size_t kMeasuredTrees = 20'000; // within a moment
+    constexpr std::size_t kMeasuredTrees = 20'000; // more would delay the first picture
     if (document->grown.forest.trees.size() <= kMeasuredTrees) {
         document->tallest = find_tallest(document->grown, project);
     }
@@ -148,15 +148,15 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
     return edge;
 }
 
-/// View into a forest from outside its edge. `height`: of its trees, m. Lengths are in heights of a
-/// tree, so forests of grass and of trees look alike.
+/// View into a forest from outside its edge. `height`: of its trees, m. Distances are multiples of
+/// it, so forests of grass and of trees look alike.
 Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float height) {
     constexpr float kOutside = 3.5F;   // from the eye to the first tree
     constexpr float kAbove = 2.0F;     // eye above the ground there
     constexpr float kClearance = 1.5F; // eye above the ground ahead
     constexpr float kAhead = 16.0F;    // range of that ground
     constexpr std::uint32_t kSteps = 64;
-    // The foot of the first tree is that much below the middle of the picture, radians.
+    // Angle from the middle of the picture down to the foot of the first tree, radians.
     constexpr float kFootBelow = 0.9F * 0.5F * kFirstField * std::numbers::pi_v<float> / 180.0F;
     constexpr float kMinPitch = 0.1F;
     constexpr float kMaxPitch = 0.6F;

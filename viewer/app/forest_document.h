@@ -18,7 +18,7 @@ struct ForestDocument {
     GrownForest grown;
     ForestModel model; // refers to `grown`
     MeshOptions mesh_options;
-    std::vector<std::string> files; // all files asked for, if recorded
+    std::vector<std::string> files; // all requested files, readable or not, if recorded
     std::optional<double> tallest;  // m, of the placed trees; none: too many to measure
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;

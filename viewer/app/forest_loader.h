@@ -23,7 +23,7 @@ struct ForestRequest {
 struct ForestOutcome {
     std::shared_ptr<ForestDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // all files asked for
+    std::vector<std::string> files; // all requested files, readable or not
     ForestRequest request;
     double seconds = 0.0; // time of making
 };

@@ -13,12 +13,13 @@ namespace lsys::view {
 
 namespace {
 
-// Time for baking of impostors between two events, s.
+// Time budget for baking of impostors between two events, s.
 constexpr double kBakeTime = 0.02;
 // Limit per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
-// Slower pictures, s, are reduced in quality during motion, and redrawn after a rest, s.
+// Draw time above which pictures have reduced quality during motion, s.
 constexpr double kSlowPicture = 0.12;
+// Time without motion before a redraw at full quality, s.
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kMinTriangles = 20'000;
 
@@ -83,7 +84,7 @@ void ForestView::files_changed(const std::vector<std::string>& files,
     const auto shaders = std::count_if(files.begin(), files.end(),
                                        [this](const std::string& each) { return is_shader(each); });
     if (shaders != 0) {
-        ask_for_shaders();
+        request_shader_reload();
         wake_();
     }
     if (static_cast<std::size_t>(shaders) == files.size()) {
@@ -101,7 +102,7 @@ void ForestView::files_changed(const std::vector<std::string>& files,
 }
 
 void ForestView::watch_files() {
-    watch_.watch(watched(files_));
+    watch_.watch(with_shader_files(files_));
 }
 
 std::uint32_t ForestView::default_years() const {
@@ -235,14 +236,14 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     if (document_ != nullptr) {
         frame.light = forest_light(*document_, settings.air);
     }
-    const bool moves = settings.windy || settings.plays || has_worked_ ||
+    const bool moves = settings.windy || settings.plays || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));
     if (moves) {
         last_motion_ = SteadyClock::now();
     } else if (is_slow_ && loader_.is_busy()) {
         return false; // draw the next forest instead
     }
-    has_worked_ = false;
+    used_tool_ = false;
     is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
     if (is_coarse_) {
         frame.samples = 1;
@@ -322,7 +323,7 @@ void ForestView::open(const std::string& file) {
 void ForestView::reload() {
     loader_.repeat(SteadyClock::now());
     if (!options_.shaders.empty()) {
-        ask_for_shaders();
+        request_shader_reload();
     }
 }
 
@@ -367,7 +368,7 @@ void ForestView::apply_tool(const glm::vec2& place, bool begins, bool erases) {
         painting_.move_tool(*ground, std::exchange(begins_stroke_, false),
                             erases ? PaintTool::Eraser : settings.tool, settings.brush);
         has_stroke_ = true;
-        has_worked_ = true;
+        used_tool_ = true;
         changed_ = true;
     }
 }
@@ -426,7 +427,7 @@ void ForestView::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    // The file identifies them by number only.
+    // The file identifies erased trees by number only.
     const bool is_doubtful = is_other_placement_ && painting_.has_erased();
     set_note(fmt::format("saved {}{}", scene,
                          is_doubtful

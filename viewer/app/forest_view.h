@@ -105,8 +105,8 @@ public:
     void end_stroke();
     void undo();
     void redo();
-    /// Saves painted trees in the file of the scene shown and reports the result. Another scene that
-    /// was opened since and has errors stays as it is.
+    /// Saves painted trees in the file of the scene shown and reports the result. Another scene
+    /// that was opened since and has errors stays as it is.
     void save();
 
     /// Last forest without errors; null: none yet.
@@ -147,8 +147,8 @@ private:
     bool has_outline_ = false;
     bool begins_stroke_ = false; // at the next point on the ground
     bool has_stroke_ = false;
-    bool has_worked_ = false; // since the last picture
-    bool is_slow_ = false;    // last picture at full quality
+    bool used_tool_ = false; // since the last picture
+    bool is_slow_ = false;   // last picture at full quality
     bool is_coarse_ = false;
     std::uint64_t coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;

@@ -73,7 +73,7 @@ public:
 
 private:
     void enqueue(Request request) {
-        // Keep the request to read changed files until an outcome of it is taken.
+        // `again` stays set until an outcome that was made with it is taken.
         request.again = request.again || (pending_ && pending_->again) ||
                         (running_again_ && (is_running_ || outcome_));
         last_ = request;

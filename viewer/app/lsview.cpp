@@ -44,8 +44,8 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
         return report_error(renderer.error(), console);
     }
     made.renderer = std::move(renderer.value());
-    console.detail(
-        fmt::format("drawing by {}: {}", made.context->way(), made.renderer->device_name()));
+    console.detail(fmt::format("drawing by {}: {}", made.context->description(),
+                               made.renderer->device_name()));
     return ExitStatus::Ok;
 }
 
@@ -68,7 +68,7 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    // A forest that grows is shown again and again.
+    // Copied for a growing forest, which is shown once per picture.
     if (const Result<void> shown =
             made.renderer->show_forest(options.grow ? document.model : std::move(document.model));
         !shown) {

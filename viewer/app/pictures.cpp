@@ -46,7 +46,7 @@ public:
     }
 
     [[nodiscard]] bool moves() const { return physics_ != nullptr; }
-    /// Without bending, nothing.
+    /// Steps the physics up to a time in s; does nothing without physics.
     void go_to(double seconds) {
         while (physics_ != nullptr &&
                physics_->time() + 0.5 * static_cast<double>(physics_->options().time_step) <
@@ -94,9 +94,9 @@ std::string stats_text(const ViewOptions& options,
     return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Shows the messages of a step of a growth. Those of its grammar and of its last drawing were shown
-/// with the document.
-ExitStatus take_news(const Outcome<void>& outcome, const Console& console) {
+/// Shows the messages of a growth step. Messages about the grammar and its last generation were
+/// shown with the document.
+ExitStatus show_step_messages(const Outcome<void>& outcome, const Console& console) {
     if (!outcome) {
         return console.take(outcome);
     }
@@ -108,7 +108,8 @@ ExitStatus take_news(const Outcome<void>& outcome, const Console& console) {
     return ExitStatus::Ok;
 }
 
-/// `grammar` becomes what the growth needs of the document's, and outlives it.
+/// Begins `growth`. `grammar` takes the parts of the document's grammar that it needs, and outlives
+/// it.
 ExitStatus begin_growth(const ViewOptions& options,
                         const PlantDocument& document,
                         Grammar& grammar,
@@ -154,7 +155,7 @@ ExitStatus take_pictures(const ViewOptions& options,
         prepare = [&](const Frame& /*frame*/) {
             const GrowthMoment moment =
                 moment_of_frame(frame_number++, options.frames, growth->last_generation());
-            ExitStatus status = take_news(growth->pose(moment, project, pose), console);
+            ExitStatus status = show_step_messages(growth->pose(moment, project, pose), console);
             if (status == ExitStatus::Ok) {
                 status =
                     console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);

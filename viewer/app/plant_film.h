@@ -12,7 +12,7 @@
 namespace lsys::view {
 
 struct FilmRequest {
-    ViewOptions options; // of the plant; its generations are the last of the film
+    ViewOptions options; // of the plant; the film ends at its generations
     GrowthMoment moment;
     SteadyClock::time_point since;
     bool again = false;
@@ -33,7 +33,7 @@ public:
     /// `done` is called on the film's thread whenever take() has a moment.
     explicit PlantFilm(std::function<void()> done);
 
-    /// Derivation goes on from the moment before if the plant is the same.
+    /// Continues the derivation of the previous moment if the plant is the same.
     void request(const ViewOptions& options, const GrowthMoment& moment) {
         worker_.request({options, moment, SteadyClock::now(), false});
     }

@@ -17,7 +17,7 @@ namespace lsys::view {
 struct LoadOutcome {
     std::shared_ptr<const PlantDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // all files asked for
+    std::vector<std::string> files; // all requested files, readable or not
     ViewOptions options;            // options of the request
     SteadyClock::time_point since;  // cause of the request
     double seconds = 0.0;           // time of making

@@ -27,7 +27,7 @@ struct PlantMotion::State {
     std::function<void()> done;
     std::mutex mutex; // guards all up to the thread
     std::condition_variable changed;
-    std::optional<Bending> asked;
+    std::optional<Bending> requested;
     BentPlant made;
     bool is_made = false;
     bool stops = false;
@@ -58,7 +58,7 @@ struct PlantMotion::State {
             if (stops) {
                 return false;
             }
-            bending = std::exchange(asked, std::nullopt);
+            bending = std::exchange(requested, std::nullopt);
         }
         if (bending) {
             set_bending(*bending);
@@ -110,7 +110,7 @@ PlantMotion::PlantMotion(std::shared_ptr<const PlantDocument> document,
     state_->document = std::move(document);
     state_->mesh_options = mesh;
     state_->done = std::move(done);
-    state_->asked = bending;
+    state_->requested = bending;
     state_->thread = std::thread([state = state_.get()] { state->run(); });
 }
 
@@ -125,7 +125,7 @@ PlantMotion::~PlantMotion() {
 
 void PlantMotion::set(const Bending& bending) {
     const std::lock_guard lock(state_->mutex);
-    state_->asked = bending;
+    state_->requested = bending;
 }
 
 bool PlantMotion::take(BentPlant& plant) {

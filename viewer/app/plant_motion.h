@@ -20,7 +20,7 @@ struct BentPlant {
 
 struct Bending {
     PhysicsOptions forces;
-    float stiffness = 1.0F; // factor of all springs: of the elasticity
+    float stiffness = 1.0F; // factor of the spring constants of all segments
 };
 
 class PlantMotion {

@@ -63,7 +63,7 @@ PlantView::PlantView(const ViewOptions& options,
                      std::count_if(files.begin(), files.end(),
                                    [this](const std::string& each) { return is_shader(each); });
                  if (shaders != 0) {
-                     ask_for_shaders();
+                     request_shader_reload();
                      wake_();
                  }
                  if (static_cast<std::size_t>(shaders) != files.size()) {
@@ -107,7 +107,7 @@ bool PlantView::update() {
         has_news = true;
     }
     grow();
-    if (!settings.plays && !is_part_grown_) {
+    if (!settings.plays && !shows_growth_) {
         bend();
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
         requested_.reset(); // a moment of growth does not bend: show the plant
@@ -165,7 +165,7 @@ void PlantView::swap(LoadOutcome outcome) {
     motion_.reset();
     bending_.reset();
     film_.reset(); // its files may have changed
-    is_part_grown_ = false;
+    shows_growth_ = false;
     grown_ = {};
     renderer_->show_plant(document_->mesh);
     show_lines();
@@ -194,7 +194,7 @@ void PlantView::show_lines() {
     if (plant == nullptr) {
         return;
     }
-    if (is_part_grown_) {
+    if (shows_growth_) {
         renderer_->show_lines(make_lines(grown_.skeleton, shown_lines_));
         changed_ = true;
         return;
@@ -206,14 +206,14 @@ void PlantView::show_lines() {
 }
 
 void PlantView::watch_files() {
-    watch_.watch(watched(files_));
+    watch_.watch(with_shader_files(files_));
 }
 
 void PlantView::start_growth() {
-    if (generations() >= default_generations() && !is_part_grown_) {
+    if (generations() >= default_generations() && !shows_growth_) {
         settings.generations = 0;
     }
-    if (!is_part_grown_ || std::floor(growth_position_) != static_cast<double>(generations())) {
+    if (!shows_growth_ || std::floor(growth_position_) != static_cast<double>(generations())) {
         growth_position_ = static_cast<double>(generations());
     }
     last_growth_ = SteadyClock::now();
@@ -236,7 +236,7 @@ void PlantView::take_moment() {
         return;
     }
     grown_ = std::move(*made);
-    is_part_grown_ = true;
+    shows_growth_ = true;
     ++stats_.moments;
     renderer_->show_plant(grown_.mesh);
     show_lines();
@@ -268,7 +268,7 @@ void PlantView::grow() {
         std::min(std::chrono::duration<double>(now - last_growth_).count(), kMaxStep);
     last_growth_ = now;
     const auto end = static_cast<double>(default_generations());
-    if (is_part_grown_) {
+    if (shows_growth_) {
         growth_position_ = std::min(
             growth_position_ + passed * static_cast<double>(settings.generations_per_second), end);
     }
@@ -440,7 +440,7 @@ void PlantView::open(const std::string& file) {
 void PlantView::reload() {
     loader_.repeat(SteadyClock::now());
     if (!options_.shaders.empty()) {
-        ask_for_shaders();
+        request_shader_reload();
     }
 }
 

@@ -83,19 +83,20 @@ public:
     void play_or_pause();
     /// Whether constants, settings or the seed differ from those of the file.
     [[nodiscard]] bool has_changed_values() const;
-    /// Writes them to the .lsys file, all else kept, and notes what was written. Refused, with a
-    /// note: another dialect, a compiled grammar, a file that has changed on disk since it was
-    /// read, values in included files, values whose plant is not shown.
+    /// Writes changed constants, settings and seed to the .lsys file, keeps the rest of the file,
+    /// and reports the result in a note. Refuses another dialect, a compiled grammar, a file that
+    /// has changed on disk since it was read, values in included files, and values whose plant is
+    /// not shown.
     void write_values();
 
     /// Last plant without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
     [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
-    /// Generations without settings.
+    /// Generations of the command line or grammar, without the user's settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
     /// The moment of growth that is shown instead of the last plant; null: none.
-    [[nodiscard]] const FilmMoment* grown() const { return is_part_grown_ ? &grown_ : nullptr; }
+    [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
 private:
     void take_outcome(LoadOutcome outcome);
@@ -116,7 +117,7 @@ private:
     LoadOutcome shown_outcome_;
     std::vector<std::string> files_;
     bool frame_next_ = false; // at the next swap
-    bool is_new_file_ = true; // take the damping of its grammar
+    bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
 
@@ -125,9 +126,9 @@ private:
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
     bool plays_next_ = false;      // from the next swap on
-    bool is_part_grown_ = false;   // `grown_` is shown
+    bool shows_growth_ = false;    // `grown_` is shown
     FilmMoment grown_;
-    std::unique_ptr<PlantFilm> film_; // since growth was played
+    std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;

@@ -1,4 +1,4 @@
-// Host that records the files it was asked for, to watch them.
+// Host that records the files requested from it, to watch them.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Wraps `host`: adds the path of each file asked for to `files`, readable or not. `files` must
+/// Wraps `host`: adds the path of each requested file to `files`, readable or not. `files` must
 /// outlive the result.
 [[nodiscard]] Host record_files(Host host, std::vector<std::string>& files);
 

@@ -77,7 +77,7 @@ bool View::is_shader(const std::string& file) const {
     return !options_.shaders.empty() && std::filesystem::path(file).extension() == ".glsl";
 }
 
-std::vector<std::string> View::watched(std::vector<std::string> files) const {
+std::vector<std::string> View::with_shader_files(std::vector<std::string> files) const {
     const std::vector<std::string> shaders = shader_files(options_.shaders);
     files.insert(files.end(), shaders.begin(), shaders.end());
     return files;

@@ -73,16 +73,16 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// Implements draw().
+    /// Draws `frame` unless nothing changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
     void take_messages(const Messages& messages, bool fine);
-    void ask_for_shaders() { shaders_changed_ = true; }
+    void request_shader_reload() { shaders_changed_ = true; }
     /// Reloads shaders if they changed. Returns whether messages changed.
     bool reload_shaders();
     [[nodiscard]] bool is_shader(const std::string& file) const;
     /// Adds the shader files.
-    [[nodiscard]] std::vector<std::string> watched(std::vector<std::string> files) const;
+    [[nodiscard]] std::vector<std::string> with_shader_files(std::vector<std::string> files) const;
 
     ViewOptions options_;
     Console console_;

@@ -30,12 +30,12 @@ void ViewSwitcher::make(const ViewOptions& options) {
 }
 
 void ViewSwitcher::open(const std::string& file) {
-    if (current_->is_unsaved() && refused_ != file) {
-        refused_ = file;
+    if (current_->is_unsaved() && refused_file_ != file) {
+        refused_file_ = file;
         current_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
         return;
     }
-    refused_.clear();
+    refused_file_.clear();
     const bool is_forest = is_scene(file);
     if (forest_ != nullptr && is_scene(forest_->file())) {
         last_scene_ = forest_->file();

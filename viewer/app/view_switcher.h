@@ -26,7 +26,7 @@ public:
     /// changes the first call only warns.
     void open(const std::string& file);
     /// Makes the next open() with unsaved changes warn again.
-    void ask_again() { refused_.clear(); }
+    void reset_warning() { refused_file_.clear(); }
     /// Scene shown before the plant; empty: none.
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 
@@ -38,7 +38,7 @@ private:
     Renderer* renderer_;
     std::function<void()> wake_;
     std::string last_scene_;
-    std::string refused_; // refused because of unsaved changes
+    std::string refused_file_; // refused because of unsaved changes
     PlantView* plant_ = nullptr;
     ForestView* forest_ = nullptr;
     std::unique_ptr<View> current_;

@@ -61,9 +61,9 @@ public:
         const bool has_news = switcher_.current().update();
         const bool has_old_note = switcher_.current().drop_old_note(now);
         if (has_old_note) {
-            // Without the question on the screen, the next Ctrl+Q is no answer to it.
+            // The warning has left the screen, so the next Ctrl+Q must warn again.
             panels_.asked_to_quit = false;
-            switcher_.ask_again();
+            switcher_.reset_warning();
         }
         if (input.any || has_news || has_old_note) {
             pictures_left_ = kPicturesAfterInput;

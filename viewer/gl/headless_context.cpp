@@ -148,22 +148,22 @@ HeadlessContext::~HeadlessContext() {
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
     std::unique_ptr<HeadlessContext> made(new HeadlessContext());
-    struct Way {
+    struct Method {
         const char* name;
         std::string (State::*use)();
     };
-    constexpr std::array<Way, 3> kWays = {{{"EGL without a surface", &State::use_surfaceless},
-                                           {"EGL on a device", &State::use_device},
-                                           {"a hidden window", &State::use_window}}};
+    constexpr std::array<Method, 3> kMethods = {{{"EGL without a surface", &State::use_surfaceless},
+                                                 {"EGL on a device", &State::use_device},
+                                                 {"a hidden window", &State::use_window}}};
     std::string reasons;
-    for (const Way& way : kWays) {
-        const std::string reason = (made->state_.get()->*way.use)();
+    for (const Method& method : kMethods) {
+        const std::string reason = (made->state_.get()->*method.use)();
         if (reason.empty()) {
-            made->way_ = way.name;
+            made->description_ = method.name;
             return made;
         }
         made->state_->clear();
-        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", way.name, reason);
+        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", method.name, reason);
     }
     return Error{fmt::format("there is no OpenGL 4.5 to draw with ({})", reasons)};
 }

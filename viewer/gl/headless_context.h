@@ -18,13 +18,13 @@ public:
     ~HeadlessContext();
 
     /// Description of the context, for example "EGL without a surface".
-    [[nodiscard]] const std::string& way() const { return way_; }
+    [[nodiscard]] const std::string& description() const { return description_; }
 
 private:
     struct State;
     HeadlessContext();
     std::unique_ptr<State> state_;
-    std::string way_;
+    std::string description_;
 };
 
 } // namespace lsys::view

@@ -86,8 +86,8 @@ struct ForestFrameStats {
     std::uint64_t occluded_trees = 0; // in the frustum, occluded by the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
-    std::uint32_t waiting_trees = 0;
-    float detail = 1.0F; // factor of heights that kept max_triangles
+    std::uint32_t waiting_trees = 0; // near, drawn as impostors until expanded
+    float detail = 1.0F;             // factor of heights that kept max_triangles
     FrameStats branches;
     FrameStats impostors;
     FrameStats terrain;
@@ -114,12 +114,12 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     virtual ~Renderer() = default;
 
-    /// Shows a plant instead. `mesh` is copied to the device.
+    /// Shows a plant in place of the plant or forest before. `mesh` is copied to the device.
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
-    /// Shows a forest instead. Its forest and terrain must outlive it. Impostors of the
-    /// forest before stand in, where there are any, until bake_impostors() has made new ones.
+    /// Shows a forest in place of the plant or forest before. Its forest and terrain must outlive
+    /// it. Impostors of the previous forest are drawn until bake_impostors() has made new ones.
     /// Error: a shader does not compile.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.

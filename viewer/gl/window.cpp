@@ -124,12 +124,12 @@ struct Window::State {
     bool press_key(int code, int scan_code, int action, int modifiers) {
         input.any = true;
         const Key key = key_of(code, scan_code);
-        const bool types = !captured && ImGui::GetIO().WantTextInput;
+        const bool is_typing = !captured && ImGui::GetIO().WantTextInput;
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
             return true;
         }
-        if (key != Key::None && !types) {
+        if (key != Key::None && !is_typing) {
             input.presses.push_back(
                 {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
             if (action == GLFW_PRESS) {
@@ -137,7 +137,7 @@ struct Window::State {
             }
         }
         // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
-        return types || (!captured && key != Key::Tab);
+        return is_typing || (!captured && key != Key::Tab);
     }
 
     /// ImGui chains its own callbacks to these.

@@ -31,7 +31,7 @@ class AddedTrees {
 public:
     struct Cell {
         std::vector<std::uint32_t> trees; // slots
-        glm::vec3 low{};                  // box around its trees, past ones included
+        glm::vec3 low{};                  // box around its trees, removed ones included
         glm::vec3 high{};
     };
 

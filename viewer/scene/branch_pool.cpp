@@ -121,7 +121,7 @@ bool BranchPool::allocate(std::uint32_t count, std::uint32_t& first) {
             return true;
         }
     }
-    // At the end, merged with a free range there.
+    // Allocate at the end of the array, merged with a free range there.
     first = static_cast<std::uint32_t>(branches_.size());
     const auto last = free_.empty() ? free_.end() : std::prev(free_.end());
     const bool free_end = last != free_.end() && last->first + last->second == first;

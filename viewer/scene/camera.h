@@ -42,7 +42,7 @@ struct Camera {
 /// framing() of a box; from the front if the box is flat in Z.
 [[nodiscard]] Camera first_view(const Camera& camera, const Bounds& bounds, float aspect);
 
-/// Unit vectors of the view and to its right.
+/// Unit vectors along the view and to the right.
 [[nodiscard]] glm::vec3 forward_of(const Camera& camera);
 [[nodiscard]] glm::vec3 right_of(const Camera& camera);
 

@@ -10,7 +10,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kTreesOfCell = 16.0;
+constexpr double kTreesPerCell = 16.0;
 
 } // namespace
 
@@ -73,7 +73,7 @@ void ForestLod::sort_into_cells() {
     }
     const double area = std::max(static_cast<double>(high.x - low.x), 1.0) *
                         std::max(static_cast<double>(high.y - low.y), 1.0);
-    cell_size_ = std::sqrt(area * kTreesOfCell / static_cast<double>(trees.size()));
+    cell_size_ = std::sqrt(area * kTreesPerCell / static_cast<double>(trees.size()));
     cells_low_ = low;
     columns_ = static_cast<std::uint64_t>(static_cast<double>(high.x - low.x) / cell_size_) + 1;
     rows_ = static_cast<std::uint64_t>(static_cast<double>(high.y - low.y) / cell_size_) + 1;

@@ -52,8 +52,8 @@ struct Sway {
 };
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
-/// Pixels drawn of an object while it blends with another: those whose number, 0 to 1, lies in
-/// [low, high). pixel_number() in shaders/blend.glsl numbers the pixels.
+/// Range [low, high) of the dither thresholds of the pixels that an object draws while it blends
+/// with another. dither_threshold() in shaders/blend.glsl gives each pixel a threshold, 0 to 1.
 struct BlendRange {
     float low = 0.0F;
     float high = 1.0F;
@@ -78,7 +78,7 @@ public:
     static constexpr std::uint32_t kBlendSteps = 255;
 
     BranchEntry() = default;
-    /// `steps`: weight in 1/kBlendSteps; pixels with lower numbers are drawn.
+    /// `steps`: weight in 1/kBlendSteps; pixels with lower dither thresholds are drawn.
     explicit BranchEntry(std::uint32_t slot, std::uint32_t steps = kBlendSteps)
         : bits_(steps << kSlotBits | slot) {}
     [[nodiscard]] std::uint32_t slot() const { return bits_ & ((1U << kSlotBits) - 1); }
@@ -105,7 +105,7 @@ struct BranchRun {
 struct DrawLists {
     std::vector<BranchEntry> branches; // grouped by run
     std::vector<BranchRun> runs;
-    // Sorted: whole ones before blended ones.
+    // Both sorted: entries with the whole range before blended ones.
     std::vector<DrawEntry> trees;    // impostors; index: see ForestLod::lod_tree()
     std::vector<DrawEntry> clusters; // index: cell
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
@@ -218,7 +218,7 @@ private:
                        float yaw,
                        std::uint32_t blend_steps,
                        const Frustum& frustum);
-    /// Returns kTreeLevels for an impostor.
+    /// Level of branches for a height in pixels; kTreeLevels: an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
     [[nodiscard]] float detail_in_budget(const LodOptions& options) const;
     void list_branches(const Frustum& frustum, const LodOptions& options);

@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kFewTrees = 8; // min trees of a cluster
+constexpr std::uint32_t kMinClusterTrees = 8; // min trees of a cluster
 constexpr std::uint32_t kFramesKept = 32;
 constexpr int kDetailSteps = 24;
 constexpr float kNearest = 0.1F; // m: min distance
@@ -142,7 +142,7 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
     float weight = 1.0F; // of its trees
-    if (cell.count >= kFewTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
+    if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float pixels = cell.tallest * frustum.pixels / std::max(distance, kNearest);
         weight = pixels < options.cluster_pixels
                      ? 0.0F

@@ -13,18 +13,18 @@ namespace lsys::view {
 
 namespace {
 
-/// Min radius of twigs by level, as a part of the tree's height.
-constexpr std::array<float, kTreeLevels> kThinnest = {0.0F, 0.0F, 0.0008F, 0.0016F};
+/// Min radius of twigs by level, as a fraction of the tree's height.
+constexpr std::array<float, kTreeLevels> kMinTwigRadius = {0.0F, 0.0F, 0.0008F, 0.0016F};
 /// Leaves per shown leaf by level.
-constexpr std::array<std::uint32_t, kTreeLevels> kLeavesOfOne = {1, 1, 2, 4};
+constexpr std::array<std::uint32_t, kTreeLevels> kLeavesPerShownLeaf = {1, 1, 2, 4};
 /// Max impostors of all forms together, unless there are more forms.
-constexpr std::size_t kAllImpostors = 16;
+constexpr std::size_t kMaxTotalImpostors = 16;
 /// Below this count all leaves are shown.
-constexpr std::size_t kFewLeaves = 24;
+constexpr std::size_t kMinThinnedLeaves = 24;
 
 /// Max impostors of a form.
 std::size_t max_impostors_of(std::size_t forms) {
-    return std::clamp<std::size_t>(kAllImpostors / std::max<std::size_t>(forms, 1), 1,
+    return std::clamp<std::size_t>(kMaxTotalImpostors / std::max<std::size_t>(forms, 1), 1,
                                    kMaxImpostors);
 }
 
@@ -34,9 +34,9 @@ bool is_leaf(const PlacedObject& object) {
 }
 
 /// Whether a leaf is shown; a coarser level shows a subset of a finer one.
-bool is_shown(std::size_t leaf, std::uint32_t leaves_of_one) {
+bool is_shown(std::size_t leaf, std::uint32_t leaves_per_shown_leaf) {
     const std::uint64_t mixed = golden_multiple(std::uint64_t{leaf} + 1);
-    return (mixed >> 40 & (leaves_of_one - 1)) == 0;
+    return (mixed >> 40 & (leaves_per_shown_leaf - 1)) == 0;
 }
 
 Sphere sphere_around(const Bounds& bounds) {
@@ -184,7 +184,7 @@ std::optional<Stop> make_form(const InstanceCache& cache,
         form.mesh_triangles[level].resize(cache.instances.size());
         for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
             form.mesh_triangles[level][i] =
-                static_cast<std::uint32_t>(levels[level].triangles_of(i));
+                static_cast<std::uint32_t>(levels[level].triangle_count_of(i));
         }
     }
     const std::vector<Bounds> bounds = bounds_of_levels(cache, levels);
@@ -234,7 +234,7 @@ std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
                                      const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
-    // Depth first: the target of an exit before the instance with the exit.
+    // Depth first: the slot of an exit comes before the instance with the exit.
     std::vector<std::uint32_t> pending{0};
     std::vector<bool> begun(cache.slots.size());
     while (!pending.empty()) {
@@ -283,28 +283,28 @@ std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
 InstanceCache coarsened(const InstanceCache& cache, std::uint32_t level, float height) {
     InstanceCache coarse = cache;
     Skeleton& skeleton = coarse.skeleton;
-    const float thinnest = kThinnest[level] * height;
+    const float thinnest = kMinTwigRadius[level] * height;
     for (Segment& segment : skeleton.segments) {
         if (std::max(segment.base_radius, segment.tip_radius) < thinnest) {
             segment.base_radius = 0.0F;
             segment.tip_radius = 0.0F;
         }
     }
-    const std::uint32_t leaves_of_one = kLeavesOfOne[level];
-    const float larger = std::sqrt(static_cast<float>(leaves_of_one));
+    const std::uint32_t leaves_per_shown_leaf = kLeavesPerShownLeaf[level];
+    const float larger = std::sqrt(static_cast<float>(leaves_per_shown_leaf));
     const std::size_t heroes = std::max(cache.heroes, 1U);
-    if (skeleton.objects.size() >= kFewLeaves * heroes) {
+    if (skeleton.objects.size() >= kMinThinnedLeaves * heroes) {
         for (std::size_t i = 0; i < skeleton.objects.size(); ++i) {
             PlacedObject& object = skeleton.objects[i];
             if (is_leaf(object)) {
-                object.size *= is_shown(i, leaves_of_one) ? larger : 0.0F;
+                object.size *= is_shown(i, leaves_per_shown_leaf) ? larger : 0.0F;
             }
         }
     }
-    if (skeleton.polygons.size() >= kFewLeaves * heroes) {
+    if (skeleton.polygons.size() >= kMinThinnedLeaves * heroes) {
         for (std::size_t i = 0; i < skeleton.polygons.size(); ++i) {
             const Polygon& polygon = skeleton.polygons[i];
-            const float factor = is_shown(i, leaves_of_one) ? larger : 0.0F;
+            const float factor = is_shown(i, leaves_per_shown_leaf) ? larger : 0.0F;
             const glm::vec3 stem = skeleton.corners[polygon.first_corner];
             for (std::uint32_t c = 1; c < polygon.corner_count; ++c) {
                 glm::vec3& corner = skeleton.corners[polygon.first_corner + c];
@@ -329,12 +329,12 @@ std::optional<Stop> make_forest_model(const Forest& forest,
         forms += species.stages.size();
     }
     const std::size_t max_impostors = max_impostors_of(forms);
-    const bool knows = known.model != nullptr && known.key == forest.key &&
-                       known.options == options &&
-                       max_impostors == max_impostors_of(known.model->forms.size());
+    const bool can_reuse = known.model != nullptr && known.key == forest.key &&
+                           known.options == options &&
+                           max_impostors == max_impostors_of(known.model->forms.size());
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         model.first_form.push_back(static_cast<std::uint32_t>(model.forms.size()));
-        if (knows && known.species[s]) {
+        if (can_reuse && known.species[s]) {
             const std::uint32_t first = known.model->first_form[*known.species[s]];
             for (std::uint32_t i = 0; i < forest.species[s].stages.size(); ++i) {
                 TreeForm& form = model.forms.emplace_back(known.model->forms[first + i]);

@@ -71,8 +71,8 @@ struct KnownModel {
     std::vector<std::optional<std::size_t>> species;
 };
 
-/// Builds the model, reusing what `known` has. `user_meshes`: by species. `options.level`: of the
-/// finest level. Forest and terrain must outlive the model. Returns as make_instance_meshes()
+/// Builds the model and reuses meshes of `known`. `user_meshes`: by species. `options.level`: of
+/// the finest level. Forest and terrain must outlive the model. Returns as make_instance_meshes()
 /// does.
 [[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,

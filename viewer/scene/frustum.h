@@ -11,11 +11,11 @@
 
 namespace lsys::view {
 
-/// Planes around the view; there is no far one.
+/// Planes around the view; there is no far plane.
 struct Frustum {
     std::array<glm::vec4, 5> planes{}; // unit normals, pointing inward
     glm::vec3 eye{};
-    float pixels = 1.0F; // height in pixels of an object as high as it is far away
+    float pixels = 1.0F; // height in pixels of an object whose height is its distance
 
     [[nodiscard]] bool intersects(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {

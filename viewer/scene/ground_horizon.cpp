@@ -19,7 +19,7 @@ constexpr float kRatio = 1.06F;
 /// between its ends.
 constexpr float kMargin = 5e-4F;
 
-/// Steps up to a distance; whole steps lie no farther.
+/// Number of steps up to a distance, with a fraction.
 float steps_to(float distance) {
     return std::log(distance / kFirst) / std::log(kRatio);
 }
@@ -53,7 +53,7 @@ float GroundHorizon::min_between(std::uint32_t sector, float distance) const {
     };
     const glm::vec2 first = at(sector);
     const glm::vec2 last = at(sector + 1);
-    // Grid corners there, and one cell beyond, to where they morph.
+    // Grid corners in between, and one cell more, since vertices morph to their neighbours.
     const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(first, last))) - 1;
     const glm::ivec2 high = glm::ivec2(glm::floor(glm::max(first, last))) + 2;
     const HeightGrid& grid = ground_->grid(level);

@@ -22,8 +22,8 @@ public:
 private:
     static constexpr std::uint32_t kDirections = 512;
 
-    /// Steepest slope (rise / distance) that the ground between two directions occludes, up to each
-    /// distance.
+    /// Steepest slope (rise / distance) of the ground between two directions, up to each distance:
+    /// the ground occludes everything behind it below that slope.
     struct Sector {
         bool known = false;
         std::vector<float> slopes; // by step

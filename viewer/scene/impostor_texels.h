@@ -14,7 +14,7 @@ struct ImpostorTexels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
-    std::vector<std::uint8_t> normals; // normal (2), depth, translucency
+    std::vector<std::uint8_t> normals; // normal in two channels, depth, translucency
 };
 
 /// Next mip level; texels are weighted by opacity.
@@ -26,8 +26,8 @@ void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 /// Mean opacity.
 [[nodiscard]] double coverage_of(const ImpostorTexels& picture);
 
-/// Opacities scaled so that `wanted` of the texels stay opaque at this mip level; otherwise trees
-/// thin out with distance (Castano 2010, "Computing Alpha Mipmaps").
+/// Opacities scaled so that the fraction `wanted` of the texels is opaque at this mip level;
+/// otherwise trees thin out with distance (Castano 2010, "Computing Alpha Mipmaps").
 [[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted);
 
 /// A square of texels.
@@ -38,8 +38,8 @@ struct Tile {
 };
 
 /// Bounding box of the opaque texels of a tile, grown by `margin` texels within the tile: min x,
-/// min y, max x, max y as parts of its side. All 0 without opaque texels. `picture`: RGBA texels in
-/// rows of `width`.
+/// min y, max x, max y as fractions of its side. All 0 without opaque texels. `picture`: RGBA
+/// texels in rows of `width`.
 [[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
                                    std::uint32_t width,
                                    const Tile& tile,

@@ -151,7 +151,8 @@ void Painter::add(const PaintedTree& paint) {
     painted_alive_.push_back(0);
 }
 
-/// Drops undone strokes, which redo() no longer restores, and the trees only they had.
+/// Drops undone strokes, so that redo() no longer restores them, and the trees that only they
+/// added.
 void Painter::forget_undone() {
     if (done_ == strokes_.size()) {
         return;

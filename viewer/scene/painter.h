@@ -67,7 +67,7 @@ public:
 
     [[nodiscard]] bool can_undo() const { return done_ != 0; }
     [[nodiscard]] bool can_redo() const { return done_ != strokes_.size(); }
-    /// Takes back the last stroke; without one, nothing.
+    /// Takes back the last stroke; does nothing without one.
     std::span<const TreeChange> undo();
     std::span<const TreeChange> redo();
 
@@ -121,7 +121,7 @@ private:
     std::vector<TreeChange> log_;
     std::vector<Stroke> strokes_;
     std::size_t done_ = 0;  // strokes in force
-    std::size_t saved_ = 0; // strokes in force when saved; kNone: no state here was saved
+    std::size_t saved_ = 0; // done_ when last saved; kNone: that state is gone
     std::vector<TreeChange> changes_;
 };
 

@@ -20,7 +20,7 @@ constexpr float kNearestRange = 34.0F; // m, of level 0
 constexpr float kMorphStart = 0.85F;
 // The grid follows the camera in steps, so that it is seldom rebuilt.
 constexpr std::int64_t kGridStep = 16;
-constexpr std::uint64_t kRowsOfPiece = 16;
+constexpr std::uint64_t kRowsPerPiece = 16;
 
 std::int64_t floor_to(double value, std::int64_t step) {
     return static_cast<std::int64_t>(std::floor(value / static_cast<double>(step))) * step;
@@ -55,8 +55,8 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     grid.origin = origin;
     grid.heights.resize(std::size_t{kHeightTexels} * kHeightTexels);
     Workers workers(0);
-    workers.for_each(kHeightTexels / kRowsOfPiece, [&](std::uint64_t piece) {
-        for (std::uint64_t row = piece * kRowsOfPiece; row < (piece + 1) * kRowsOfPiece; ++row) {
+    workers.for_each(kHeightTexels / kRowsPerPiece, [&](std::uint64_t piece) {
+        for (std::uint64_t row = piece * kRowsPerPiece; row < (piece + 1) * kRowsPerPiece; ++row) {
             const float z =
                 static_cast<float>(origin.y + static_cast<std::int32_t>(row)) * cell(level);
             for (std::uint64_t column = 0; column < kHeightTexels; ++column) {

@@ -59,7 +59,7 @@ public:
 
     /// Max distance from the eye at which a level is drawn, m.
     [[nodiscard]] static float range(std::uint32_t level);
-    /// Distance from the eye, m, where vertices begin to morph to the next level; they are there at
+    /// Distance from the eye, m, where vertices begin to morph to the next level; the morph ends at
     /// range().
     [[nodiscard]] static float morph_start(std::uint32_t level);
     [[nodiscard]] static float cell(std::uint32_t level) {

@@ -19,7 +19,7 @@ layout(location = 4) uniform vec3 right;
 layout(location = 5) uniform vec3 up;
 layout(location = 0) out vec4 albedo_out; // square roots of linear RGB; opacity
 layout(location = 1) out vec4 normal_out; // in the frame of the impostor (2); depth; translucency
-// Stereographic projection of a normal to 0..1. Neighbours stay neighbours, so that mip levels may
+// Stereographic projection of a normal to 0..1. It is continuous, so that mip levels may
 // average them. impostor.frag.glsl has the inverse.
 vec2 projected(vec3 normal) {
     vec2 at = vec2(dot(normal, right), dot(normal, up)) / max(1.0 + dot(normal, to_eye), 1e-3);

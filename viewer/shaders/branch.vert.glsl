@@ -39,7 +39,7 @@ void main() {
 #ifdef BLENDS
     blend_range = vec2(0.0, float(branch >> 24) / 255.0);
 #endif
-    TreeAt tree = tree_at(at.rotation_mesh_tree.w);
+    UnpackedTree tree = unpack_tree(at.rotation_mesh_tree.w);
     vec4 turn = normalize(vec4(unpackSnorm2x16(at.rotation_mesh_tree.x),
                                unpackSnorm2x16(at.rotation_mesh_tree.y)));
     float size = at.position_scale.w * forms[tree.form].cylinder.w;

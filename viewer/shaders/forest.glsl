@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three per tree
 layout(std430, binding = 2) readonly buffer Forms { Form forms[]; };
 
-struct TreeAt {
+struct UnpackedTree {
     vec3 root;
     float scale;
     float yaw;
@@ -21,9 +21,9 @@ struct TreeAt {
     float phase; // 0 to 1
 };
 
-TreeAt tree_at(uint index) {
+UnpackedTree unpack_tree(uint index) {
     uvec2 first = trees[3u * index], second = trees[3u * index + 1u], third = trees[3u * index + 2u];
-    TreeAt tree;
+    UnpackedTree tree;
     tree.root = vec3(uintBitsToFloat(first), uintBitsToFloat(second.x));
     tree.scale = uintBitsToFloat(second.y);
     tree.yaw = float(third.x & 0xFFFFu) * (6.2831853 / 65536.0);
@@ -49,33 +49,33 @@ vec3 octahedral(vec2 e) {
 }
 
 // Half axes of the crown, m.
-vec3 crown_axes(TreeAt tree) {
+vec3 crown_axes(UnpackedTree tree) {
     vec4 cylinder = forms[tree.form].cylinder;
     return tree.scale * vec3(cylinder.x, 0.55 * (cylinder.z - cylinder.y), cylinder.x);
 }
-vec3 crown_centre(TreeAt tree) {
+vec3 crown_centre(UnpackedTree tree) {
     vec4 cylinder = forms[tree.form].cylinder;
     return tree.root + vec3(0.0, tree.scale * 0.5 * (cylinder.y + cylinder.z), 0.0);
 }
 
 // Position of a point of a tree in the wind: a function of the point at rest and the tree alone, so
 // that joints stay closed. `flutter`: 1 for leaves. sway_in() in scene/forest_lod_select.cpp bounds it.
-vec3 swayed(vec3 world_position, TreeAt tree, float flutter) {
+vec3 swayed(vec3 world_position, UnpackedTree tree, float flutter) {
 #ifdef WIND
     float speed = length(frame.wind.xyz);
-    vec3 way = frame.wind.xyz / speed;
+    vec3 downwind = frame.wind.xyz / speed;
     float time = frame.eye_time.w;
     float height = tree.scale * (forms[tree.form].cylinder.z - forms[tree.form].cylinder.y);
     vec3 from = world_position - tree.root;
     float rise = clamp(from.y / height, 0.0, 1.2);
     // Gusts travel downwind.
-    float along = dot(tree.root, way);
+    float along = dot(tree.root, downwind);
     float gust = 1.0 + frame.wind.w * sin(0.9 * time - 0.05 * along + 6.2831853 * tree.phase) *
                            sin(0.37 * time - 0.021 * along);
     float push = 0.004 * speed * gust;
     float swing = 1.0 + 0.35 * sin(1.7 * time + 6.2831853 * tree.phase);
     float away = length(from.xz) / height;
-    vec3 trunk = way * (push * swing * rise * rise);
+    vec3 trunk = downwind * (push * swing * rise * rise);
     float phase = 2.1 * from.x / height + 3.3 * from.z / height + 6.2831853 * tree.phase;
     vec3 boughs = vec3(sin(2.9 * time + 4.0 * phase), 0.6 * sin(3.7 * time + 5.0 * phase),
                        cos(3.1 * time + 4.5 * phase)) * (0.35 * push * gust * away);

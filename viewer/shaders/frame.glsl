@@ -3,12 +3,12 @@ layout(std140, binding = 0) uniform FrameBlock {
     mat4 view_projection;
     mat4 clip_to_world; // for view rays
     mat4 shadow_from_world;
-    vec4 eye_time;  // m; w: s
-    vec4 to_sun;    // unit; w: 1 with shadows
-    vec4 sun;       // linear RGB; w: extinction of the air, 1/m
-    vec4 sky;       // ambient from above; w: exposure
-    vec4 horizon;   // at the horizon; w: texel of the shadow map, m
-    vec4 ground;    // ambient from below; w: texel of the shadow map, in 1/side
-    vec4 wind;      // m/s; w: part of gusts
-    vec4 viewport;  // pixels: x, y, width, height of the whole picture
+    vec4 eye_time;  // xyz: eye, m; w: time of the wind, s
+    vec4 to_sun;    // xyz: unit direction; w: 1 with shadows, else 0
+    vec4 sun;       // rgb: light of the sun, linear; w: extinction of the air, 1/m
+    vec4 sky;       // rgb: ambient light from above; w: exposure
+    vec4 horizon;   // rgb: sky at the horizon; w: side of a texel of the shadow map, m
+    vec4 ground;    // rgb: ambient light from below; w: the same side as a fraction of the map
+    vec4 wind;      // xyz: velocity, m/s; w: fraction that varies in gusts
+    vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels
 } frame;

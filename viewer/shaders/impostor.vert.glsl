@@ -21,22 +21,22 @@ void main() {
 #ifdef BLENDS
     blend_range = range;
 #endif
-    TreeAt tree = tree_at(index);
+    UnpackedTree tree = unpack_tree(index);
     vec3 centre = crown_centre(tree);
 #ifdef SHADOW
-    vec3 eye = frame.to_sun.xyz;
+    vec3 to_eye = frame.to_sun.xyz;
 #else
-    vec3 eye = normalize(frame.eye_time.xyz - centre);
+    vec3 to_eye = normalize(frame.eye_time.xyz - centre);
 #endif
-    float upwards = asin(clamp(eye.y, 0.0, 1.0));
+    float upwards = asin(clamp(to_eye.y, 0.0, 1.0));
     int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
-    float turns = (atan(eye.x, eye.z) - tree.yaw) / 6.2831853;
+    float turns = (atan(to_eye.x, to_eye.z) - tree.yaw) / 6.2831853;
     is_cluster = int(forms[tree.form].layers.y);
-    // Clusters are adjacent: shift the change of view, so that it does not run along one line.
-    float early = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
-    int view = int(floor(fract(turns) * float(kYaws) + 0.5 + early + float(kYaws))) % kYaws;
-    vec3 right = normalize(vec3(eye.z, 0.0, -eye.x) + vec3(1e-6, 0.0, 0.0));
-    vec3 up = cross(eye, right);
+    // Adjacent clusters change views at shifted angles, so that the changes form no visible line.
+    float view_shift = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
+    int view = int(floor(fract(turns) * float(kYaws) + 0.5 + view_shift + float(kYaws))) % kYaws;
+    vec3 right = normalize(vec3(to_eye.z, 0.0, -to_eye.x) + vec3(1e-6, 0.0, 0.0));
+    vec3 up = cross(to_eye, right);
     uint tile = (uint(forms[tree.form].layers.x) + tree.impostor) * uint(3 * kYaws) +
                 uint(elevation * kYaws + view);
     vec2 at = mix(boxes[tile].xy, boxes[tile].zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
@@ -47,14 +47,14 @@ void main() {
     world_position = swayed(world_position, tree, 0.0);
     layer_uv = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
                   forms[tree.form].layers.x + float(tree.impostor));
-    shadow_step = mat3(frame.shadow_from_world) * (eye * size.z);
+    shadow_step = mat3(frame.shadow_from_world) * (to_eye * size.z);
 #ifdef SHADOW
     plane_shadow_position = (frame.shadow_from_world * vec4(world_position, 1.0)).xyz;
     gl_Position = frame.shadow_from_world * vec4(world_position, 1.0);
 #else
     vec3 axes = crown_axes(tree);
     plane_crown_position = (unswayed - centre) / axes;
-    crown_step = eye * size.z / axes;
+    crown_step = to_eye * size.z / axes;
     plane_shadow_position = shadow_map_position(world_position, frame.to_sun.xyz);
     fog = fog_to(world_position);
     float tile_yaw = tree.yaw + float(view) * (6.2831853 / float(kYaws));

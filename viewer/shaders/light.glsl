@@ -20,9 +20,8 @@ vec3 shadow_map_position(vec3 world_position, vec3 offset) {
     return (frame.shadow_from_world * vec4(moved, 1.0)).xyz;
 }
 
-// Visible part of the sun at a position in the shadow map, 0 to 1.
-// ONE_TAP, TWO_TAPS: fewer taps, of four filtered texels each.
-// `outside`: value outside the map.
+// Visible fraction of the sun at a position in the shadow map. `outside`: value outside the map.
+// ONE_TAP, TWO_TAPS: fewer taps than the default of four; a tap filters four texels.
 float sunlight_at(vec3 at, float outside) {
     if (frame.to_sun.w == 0.0) {
         return 1.0;
@@ -49,7 +48,7 @@ float sunlight_at(vec3 at, float outside) {
     return mix(lit, outside, smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y))));
 }
 
-// Visible part of the sun at a surface; the position is moved along its normal.
+// Visible fraction of the sun at a surface; the position is moved along its normal.
 float sunlight(vec3 world_position, vec3 normal, float outside) {
     return sunlight_at(shadow_map_position(world_position, normal), outside);
 }
@@ -58,14 +57,14 @@ vec3 ambient(vec3 normal) {
     return mix(frame.ground.rgb, mix(frame.horizon.rgb, frame.sky.rgb, 0.6), 0.5 + 0.5 * normal.y);
 }
 
-// Radiance of a surface. `translucency`: part of the light from behind that passes through.
+// Radiance of a surface. `translucency`: fraction of the light from behind that passes through.
 vec3 shade(vec3 albedo, vec3 normal, vec3 world_position, float lit, float translucency) {
     float front = dot(normal, frame.to_sun.xyz);
     float direct = max(front, 0.0) + translucency * max(-front, 0.0);
     return albedo * (ambient(normal) + frame.sun.rgb * (direct * lit));
 }
 
-// Part of the ambient light at a place of a crown.
+// Fraction of the ambient light that reaches a place in a crown.
 float ambient_visibility(vec3 crown_position) {
     return clamp(0.4 + 0.6 * dot(crown_position, crown_position), 0.4, 1.0);
 }
@@ -79,24 +78,24 @@ vec3 leaf_normal(vec3 normal, vec3 crown_position) {
 vec3 shade_crown(vec3 albedo, vec3 normal, float lit, float translucency, float open) {
     float front = dot(normal, frame.to_sun.xyz);
     float direct = max(front, 0.0) + translucency * max(-front, 0.0);
-    // Deep in the crown less sun arrives than the shadow map resolves.
+    // Deep in the crown less sunlight arrives than the coarse shadow map shows.
     return albedo * (open * ambient(normal) +
                      frame.sun.rgb * (direct * lit * (0.4 + 0.6 * open)));
 }
 
-// Part of the sun at a place of a crown behind the rest of it. `crown_position`: from the centre, in
-// axes of the crown. Near the mean of the shadow map at such places of a wood, seen from the ground
-// (where it is less) and from above.
+// Fraction of the sunlight that reaches a place in a crown through the rest of the crown.
+// `crown_position`: relative to the centre, in axes of the crown. Close to the mean of the shadow map
+// at such places in a wood, over views from the ground (where the mean is lower) and from above.
 float crown_sunlight(vec3 crown_position) {
     return clamp(0.58 + 0.45 * dot(crown_position, frame.to_sun.xyz), 0.12, 0.97);
 }
 
 // Fog between the eye and a position. x: share of scattered sunlight, y: transmittance.
 vec2 fog_to(vec3 world_position) {
-    vec3 way = world_position - frame.eye_time.xyz;
-    float away = length(way);
+    vec3 from_eye = world_position - frame.eye_time.xyz;
+    float away = length(from_eye);
     // sky_colour() just above the horizon.
-    float near_sun = max(dot(way, frame.to_sun.xyz) / max(away, 1e-6), 0.0);
+    float near_sun = max(dot(from_eye, frame.to_sun.xyz) / max(away, 1e-6), 0.0);
     near_sun *= near_sun;
     near_sun *= near_sun;
     near_sun *= near_sun;

@@ -8,23 +8,23 @@ out vec4 colour;
 // Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
-    // Patterns fade before their repetition is visible.
+    // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible.
     float away = fog.z;
-    vec4 coarse = texture(noise, world_position.xz * (1.0 / 173.0));
-    vec4 between = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0)),
+    vec4 large_noise = texture(noise, world_position.xz * (1.0 / 173.0));
+    vec4 medium_noise = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0)),
                        clamp(2.0 - away / 150.0, 0.0, 1.0));
-    vec4 close = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1)),
+    vec4 small_noise = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1)),
                      clamp(2.0 - away / 15.0, 0.0, 1.0));
-    float wide = coarse.r;
-    float middle = 0.4 * coarse.g + 0.4 * between.r + 0.2 * close.r;
-    float fine = 0.5 * (between.g + close.b);
+    float wide = large_noise.r;
+    float middle = 0.4 * large_noise.g + 0.4 * medium_noise.r + 0.2 * small_noise.r;
+    float fine = 0.5 * (medium_noise.g + small_noise.b);
     float steep = 1.0 - up.y;
     float patches = 0.55 * wide + 0.35 * middle + 0.25 * fine - 0.1;
     float bare = smoothstep(0.42, 0.72, patches + 2.0 * steep);
     vec3 grass = mix(vec3(0.028, 0.056, 0.012), vec3(0.066, 0.086, 0.026), middle);
-    vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), close.g);
+    vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), small_noise.g);
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
-    vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, close.g - 0.5));
+    vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, small_noise.g - 0.5));
     float lit = sunlight_at(shadow_position, 1.0);
     colour = tone_mapped(apply_fog(shade(albedo, normal, world_position, lit, 0.0), fog.xy));
 }

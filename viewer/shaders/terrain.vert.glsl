@@ -2,8 +2,8 @@
 // CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
 layout(location = 0) uniform ivec2 origins[14];     // by layer, in cells of its level
-layout(location = 14) uniform vec4 ranges;          // finest cell, range of level 0, part of it where
-                                                    // morphing starts, eye above ground; m
+// Finest cell, m; range of level 0, m; fraction of the range where morphing starts; eye above ground, m.
+layout(location = 14) uniform vec4 ranges;
 layout(location = 15) uniform int levels;
 layout(location = 0) in uvec2 corner;
 layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level

@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// Vertices and indices of a piece of the trees: at first their counts, then their positions in the
-/// mesh.
+/// Counts of the vertices and indices of a piece of the trees; later the next free position of each
+/// in the mesh.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -24,18 +24,18 @@ public:
         : scene_(scene), threads_(threads), plan_(scene, 0.0F, threads),
           materials_(find_forest_materials(scene, plan_)) {
         for (const ForestKind& kind : plan_.kinds()) {
-            own_.push_back(number_vertices(kind, plan_));
+            instance_vertices_.push_back(number_vertices(kind, plan_));
             const Mesh& from = kind.meshes->mesh;
             if (kind.trees > 0) {
-                use(from);
+                drop_missing_arrays(from);
             }
         }
         if (scene.ground != nullptr) {
-            use(*scene.ground);
+            drop_missing_arrays(*scene.ground);
         }
         for (std::uint32_t s = 0; s < scene.meshes.size(); ++s) {
-            first_kind_.push_back(kinds_);
-            kinds_ += scene.meshes[s].size();
+            first_kind_.push_back(kind_count_);
+            kind_count_ += scene.meshes[s].size();
         }
     }
 
@@ -45,7 +45,7 @@ public:
                     messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
         };
         if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
-            return limit(); // before shares are counted
+            return limit(); // without the work of counting shares
         }
         count_shares();
         std::uint64_t vertices = ground_vertices();
@@ -55,7 +55,7 @@ public:
         std::uint64_t indices = 0;
         for (std::uint32_t m = 0; m < materials_.samples.materials.size(); ++m) {
             const std::uint64_t first = indices;
-            ground_at_.push_back(indices);
+            next_ground_index_.push_back(indices);
             indices += ground_indices(m);
             for (Share& share : shares_) {
                 indices += std::exchange(share.indices[m], indices);
@@ -71,10 +71,10 @@ public:
                     messages_of("the baked forest has more than 4,294,967,295 vertices; without "
                                 "--bake, branches are instances")};
         }
-        const std::uint64_t of_vertex =
+        const std::uint64_t vertex_bytes =
             2 * sizeof(glm::vec3) + (textured_ ? sizeof(glm::vec2) : 0) +
             (tangents_ ? sizeof(glm::vec4) : 0) + (colours_ ? sizeof(std::uint16_t) : 0);
-        if (vertices * of_vertex + indices * sizeof(std::uint32_t) > max_bytes) {
+        if (vertices * vertex_bytes + indices * sizeof(std::uint32_t) > max_bytes) {
             return limit();
         }
         mesh_.positions.resize(vertices);
@@ -90,7 +90,8 @@ public:
     }
 
 private:
-    void use(const Mesh& mesh) {
+    /// Clears the flags of optional arrays that `mesh` lacks.
+    void drop_missing_arrays(const Mesh& mesh) {
         textured_ = textured_ && is_complete(mesh, mesh.texture_coordinates);
         tangents_ = tangents_ && is_complete(mesh, mesh.tangents);
         colours_ = colours_ && is_complete(mesh, mesh.colours);
@@ -111,7 +112,7 @@ private:
     template <typename Visit>
     void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
         std::vector<TreeExpander> expanders;
-        expanders.reserve(kinds_);
+        expanders.reserve(kind_count_);
         for (const ForestKind& kind : plan_.kinds()) {
             expanders.emplace_back(*kind.cache, scene_.forest.key);
         }
@@ -130,7 +131,7 @@ private:
             scene_.forest, threads_, [&](std::uint64_t piece, std::span<const Tree> trees) {
                 Share& share = shares_[piece];
                 for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
-                    share.vertices += own_[k].of(branch.instance).size();
+                    share.vertices += instance_vertices_[k].of(branch.instance).size();
                     const ForestKind& kind = plan_.kinds()[k];
                     for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
                         share.indices[materials_.of_kinds[k][part.material]] += part.index_count;
@@ -150,7 +151,7 @@ private:
         copy(tangents_, ground.tangents, mesh_.tangents);
         copy(colours_, ground.colours, mesh_.colours);
         for (const MeshPart& part : ground.parts) {
-            std::uint64_t& at = ground_at_[materials_.of_ground[part.material]];
+            std::uint64_t& at = next_ground_index_[materials_.of_ground[part.material]];
             ground.indices.read(part.first_index,
                                 std::span(indices_).subspan(at, part.index_count));
             at += part.index_count;
@@ -180,7 +181,7 @@ private:
         const glm::mat3 turn = glm::mat3_cast(pose.rotation);
         const glm::mat3 turn_and_scale = pose.scale * turn;
         std::uint64_t at = share.vertices;
-        for (const std::uint32_t vertex : own_[k].of(branch.instance)) {
+        for (const std::uint32_t vertex : instance_vertices_[k].of(branch.instance)) {
             mesh_.positions[at] = pose.translation + turn_and_scale * from.positions[vertex];
             mesh_.normals[at] = turn * from.normals[vertex];
             if (textured_) {
@@ -199,7 +200,7 @@ private:
         for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
             std::uint64_t& to = share.indices[materials_.of_kinds[k][part.material]];
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
-                indices_[to++] = base + own_[k].indices[part.first_index + i];
+                indices_[to++] = base + instance_vertices_[k].indices[part.first_index + i];
             }
         }
         share.vertices = at;
@@ -210,12 +211,12 @@ private:
     Mesh mesh_;
     ForestPlan plan_;
     ForestMaterials materials_;
-    std::vector<InstanceVertices> own_;   // of each kind
-    std::vector<std::size_t> first_kind_; // of each species
-    std::size_t kinds_ = 0;
+    std::vector<InstanceVertices> instance_vertices_; // of each kind
+    std::vector<std::size_t> first_kind_;             // of each species
+    std::size_t kind_count_ = 0;
     std::vector<Share> shares_;
-    LargeVector<std::uint32_t> indices_;   // of the mesh, which takes them when complete
-    std::vector<std::uint64_t> ground_at_; // indices of the ground, by material
+    LargeVector<std::uint32_t> indices_;           // of the mesh, which takes them when complete
+    std::vector<std::uint64_t> next_ground_index_; // by material
     bool textured_ = true;
     bool tangents_ = true;
     bool colours_ = true;

@@ -123,7 +123,7 @@ void ForestPlan::cut_cells() {
     }
 }
 
-/// Sets ForestPiece::before to the counts of the piece itself; find_groups() sums them.
+/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() sums them.
 void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];
@@ -138,8 +138,8 @@ void ForestPlan::count_pieces(std::uint32_t threads) {
         }
         for (const ForestKind& kind : kinds_) {
             for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-                if (counts[kind.first + i] > 0 && kind.meshes->triangles_of(i) > 0) {
-                    piece.before.emplace_back(kind.first + i, counts[kind.first + i]);
+                if (counts[kind.first + i] > 0 && kind.meshes->triangle_count_of(i) > 0) {
+                    piece.counts_before.emplace_back(kind.first + i, counts[kind.first + i]);
                 }
             }
         }
@@ -151,7 +151,7 @@ void ForestPlan::find_groups() {
     for (ForestCell& cell : cells_) {
         counts.clear();
         for (ForestPiece& piece : std::span(pieces_).subspan(cell.first_piece, cell.piece_count)) {
-            for (auto& [instance, count] : piece.before) {
+            for (auto& [instance, count] : piece.counts_before) {
                 std::uint64_t& before = counts[instance];
                 before += std::exchange(count, before);
             }
@@ -163,7 +163,7 @@ void ForestPlan::find_groups() {
             cell.branches += count;
             uses_[instance] += count;
             const ForestKind& kind = kind_of_instance(instance);
-            triangles_ += kind.meshes->triangles_of(instance - kind.first) * count;
+            triangles_ += kind.meshes->triangle_count_of(instance - kind.first) * count;
         }
         branches_ += cell.branches;
     }

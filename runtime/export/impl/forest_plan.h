@@ -1,5 +1,5 @@
-// ForestPlan: counts of instances in each cell of the ground. Made by expanding all trees once;
-// whoever needs transforms expands the trees again, so that none are stored.
+// ForestPlan: counts of instances in each cell of the ground, made by expanding all trees once.
+// Transforms are not stored: writers that need them expand the trees again.
 #pragma once
 
 #include "runtime/export/export_forest.h"
@@ -24,7 +24,7 @@ struct ForestKind {
 /// Instances with one number in one cell.
 struct ForestGroup {
     std::uint32_t instance = 0; // number among all kinds
-    std::uint64_t first = 0;    // count in all groups before
+    std::uint64_t first = 0;    // instances in all groups before
     std::uint64_t count = 0;
 };
 
@@ -32,13 +32,13 @@ struct ForestGroup {
 struct ForestPiece {
     std::uint64_t first_tree = 0; // in the order of the plan
     std::uint64_t tree_count = 0;
-    /// (instance, its count in the pieces of the cell before) for each instance of this piece, by
-    /// rising instance.
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> before;
+    /// Pairs (instance, its count in earlier pieces of the cell) for the instances of this piece,
+    /// sorted by instance.
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> counts_before;
 };
 
 struct ForestCell {
-    std::int64_t x = 0; // in sides of a cell
+    std::int64_t x = 0; // in units of the side of a cell
     std::int64_t z = 0;
     std::uint64_t first_tree = 0; // in the order of the plan
     std::uint64_t tree_count = 0;
@@ -69,8 +69,8 @@ public:
     [[nodiscard]] std::uint64_t branches() const { return branches_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-    /// Calls visit(kind, number among all, branch) for all branches of a cell, with triangles or
-    /// without, tree by tree in the order of the forest.
+    /// Calls visit(kind, number of the instance among all kinds, branch) for all branches of a
+    /// cell, even without triangles, tree by tree in the order of the forest.
     template <typename Visit>
     void for_each_branch(const ForestCell& cell, const Visit& visit) const {
         for_each_branch_of(cell.first_tree, cell.tree_count, visit);

@@ -1,6 +1,6 @@
-// Transforms in the order of a file: cell by cell, group by group. One walk over the trees of their
-// cells fills a window of groups; threads take its pieces. A group larger than the window takes a
-// walk for each of its three arrays, and no window.
+// Transforms in the order of a file: cell by cell, group by group. One pass over the trees fills a
+// window of consecutive groups; threads share the pieces of their cells. A group larger than the
+// window is written without it, by one pass for each of its three arrays.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_formats.h"
 
@@ -42,7 +42,7 @@ private:
         return cell.first_group + cell.group_count;
     }
 
-    /// Takes as many groups as fit, at least one.
+    /// The groups from number `first` on that fit into the window, at least one.
     [[nodiscard]] std::span<const ForestGroup> window_from(std::size_t first) const {
         const std::span<const ForestGroup> groups = plan_.groups().subspan(first);
         std::size_t some = 1;
@@ -53,7 +53,7 @@ private:
         return groups.first(some);
     }
 
-    /// Range of groups from number `first`, a group of `cell`, on.
+    /// Writes `groups`, which begin with number `first` in number `cell` of the cells.
     void write_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
@@ -82,7 +82,7 @@ private:
         };
         std::vector<Place> places(plan_.uses().size());
         auto group = groups.begin();
-        for (const auto& [instance, before] : piece.before) {
+        for (const auto& [instance, before] : piece.counts_before) {
             while (group != groups.end() && group->instance < instance) {
                 ++group;
             }

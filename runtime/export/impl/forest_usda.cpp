@@ -1,7 +1,7 @@
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
-// "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, seen from
-// its entry: orientations are half floats for older readers, which would displace vertices far from
-// the origin. `orientationsf` has them as floats.
+// "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, relative
+// to its entry: older readers take orientations as half floats, whose rounding would displace
+// vertices far from the origin. `orientationsf` has orientations as floats.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -134,7 +134,7 @@ private:
         out_.put("        }\n    }\n");
     }
 
-    /// Writes each part of the transforms as an array of its own, by a walk over the trees.
+    /// Writes each part of the transforms as an array of its own, by one pass over the trees.
     void put_branches(const ForestKind& kind) {
         put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
@@ -165,9 +165,9 @@ private:
                     return;
                 }
                 char* at = out_.room(kUsdaItemBytes + kNumberBytes);
-                at = put_text(at, count == 0                      ? ""
-                                  : count % kUsdaItemsOfLine == 0 ? ",\n            "
-                                                                  : ", ");
+                at = put_text(at, count == 0                       ? ""
+                                  : count % kUsdaItemsPerLine == 0 ? ",\n            "
+                                                                   : ", ");
                 out_.used(put(branch, at));
                 ++count;
             });
@@ -181,7 +181,7 @@ private:
     PieceWriter& out_;
     ForestMaterials materials_;
     std::vector<std::string> names_;        // of materials
-    std::vector<std::uint32_t> prototypes_; // numbers of the instances among those used
+    std::vector<std::uint32_t> prototypes_; // of each instance, its number among those used
 };
 
 } // namespace

@@ -18,7 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kFirstJoint = 1; // node
+constexpr std::size_t kFirstJoint = 1; // number of its node
 
 /// Writes the members of the document but its buffers.
 class Document {
@@ -53,7 +53,7 @@ public:
 
 private:
     void put_nodes() {
-        // A skinned mesh moves with its joints only, so their root stands beside it.
+        // The root of the joints is a sibling: a skinned mesh ignores the transforms of its node.
         json_.member("scene", 0).array("scenes").object().array("nodes").value(0);
         if (motion_ != nullptr) {
             json_.value(kFirstJoint);
@@ -71,8 +71,8 @@ private:
         json_.end();
     }
 
-    /// Accessors: those of the attributes, then one for the indices of each part. Materials: one
-    /// for each part.
+    /// Numbers accessors as put_accessors(): the attributes, then the indices of each part. Each
+    /// part has a material of its own.
     void put_primitives() {
         json_.array("meshes").object().member("name", "plant").array("primitives");
         const std::size_t attributes = data_.first_view(GltfArray::Indices);

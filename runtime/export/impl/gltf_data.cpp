@@ -12,7 +12,8 @@
 
 namespace lsys {
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
 static_assert(sizeof(glm::vec2) == 8 && sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16);
 
 namespace {
@@ -40,45 +41,45 @@ bool is_coloured(const Mesh& mesh, const MeshPart& part) {
     return false;
 }
 
-/// The validator of glTF allows lengths to be off by 0.005; this is a tenth of that.
+/// Tolerance of the length: 0.0005, a tenth of that of the glTF validator.
 bool is_unit(const glm::vec3& v) {
     return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
 }
-bool is_right(const glm::vec3& normal) {
+bool is_valid(const glm::vec3& normal) {
     return is_unit(normal);
 }
-bool is_right(const glm::vec4& tangent) {
+bool is_valid(const glm::vec4& tangent) {
     return is_unit(glm::vec3(tangent)) && (tangent.w == 1.0F || tangent.w == -1.0F);
 }
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
     const glm::vec3 u = v / glm::length(v);
     return is_unit(u) ? u : otherwise;
 }
-glm::vec3 righted(const glm::vec3& normal) {
+glm::vec3 corrected(const glm::vec3& normal) {
     return unit(normal, glm::vec3(0.0F, 1.0F, 0.0F));
 }
-glm::vec4 righted(const glm::vec4& tangent) {
+glm::vec4 corrected(const glm::vec4& tangent) {
     const glm::vec3 along = unit(glm::vec3(tangent), glm::vec3(1.0F, 0.0F, 0.0F));
     return glm::vec4(along, tangent.w < 0.0F ? -1.0F : 1.0F);
 }
 
 template <typename Vector>
 void write_directions(std::span<const Vector> items, const GltfBytes& write) {
-    const auto right = [](const Vector& v) { return is_right(v); };
-    std::vector<Vector> mended;
+    const auto valid = [](const Vector& v) { return is_valid(v); };
+    std::vector<Vector> corrected_chunk;
     // Correct items go out uncopied.
     while (!items.empty()) {
-        const auto wrong = std::find_if_not(items.begin(), items.end(), right);
-        const auto good = static_cast<std::size_t>(wrong - items.begin());
-        write(std::as_bytes(items.first(good)));
-        items = items.subspan(good);
+        const auto first_invalid = std::find_if_not(items.begin(), items.end(), valid);
+        const auto valid_count = static_cast<std::size_t>(first_invalid - items.begin());
+        write(std::as_bytes(items.first(valid_count)));
+        items = items.subspan(valid_count);
         if (!items.empty()) {
             const std::span<const Vector> chunk = items.first(std::min(kChunk, items.size()));
-            mended.assign(chunk.begin(), chunk.end());
-            for (Vector& v : mended) {
-                v = is_right(v) ? v : righted(v);
+            corrected_chunk.assign(chunk.begin(), chunk.end());
+            for (Vector& v : corrected_chunk) {
+                v = is_valid(v) ? v : corrected(v);
             }
-            write(std::as_bytes(std::span<const Vector>(mended)));
+            write(std::as_bytes(std::span<const Vector>(corrected_chunk)));
             items = items.subspan(chunk.size());
         }
     }

@@ -72,8 +72,8 @@ void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const Gltf
 }
 
 void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write) {
-    const glm::mat4 none(1.0F);
-    write(std::as_bytes(std::span(&none, 1)));
+    const glm::mat4 identity(1.0F);
+    write(std::as_bytes(std::span(&identity, 1)));
     for (const std::uint32_t segment : motion.skin.segments) {
         const SegmentPlace& place = motion.poses.frame(0)[segment];
         const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(place.frame)));

@@ -32,11 +32,11 @@ void write_times(const GltfMotion& motion, const GltfBytes& write);
 void write_translations(const GltfMotion& motion, const GltfBytes& write);
 void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
-/// Nodes of the joints; that of joint 0, the first, has the number `first`.
+/// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
 /// Accessors: inverse binds, times, then two for each joint that moves.
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data);
-/// The members `skins` and `animations`. `accessor`: number of the first of put_motion_accessors().
+/// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,
                             const GltfMotion& motion,
                             std::size_t first_node,

@@ -49,7 +49,7 @@ void put_attribute_accessors(JsonWriter& json,
                              std::size_t first_view,
                              std::uint64_t vertices,
                              const Bounds& bounds);
-/// A buffer view that begins `offset` bytes behind view.offset.
+/// A buffer view that begins at byte `offset + view.offset` of the buffer.
 void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset);
 
 /// `coloured`: vertices have colours of their own in place of the material's.

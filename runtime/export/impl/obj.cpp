@@ -1,4 +1,4 @@
-// Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, as its readers have it:
+// Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, copied at
 // https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Bytes of a line, at most: keyword, blanks, nine numbers.
+/// Max bytes of a line: keyword, blanks, nine numbers.
 constexpr std::size_t kLineBytes = 16 + 9 * (kNumberBytes + 1);
 
 /// A unique name for each material.
@@ -109,7 +109,8 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
         };
         for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
             const MaterialPictures& shown = pictures.of_materials[i];
-            // Readers multiply by the picture, which contains the colour.
+            // White beside a picture: the picture contains the colour, and readers multiply the
+            // two.
             const glm::vec4 colour = shown.colour
                                          ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
                                          : mesh.materials[i].colour;

@@ -12,8 +12,8 @@
 namespace lsys {
 
 struct Outline {
-    /// Extreme points of the part, whose hull from any side is about the part's; size 1, at the
-    /// origin, along +Y.
+    /// Extreme points of the part: seen from any side, their hull is about the hull of the part.
+    /// Size 1, at the origin, along +Y.
     std::vector<glm::vec3> corners;
     glm::vec3 colour{1.0F}; // linear
 };

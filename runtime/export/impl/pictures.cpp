@@ -79,9 +79,9 @@ Texture paint(const Picture& picture) {
 }
 
 std::string encode_picture(const Picture& picture) {
-    const bool as_it_is = picture.file != nullptr && picture.kind == PictureKind::Colour &&
-                          picture.tint == glm::vec3(1.0F);
-    if (as_it_is) { // without a copy: it may be large
+    const bool is_unchanged = picture.file != nullptr && picture.kind == PictureKind::Colour &&
+                              picture.tint == glm::vec3(1.0F);
+    if (is_unchanged) { // without a copy: the file may be large
         return encode_png(*picture.file);
     }
     return encode_png(paint(picture));

@@ -25,7 +25,7 @@ struct Picture {
     MaterialKind material = MaterialKind::Bark;
     glm::vec3 tint{1.0F};                // linear
     std::shared_ptr<const Texture> file; // in place of the texture of the material's kind
-    std::string name;                    // of the file, where it is one
+    std::string name;                    // of the file, or of the image in the document
 };
 
 /// Numbers of the pictures of a material.
@@ -40,7 +40,8 @@ struct Pictures {
     std::vector<MaterialPictures> of_materials; // of the mesh
 };
 
-/// Empty for ExportPictures::None, and without ExportInfo::textures or a name for files.
+/// Finds the pictures of the materials in use. Empty for ExportPictures::None, and without
+/// ExportInfo::textures or a name for files.
 [[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
 /// Encodes the pictures as PNG. Throws std::bad_alloc.

@@ -1,4 +1,4 @@
-// PieceWriter: a buffer before a sink. Small writes are collected to pieces of kPieceBytes; large
+// PieceWriter: a buffer before a sink. Small writes are collected into pieces of kPieceBytes; large
 // arrays go to the sink in such pieces uncopied. Once the sink has returned false, bytes are
 // discarded.
 #pragma once

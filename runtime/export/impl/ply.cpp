@@ -14,7 +14,8 @@
 
 namespace lsys {
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
 
 namespace {
 
@@ -44,7 +45,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
-    // Every reader knows `int`.
+    // `int` where it suffices: some readers do not know `uint`.
     const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
     out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
                         "comment metres, +Y up\nelement vertex {}\n"

@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlace = 1e-5; // of the size of the plant
-constexpr double kAngle = 1e-4; // rad
+constexpr double kPlaceTolerance = 1e-5; // of the size of the plant
+constexpr double kAngleTolerance = 1e-4; // rad
 
 struct Place {
     glm::dvec3 base;
@@ -28,10 +28,11 @@ bool are_near(const Place& a, const Place& b, double distance) {
     const glm::dvec3 off = a.base - b.base;
     const glm::dquat turn = glm::conjugate(a.frame) * b.frame;
     const double half_sine = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
-    return glm::dot(off, off) <= distance * distance && half_sine <= 0.5 * kAngle;
+    return glm::dot(off, off) <= distance * distance && half_sine <= 0.5 * kAngleTolerance;
 }
 
-/// Whether `segment` moves with the joint of `leader`; for kNoSegment, whether it stands still.
+/// Whether `segment` moves with the joint of `leader`; for leader kNoSegment, whether it stands
+/// still.
 bool goes_with(const PlantAnimation& animation,
                std::uint32_t leader,
                std::uint32_t segment,
@@ -74,7 +75,7 @@ make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& anim
                skeleton.segments.size(), animation.frame_count);
     LSYS_CHECK(mesh.segments.size() == mesh.positions.size(), mesh.segments.size(),
                mesh.positions.size());
-    const double distance = kPlace * size_of(mesh);
+    const double distance = kPlaceTolerance * size_of(mesh);
     LargeVector<std::uint32_t> leaders; // segment whose joint a segment shares; kNoSegment: joint 0
     leaders.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -1,5 +1,6 @@
-// SVG (W3C, "Scalable Vector Graphics 1.1"): the plane z = 0 seen from +Z, whose y goes down. Lines
-// have the mean diameter of their segments; runs of equal ones are one polyline. Units are metres.
+// SVG (W3C, "Scalable Vector Graphics 1.1"), where y goes down: the plane z = 0 seen from +Z. Lines
+// have the mean diameter of their segments; a run of segments of equal width and colour is one
+// polyline. Units are metres.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double kLongerSide = 800.0;   // of the picture, in pixels
 constexpr double kMargin = 0.02;        // of the longer side
-constexpr float kHairline = 1.0F / 800; // of the longer side: the width of a line, at least
+constexpr float kHairline = 1.0F / 800; // of the longer side: min width of a line
 constexpr std::size_t kPointBytes = 2 * kNumberBytes + 2;
 
 std::string colour_text(const glm::vec3& linear) {
@@ -57,7 +58,7 @@ private:
     PieceWriter& out_;
     std::map<ObjectKey, std::vector<Outline>> outlines_;
     Bounds bounds_;
-    float side_ = 0.0F; // the longer one
+    float side_ = 0.0F; // longer side of the bounds
 };
 
 const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {

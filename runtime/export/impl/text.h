@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Bytes that put_number() writes, at most.
+/// Max bytes that put_number() writes.
 inline constexpr std::size_t kNumberBytes = 24;
 
 /// Writes the shortest digits that read back as the same number; returns their end.

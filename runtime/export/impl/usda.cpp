@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Indices of the corners of all parts, asked for in rising order.
+/// Indices of the corners of all parts, read in rising order.
 struct PartCursor {
     const Mesh& mesh;
     TriangleReader indices{mesh.indices};
@@ -31,7 +31,7 @@ struct PartCursor {
 };
 
 void put_header(const ExportInfo& info, PieceWriter& out) {
-    // Strings of USDA have the escapes of JSON for all that one_line() leaves.
+    // For the characters that one_line() leaves, USDA has the escapes of JSON.
     out.put(fmt::format("#usda 1.0\n"
                         "(\n"
                         "    defaultPrim = \"Plant\"\n"

@@ -17,7 +17,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kUsdaItemsOfLine = 8;
+inline constexpr std::size_t kUsdaItemsPerLine = 8;
 inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
 
 /// A unique name for each part.
@@ -29,7 +29,7 @@ void put_list(PieceWriter& out, std::string_view name, std::uint64_t count, cons
     out.put(fmt::format("        {} = [", name));
     for (std::uint64_t i = 0; i < count && !out.stopped(); ++i) {
         char* at = out.room(kUsdaItemBytes);
-        at = put_text(at, i == 0 ? "" : i % kUsdaItemsOfLine == 0 ? ",\n            " : ", ");
+        at = put_text(at, i == 0 ? "" : i % kUsdaItemsPerLine == 0 ? ",\n            " : ", ");
         out.used(put(i, at));
     }
     out.put("]");
@@ -46,7 +46,7 @@ template <std::size_t kCount>
 
 /// A mesh prim.
 struct UsdaSurface {
-    const Mesh& mesh; // may have further vertices
+    const Mesh& mesh; // may have vertices that the prim has not
     std::string name;
     std::uint64_t vertices = 0;
     std::span<const MeshPart> parts;
@@ -55,16 +55,16 @@ struct UsdaSurface {
 };
 void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
-/// `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v, is_point)`: a vector of
-/// the mesh in the coordinates of the prim. `corner(i)`: the vertex of the prim at corner i of the
-/// triangles of all parts, asked for in order.
+/// Writes a mesh prim. `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v,
+/// is_point)`: a vector of the mesh in the coordinates of the prim. `corner(i)`: the vertex of the
+/// prim at corner i of the triangles of all parts, called with rising i.
 template <typename Vertex, typename Turn, typename Corner>
 void put_usda_surface(PieceWriter& out,
                       const UsdaSurface& surface,
                       const Vertex& vertex,
                       const Turn& turn,
                       const Corner& corner) {
-    constexpr std::string_view kOfVertices =
+    constexpr std::string_view kVertexInterpolation =
         " (\n            interpolation = \"vertex\"\n        )\n";
     const Mesh& mesh = surface.mesh;
     const std::uint64_t vertices = surface.vertices;
@@ -93,20 +93,20 @@ void put_usda_surface(PieceWriter& out,
     put_vectors("point3f[] points", mesh.positions, true);
     out.put("\n");
     put_vectors("normal3f[] normals", mesh.normals, false);
-    out.put(kOfVertices);
+    out.put(kVertexInterpolation);
     if (is_complete(mesh, mesh.texture_coordinates)) {
         put_list(out, "texCoord2f[] primvars:st", vertices, [&](std::uint64_t i, char* at) {
             const glm::vec2& t = mesh.texture_coordinates[vertex(i)];
             return put_tuple<2>(at, {t.x, 1.0F - t.y});
         });
-        out.put(kOfVertices);
+        out.put(kVertexInterpolation);
     }
     if (is_complete(mesh, mesh.colours)) {
         put_list(out, "color3f[] primvars:displayColor", vertices, [&](std::uint64_t i, char* at) {
             const glm::vec3 c = palette_colour(mesh.colours[vertex(i)]);
             return put_tuple<3>(at, {c.r, c.g, c.b});
         });
-        out.put(kOfVertices);
+        out.put(kVertexInterpolation);
     }
     put_usda_subsets(out, surface);
     out.put("    }\n");

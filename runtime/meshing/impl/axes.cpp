@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kRange = std::size_t{1} << 16; // segments
+constexpr std::size_t kSegmentsPerRange = std::size_t{1} << 16;
 
 float straightness(const Segment& a, const Segment& b) {
     return glm::dot(direction(a.frame), direction(b.frame));
@@ -95,8 +95,8 @@ Axes find_axes(const Skeleton& skeleton, Workers& workers) {
     Axes axes;
     axes.next.resize(segments);
     std::vector<Range> ranges;
-    for (std::size_t begin = 0; begin < segments; begin += kRange) {
-        ranges.emplace_back(begin, std::min(begin + kRange, segments));
+    for (std::size_t begin = 0; begin < segments; begin += kSegmentsPerRange) {
+        ranges.emplace_back(begin, std::min(begin + kSegmentsPerRange, segments));
     }
     workers.for_each(ranges.size(), [&](std::uint64_t i) { ranges[i].find(skeleton, axes.next); });
     std::vector<bool> used(std::size_t{1} << 16);

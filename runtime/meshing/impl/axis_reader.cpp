@@ -13,22 +13,23 @@ namespace lsys {
 
 namespace {
 
-// Points nearer than this part of their coordinates are equal in floats.
+// Points nearer than this fraction of their coordinates are equal in floats.
 constexpr float kResolution = 4e-6F;
-// A radius below this part of the coordinates is 0; larger ones keep corners apart.
+// A radius below this fraction of the coordinates counts as 0.
 constexpr float kNoRadius = 1e-8F;
-constexpr float kRadiusOfSide = 4e-7F;
-// Min radius of a ring as a part of its surroundings, so that its triangles have an area.
+// Min radius per side, as a fraction of the coordinates: keeps the corners of a ring apart.
+constexpr float kRadiusPerSide = 4e-7F;
+// Min radius of a ring as a fraction of its surroundings, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kMinRadius = 1e-36F;
 constexpr float kMaxRadius = 1e36F;
 constexpr std::uint32_t kMaxLevels = 8;
-// Part of the parent's inner radius that the hidden ring of a branch may fill.
+// Fraction of the parent's inner radius that the hidden ring of a branch may fill.
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;
 constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
-constexpr float kMaxOfEdge = 0.7F;      // for a collar
+constexpr float kMaxCollar = 0.7F;      // of the length of an edge
 constexpr float kMaxParts = 16.0F;      // of an edge, cut for noise
 constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
 
@@ -42,7 +43,7 @@ float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
     if (!(radius > std::max(kNoRadius * far, kMinRadius))) {
         return 0.0F;
     }
-    return std::min(std::max(radius, kRadiusOfSide * static_cast<float>(sides) * far), kMaxRadius);
+    return std::min(std::max(radius, kRadiusPerSide * static_cast<float>(sides) * far), kMaxRadius);
 }
 
 bool thick_beside(float radius, const Joint& before, float length) {
@@ -125,7 +126,7 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            prefetch(skeleton_.segments[after]); // branches lie between
+            prefetch(skeleton_.segments[after]); // branches lie between in memory
         }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
@@ -206,7 +207,7 @@ void AxisReader::add(const Segment& segment, float radius) {
             stale_ = false;
         }
     }
-    // Made in place: a copy would wait for the stores of its parts.
+    // Constructed in place: copying a joint just written would stall on store forwarding.
     Joint& joint = joints_.emplace_back();
     joint.centre = centre;
     joint.radius = radius;
@@ -290,7 +291,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     const float cosine = glm::dot(heading(parent.frame), base.heading);
     const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kMinSine * kMinSine));
     const float reach = parent_radius / sine + 1.5F * base.radius;
-    if (!(reach < kMaxOfEdge * base.length) || base.radius == 0.0F ||
+    if (!(reach < kMaxCollar * base.length) || base.radius == 0.0F ||
         coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
         return;
     }
@@ -361,8 +362,7 @@ void AxisReader::fit_sides() {
     }
 }
 
-/// For joints that are not plain: sets their rings by their bends, and widens those too thin for
-/// their neighbours.
+/// Sets the rings of all joints by their bends, and widens joints too thin for their neighbours.
 void AxisReader::set_rings() {
     const std::size_t last = joints_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {

@@ -83,15 +83,15 @@ private:
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // of the level, by the sides of level 0
-    float hidden_ = 0.0F;          // radius of the corners of an open base, at most
-    std::array<float, 2> flare_{}; // radii of the collar at any angle; 0: none
+    float hidden_ = 0.0F;          // max radius of the corners of an open base
+    std::array<float, 2> flare_{}; // radii at the ends of the longest collar; 0: none
     LargeVector<float> radii_;
     LargeVector<Joint> joints_;
     LargeVector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next one to read
     bool attached_ = false;              // no segment of the axis was left out so far
     bool rings_final_ = true; // the rings of all joints are final: set_rings() is not needed
-    bool stale_ = false;      // the last joint's heading is not known
+    bool stale_ = false;      // heading and length of the last joint are outdated
 };
 
 } // namespace lsys

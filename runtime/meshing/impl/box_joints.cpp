@@ -25,7 +25,7 @@ constexpr float kFacing = 0.35F;
 constexpr float kOutside = 1.25F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
 
-/// Min extent that floats can represent at the place of the segment.
+/// Whether the segment is large enough for the resolution of floats at its place.
 bool is_drawn(const Segment& segment) {
     const glm::vec3 end = tip(segment);
     const float far =
@@ -36,7 +36,7 @@ bool is_drawn(const Segment& segment) {
            radius > 1e-12F && radius < 1e12F && far < 1e12F;
 }
 
-/// A segment and the place where it grows.
+/// Makes the boxes of all segments, parents first.
 class BoxMesher {
 public:
     BoxMesher(const Skeleton& skeleton, float width) : skeleton_(skeleton), width_(width) {}
@@ -100,7 +100,7 @@ private:
                 width_ * std::max(segment.tip_radius, min_radius)};
     }
 
-    void give(std::uint32_t segment, const BoxSocket& socket) {
+    void assign_socket(std::uint32_t segment, const BoxSocket& socket) {
         socket_of_[segment] = static_cast<std::uint32_t>(sockets_.size());
         sockets_.push_back(socket);
     }
@@ -111,7 +111,7 @@ private:
         const glm::vec3 along = heading(own.frame);
         const float length = own.length;
         writer_.begin_segment(own, segment, w.base);
-        // Rest between its joint and its tip.
+        // Length of the segment that is covered so far.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {
             writer_.begin_root(w.base);
@@ -144,10 +144,10 @@ private:
         }
         if (all.size() == 1) {
             const Segment& child = skeleton_.segments[all[0]];
-            const glm::vec3 on = heading(child.frame);
-            if (glm::dot(along, on) > kStraight) {
-                writer_.add_ring(own.length, along + on, 0.5F * (half + widths(child).base));
-                give(all[0], writer_.end_socket());
+            const glm::vec3 ahead = heading(child.frame);
+            if (glm::dot(along, ahead) > kStraight) {
+                writer_.add_ring(own.length, along + ahead, 0.5F * (half + widths(child).base));
+                assign_socket(all[0], writer_.end_socket());
                 return;
             }
         }
@@ -165,25 +165,25 @@ private:
         std::array<std::vector<std::uint32_t>, kSides> wanted;
         for (const std::uint32_t child : children(segment)) {
             const Segment& grown = skeleton_.segments[child];
-            const glm::vec3 on = heading(grown.frame);
-            if (grown.length > kOutside * way_out(joint, extent, on)) {
-                choose_side(joint, on, child, wanted);
+            const glm::vec3 ahead = heading(grown.frame);
+            if (grown.length > kOutside * way_out(joint, extent, ahead)) {
+                choose_side(joint, ahead, child, wanted);
             }
         }
         for (std::size_t side = 0; side < kSides; ++side) {
             const std::vector<std::uint32_t>& here = wanted[side];
             std::vector<glm::vec2> places;
             for (const std::uint32_t child : here) {
-                const glm::vec3 on = heading(skeleton_.segments[child].frame);
-                places.emplace_back(glm::dot(on, joint.sides[side].right),
-                                    glm::dot(on, joint.sides[side].up));
+                const glm::vec3 ahead = heading(skeleton_.segments[child].frame);
+                places.emplace_back(glm::dot(ahead, joint.sides[side].right),
+                                    glm::dot(ahead, joint.sides[side].up));
             }
             const std::span<const BoxSocket> sockets = writer_.divide(joint.sides[side], places);
             for (std::size_t i = 0; i < here.size(); ++i) {
                 BoxSocket socket = sockets[i];
-                const glm::vec3 on = heading(skeleton_.segments[here[i]].frame);
-                socket.reach = way_out(joint, extent, on);
-                give(here[i], socket);
+                const glm::vec3 ahead = heading(skeleton_.segments[here[i]].frame);
+                socket.reach = way_out(joint, extent, ahead);
+                assign_socket(here[i], socket);
             }
         }
     }

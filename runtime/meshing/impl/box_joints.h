@@ -1,5 +1,5 @@
 // The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined
-// over the joints into one closed mesh a plant (the report of the .sys forest, 2005). Children grow
+// at the joints into one closed mesh per plant (the report of the .sys forest, 2005). Children grow
 // out of the sides of a box at the joint, each out of the one nearest to its direction; a side that
 // several want is divided. A child that cannot grow out is a closed box that begins inside.
 #pragma once

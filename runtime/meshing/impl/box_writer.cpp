@@ -230,7 +230,7 @@ std::span<const BoxSocket> BoxWriter::divide(const BoxSocket& side,
     for (const Tile& tile : tiles_) {
         BoxSocket& socket = sockets_[tile_order_[tile.first]];
         for (std::size_t i = 0; i < 4; ++i) {
-            // A corner of a neighbour on this edge: they are halves, so it is in the middle.
+            // A corner of a neighbour on this edge lies in its middle, as tiles are cut in halves.
             const glm::vec2 middle =
                 0.5F * (corner_place(tile, i) + corner_place(tile, (i + 1) % 4));
             const auto found = std::find(tile_corners_.begin(), tile_corners_.end(), middle);

@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kMaxOnSide = 4; // children of a side of a joint, at most
+inline constexpr std::size_t kMaxOnSide = 4; // max children per side of a joint
 
 /// An open square that a segment grows out of, seen from outside: its corners lie at (right, up) =
 /// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbour.
@@ -34,20 +34,21 @@ struct BoxJoint {
 
 class BoxWriter {
 public:
-    /// Begins `segment` of this number, whose box begins with this half side.
+    /// Begins `segment`, number `number`; `half`: half side of its box at the base.
     void begin_segment(const Segment& segment, std::uint32_t number, float half);
     void begin_root(float half);
     void begin_at(const BoxSocket& socket);
     /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
     /// ring or socket before it.
     void add_ring(float distance, const glm::vec3& direction, float half);
-    /// Adds a ring that is not joined yet: the sides between are sides of a joint.
+    /// Adds a ring without faces to the ring before: the four sides between them and the ring
+    /// itself become the sides of the joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
     /// The socket of the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
     void close();
-    /// Divides a side for segments that grow towards these places in (right, up); a socket for
-    /// each, valid until the next call. Without any, closes the side.
+    /// Divides a side into a socket for each of `places`, the directions in (right, up) of the
+    /// segments that grow there; valid until the next call. Closes the side if there are none.
     [[nodiscard]] std::span<const BoxSocket> divide(const BoxSocket& side,
                                                     std::span<const glm::vec2> places);
 

@@ -26,7 +26,7 @@ constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
 constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMaxSegments = 100'000'000;
-constexpr std::uint64_t kVerticesOfPiece = 1U << 14;
+constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 
 /// Triangles of the faces, by part.
 struct Parts {
@@ -35,7 +35,7 @@ struct Parts {
     std::map<std::uint16_t, std::size_t> of_colour;
 };
 
-/// Sizes after `steps` steps, each of which makes quads, four of one or one for each corner.
+/// Sizes after `steps` subdivision steps: each makes a quad for each corner of a face.
 Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
     std::map<MaterialKey, std::uint64_t> sizes;
     std::uint32_t begin = 0;
@@ -127,7 +127,7 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     }
 }
 
-/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
+/// Writes a face as a fan, a quad split along its shorter diagonal, to the front of `room`.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,
@@ -150,9 +150,9 @@ void write_face(const PolygonMesh& mesh,
 void write(const CatmullClark& surface, Parts& parts, Workers& workers, const MeshBlock& block) {
     const PolygonMesh& mesh = surface.mesh();
     const std::uint64_t vertices = mesh.positions.size();
-    workers.for_each((vertices + kVerticesOfPiece - 1) / kVerticesOfPiece, [&](std::uint64_t i) {
-        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesOfPiece);
-        for (std::uint64_t vertex = i * kVerticesOfPiece; vertex < end; ++vertex) {
+    workers.for_each((vertices + kVerticesPerPiece - 1) / kVerticesPerPiece, [&](std::uint64_t i) {
+        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesPerPiece);
+        for (std::uint64_t vertex = i * kVerticesPerPiece; vertex < end; ++vertex) {
             write_vertex(surface, static_cast<std::uint32_t>(vertex), block);
         }
     });
@@ -177,7 +177,7 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     const MeshCounts counts = refined_counts(boxes, steps);
     MeshBlock block;
     if (skeleton.segments.size() > kMaxSegments || counts.corners >= kMaxCorners) {
-        // Beyond any limit of vertices.
+        // Fails on purpose: so many vertices are beyond any limit.
         (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;
     }

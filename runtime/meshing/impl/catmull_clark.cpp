@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 40;
-constexpr std::uint64_t kElementsOfPiece = 1U << 15;
+constexpr std::uint64_t kElementsPerPiece = 1U << 15;
 
 } // namespace
 
@@ -44,9 +44,9 @@ CatmullClark::CatmullClark(PolygonMesh mesh, Workers& workers)
 
 template <typename Piece>
 void CatmullClark::for_each(std::uint64_t count, const Piece& piece) {
-    workers_.for_each((count + kElementsOfPiece - 1) / kElementsOfPiece, [&](std::uint64_t i) {
-        const auto end = static_cast<std::uint32_t>(std::min(count, (i + 1) * kElementsOfPiece));
-        for (auto j = static_cast<std::uint32_t>(i * kElementsOfPiece); j < end; ++j) {
+    workers_.for_each((count + kElementsPerPiece - 1) / kElementsPerPiece, [&](std::uint64_t i) {
+        const auto end = static_cast<std::uint32_t>(std::min(count, (i + 1) * kElementsPerPiece));
+        for (auto j = static_cast<std::uint32_t>(i * kElementsPerPiece); j < end; ++j) {
             piece(j);
         }
     });
@@ -68,7 +68,7 @@ std::uint32_t CatmullClark::previous(std::uint32_t half) const {
     return half > face_begin(face) ? half - 1 : mesh_.face_ends[face] - 1;
 }
 
-/// Pairs half-edges that join the same vertices, by buckets of the lower one.
+/// Pairs half-edges that join the same vertices, in buckets by their lower vertex.
 void CatmullClark::find_twins() {
     const auto count = static_cast<std::uint32_t>(mesh_.corners.size());
     twins_.resize(count);

@@ -79,12 +79,12 @@ private:
     PolygonMesh mesh_;
     Workers& workers_;
     bool closed_ = false;
-    bool quads_ = false;               // all faces have four corners, in order of their number
-    LargeVector<std::uint32_t> faces_; // of half-edges, unless they are quads
-    LargeVector<std::uint32_t> twins_; // of half-edges
-    LargeVector<std::uint32_t> edges_; // of half-edges
-    LargeVector<std::uint32_t> edge_half_;
-    LargeVector<std::uint32_t> vertex_half_; // one that begins there
+    bool quads_ = false;                   // all faces have four corners, in order of their number
+    LargeVector<std::uint32_t> faces_;     // of half-edges, unless they are quads
+    LargeVector<std::uint32_t> twins_;     // of half-edges
+    LargeVector<std::uint32_t> edges_;     // of half-edges
+    LargeVector<std::uint32_t> edge_half_; // a half-edge of each edge
+    LargeVector<std::uint32_t> vertex_half_; // a half-edge that begins at each vertex
 };
 
 } // namespace lsys

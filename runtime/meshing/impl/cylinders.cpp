@@ -18,7 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kSegmentsOfPiece = 4096;
+constexpr std::uint64_t kSegmentsPerPiece = 4096;
 constexpr std::uint32_t kMaxLevels = 8;
 constexpr float kMaxRadius = 1e18F;
 
@@ -193,10 +193,10 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
     std::vector<std::size_t> first_piece;
     for (const Group& group : groups.groups) {
         first_piece.push_back(pieces.size());
-        for (std::uint64_t i = 0; i < group.count; i += kSegmentsOfPiece) {
+        for (std::uint64_t i = 0; i < group.count; i += kSegmentsPerPiece) {
             Piece& piece = pieces.emplace_back();
             piece.first = group.first + i;
-            piece.end = group.first + std::min(group.count, i + kSegmentsOfPiece);
+            piece.end = group.first + std::min(group.count, i + kSegmentsPerPiece);
             piece.part = first_piece.size() - 1;
         }
     }

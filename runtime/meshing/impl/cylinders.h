@@ -1,4 +1,4 @@
-// One closed truncated cone a segment: MeshMethod::Cylinders, the comparison of Crankshaw 2019.
+// One closed truncated cone per segment: MeshMethod::Cylinders, the comparison of Crankshaw 2019.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"

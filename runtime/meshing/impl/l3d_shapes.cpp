@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::uint16_t kLeafGreen = 1;
 constexpr std::size_t kLeafCorners = 8;
-/// Angles (radians) and components of axes below this are 0 for the program.
+/// Angles (radians) and components of axes below this are 0 for L3D.
 constexpr double kNoTurn = 0.001;
 
-/// The least rotation that takes +Y to `heading`; the identity where the program finds no axis,
+/// The least rotation that takes +Y to `heading`; the identity where L3D finds no axis,
 /// also for a heading straight down.
 glm::dquat turn_to(const glm::dvec3& heading) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
@@ -101,7 +101,7 @@ void ShapeWriter::cylinder(const Segment& segment, std::uint32_t number) {
     }
 }
 
-/// `bend`: how far the tip leaves the plane.
+/// `bend`: distance of the tip from the plane of the leaf.
 void ShapeWriter::leaf(const PlacedObject& object, double bend) {
     const std::array<glm::dvec3, kLeafCorners> corners{{
         {0.0, 0.01, 0.0},

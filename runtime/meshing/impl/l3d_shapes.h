@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// Appends all segments, then all leaves. The program has no colours, levels or droop.
+/// Appends all segments, then all leaves. L3D has no colours, levels or droop.
 void append_l3d_shapes(const Skeleton& skeleton, MeshBuilder& builder);
 
 } // namespace lsys

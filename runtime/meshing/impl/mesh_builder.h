@@ -38,7 +38,7 @@ struct MeshVertex {
     glm::vec2 texture_coordinate{};
     glm::vec4 tangent{};
     std::uint16_t palette = 0;
-    std::uint32_t segment = kNoSegment; // that carries the vertices
+    std::uint32_t segment = kNoSegment; // that carries the vertex
 };
 
 /// Room to be filled completely. Arrays that the options leave out are empty. Valid until the next
@@ -78,7 +78,7 @@ public:
     void set_pictures(std::vector<std::shared_ptr<const Texture>> pictures) {
         pictures_ = std::move(pictures);
     }
-    /// None until a limit is exceeded, as of make_mesh().
+    /// Nothing until a limit is exceeded; else the Stop that make_mesh() returns.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
     /// Segments of all vertices so far; empty if the options leave them out.
@@ -98,7 +98,8 @@ public:
 
     /// The number of the part of a material, for the calls below.
     [[nodiscard]] std::uint32_t part(const MaterialKey& material);
-    /// Makes room for more of a part. Returns false, without effect, if it does not fit.
+    /// Makes room for more vertices and indices of a part. Returns false, without effect, if it
+    /// does not fit.
     [[nodiscard]] bool
     reserve(std::uint32_t part, std::uint64_t vertices, std::uint64_t indices, MeshBlock& block);
 

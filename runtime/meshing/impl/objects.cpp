@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kVerticesOfPiece = 1U << 15;
+constexpr std::uint64_t kVerticesPerPiece = 1U << 15;
 
 /// Kind, file and colour in one number, in the order of parts.
 std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
@@ -108,7 +108,7 @@ void Instances::write(std::uint64_t first, std::uint64_t end) const {
 void write_all(Workers& workers, const Instances& instances) {
     const std::uint64_t count = instances.items.size();
     const std::uint64_t size =
-        std::max<std::uint64_t>(1, kVerticesOfPiece / instances.part.positions.size());
+        std::max<std::uint64_t>(1, kVerticesPerPiece / instances.part.positions.size());
     workers.for_each((count + size - 1) / size, [&](std::uint64_t piece) {
         instances.write(piece * size, std::min(count, (piece + 1) * size));
     });

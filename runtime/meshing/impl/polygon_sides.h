@@ -23,8 +23,8 @@ public:
     explicit SideCounts(float deviation);
 
     /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
-    /// and `max_sides` if that is less. Does not fall where the radius rises. Widened, the polygon
-    /// deviates by less: its corners from outside, its sides from inside.
+    /// and `max_sides` if that is less. Never falls as the radius rises. After widening() the
+    /// deviation is smaller: corners lie outside the circle, sides inside.
     [[nodiscard]] std::uint32_t at(float radius, std::uint32_t max_sides) const {
         std::uint32_t sides = kMinSides;
         while (sides < max_sides && !(radius <= reach_[sides])) {

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kCornersOfPiece = 1U << 14;
+constexpr std::uint64_t kCornersPerPiece = 1U << 14;
 
 /// The plane of a polygon: unit axes, `across` x `along` = `normal`.
 struct Plane {
@@ -39,7 +39,7 @@ std::span<const glm::vec3> corners_of(const Skeleton& skeleton, const Polygon& p
     return std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count);
 }
 
-/// Newell's normal; for a polygon whose parts cancel each other, that of its largest corner.
+/// Newell's normal; the normal of the largest triangle of a fan if the areas cancel each other.
 bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
     glm::dvec3 largest{0.0};
     double max_length = 0.0;
@@ -184,9 +184,9 @@ void write(const Job& job, const Piece& piece, std::uint16_t palette, const Mesh
 
 std::vector<Piece> cut_into_pieces(const Job& job, const Group& group) {
     std::vector<Piece> pieces;
-    std::uint64_t corners = kCornersOfPiece;
+    std::uint64_t corners = kCornersPerPiece;
     for (std::uint64_t i = group.first; i < group.first + group.count; ++i) {
-        if (corners >= kCornersOfPiece) {
+        if (corners >= kCornersPerPiece) {
             pieces.emplace_back().first_item = i;
             corners = 0;
         }

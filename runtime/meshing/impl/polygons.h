@@ -7,9 +7,9 @@
 namespace lsys {
 
 /// Appends every polygon, triangulated in the plane that fits it best, with one normal, on the side
-/// of the turtle's up vector at its `{`. Texture coordinates go over its box in that plane, v down
-/// along the turtle's heading. Palette index 0 means leaf green. Polygons without area are left
-/// out. The builder's status tells whether all fit.
+/// of the turtle's up vector at its `{`. Texture coordinates cover its bounding box in that plane,
+/// v down along the turtle's heading. Palette index 0 means leaf green. Polygons without area are
+/// left out. The builder's status tells whether all fit.
 void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

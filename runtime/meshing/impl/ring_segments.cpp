@@ -17,8 +17,8 @@ namespace lsys {
 
 namespace {
 
-// Joints between the bases of two consecutive segments, at most: two edges of a collar, each cut
-// for noise into at most sixteen.
+// Max joints between the bases of two consecutive segments: two edges of a collar, each cut for
+// noise into at most sixteen.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
@@ -55,7 +55,7 @@ public:
         : skeleton_(skeleton), options_(options), segments_(segments), workers_(options.threads),
           axes_(find_axes(skeleton, workers_)) {}
 
-    void name_all() {
+    void fill_all() {
         AxisReader reader(skeleton_, axes_, options_);
         OwnRun own;
         OwnRun next;
@@ -70,7 +70,7 @@ public:
                 // A run ends before the next one, or with the axis.
                 read_chain(own.run.first_segment, more ? next.run.first_segment : kNoSegment);
                 find_places(own.joints);
-                name(own);
+                write_run(own);
                 std::swap(own, next);
             }
         }
@@ -160,7 +160,7 @@ private:
     }
 
     /// Writes in the order of a TubeWriter.
-    void name(const OwnRun& own) {
+    void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;
         put(own.run.begin == TubeEnd::Flat ? 1 : 0, segments_of_[0]);
@@ -192,18 +192,18 @@ private:
     std::span<VertexSegments> segments_;
     Workers workers_;
     Axes axes_;
-    std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones behind it
+    std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones after it
     std::vector<std::uint32_t> places_;       // in chain_, of each joint
-    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and behind it
+    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and after it
     std::uint64_t vertex_ = 0;
 };
 
 } // namespace
 
-void name_ring_segments(const Skeleton& skeleton,
+void fill_ring_segments(const Skeleton& skeleton,
                         const MeshOptions& options,
                         std::span<VertexSegments> segments) {
-    RingSegments(skeleton, options, segments).name_all();
+    RingSegments(skeleton, options, segments).fill_all();
 }
 
 } // namespace lsys

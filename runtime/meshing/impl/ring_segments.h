@@ -1,5 +1,5 @@
-// Segments of the rings of tubes, for a skin: a ring at a joint hangs half on the segment before it
-// and half on the segment behind it, any other ring on the segment beside it.
+// Segments of the rings of tubes, for a skin: a ring at a joint is bound half to the segment before
+// it and half to the segment after it, any other ring to the nearest segment.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -9,7 +9,7 @@
 namespace lsys {
 
 /// Fills `segments` of the vertices that append_tubes() wrote with the same options.
-void name_ring_segments(const Skeleton& skeleton,
+void fill_ring_segments(const Skeleton& skeleton,
                         const MeshOptions& options,
                         std::span<VertexSegments> segments);
 

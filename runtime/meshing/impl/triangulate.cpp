@@ -53,10 +53,10 @@ bool cross_each_other(const glm::dvec2& a,
 
 } // namespace
 
-/// Corners in the unit square and in a counter-clockwise ring.
+/// Scales the corners to the unit square and links them in a counter-clockwise ring.
 void Triangulator::load(std::span<const glm::dvec2> corners) {
     nodes_.clear();
-    left_ = 0;
+    remaining_ = 0;
     if (corners.empty()) {
         return;
     }
@@ -87,7 +87,7 @@ void Triangulator::load(std::span<const glm::dvec2> corners) {
             std::swap(nodes_[i].next, nodes_[i].previous);
         }
     }
-    left_ = count;
+    remaining_ = count;
 }
 
 double Triangulator::turn(std::uint32_t node) const {
@@ -102,7 +102,7 @@ bool Triangulator::is_convex() const {
     bool known = false;
     std::uint32_t node = 0;
     // The first edge comes twice, to compare it with the last one.
-    for (std::uint32_t i = 0; i <= left_; ++i, node = nodes_[node].next) {
+    for (std::uint32_t i = 0; i <= remaining_; ++i, node = nodes_[node].next) {
         if (turn(node) < 0.0) {
             return false;
         }
@@ -151,7 +151,7 @@ void Triangulator::remove(std::uint32_t node) {
     if (own.higher != kNone) {
         nodes_[own.higher].lower = own.lower;
     }
-    --left_;
+    --remaining_;
 }
 
 /// Whether a corner of the ring blocks `ear`: a reflex one that lies in its triangle. One that lies
@@ -233,10 +233,10 @@ void Triangulator::cut(std::uint32_t node, std::vector<std::uint32_t>& triangles
 }
 
 /// Cuts off the small triangle where the edges before and after an edge cross.
-std::uint32_t Triangulator::without_small_crossings(std::uint32_t start,
-                                                    std::vector<std::uint32_t>& out) {
+std::uint32_t Triangulator::cut_small_crossings(std::uint32_t start,
+                                                std::vector<std::uint32_t>& out) {
     std::uint32_t node = start;
-    for (std::uint32_t i = 0, count = left_; i < count && left_ > 4; ++i) {
+    for (std::uint32_t i = 0, count = remaining_; i < count && remaining_ > 4; ++i) {
         const std::uint32_t a = nodes_[node].previous;
         const std::uint32_t after = nodes_[node].next;
         const std::uint32_t b = nodes_[after].next;
@@ -252,9 +252,10 @@ std::uint32_t Triangulator::without_small_crossings(std::uint32_t start,
 }
 
 /// Cuts off the next convex corner of a ring without ears.
-std::uint32_t Triangulator::cut_anyway(std::uint32_t start, std::vector<std::uint32_t>& out) {
+std::uint32_t Triangulator::cut_convex_corner(std::uint32_t start,
+                                              std::vector<std::uint32_t>& out) {
     std::uint32_t node = start;
-    for (std::uint32_t i = 0; i < left_ && turn(node) <= kFlat; ++i) {
+    for (std::uint32_t i = 0; i < remaining_ && turn(node) <= kFlat; ++i) {
         node = nodes_[node].next;
     }
     const std::uint32_t next = nodes_[node].next;
@@ -263,35 +264,35 @@ std::uint32_t Triangulator::cut_anyway(std::uint32_t start, std::vector<std::uin
 }
 
 void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
-    indexed_ = left_ >= kIndexedFrom;
+    indexed_ = remaining_ >= kIndexedFrom;
     if (indexed_) {
         index_nodes();
     }
-    const std::uint32_t searches = 2 + kSearches / left_;
+    const std::uint32_t max_failed_rounds = 2 + kSearches / remaining_;
     std::uint32_t node = 0;
-    std::uint32_t search = 0;  // rounds without an ear
-    std::uint32_t without = 0; // corners seen since the last ear
-    while (left_ > 2) {
+    std::uint32_t failed_rounds = 0;     // rounds without an ear
+    std::uint32_t corners_since_ear = 0; // corners seen since the last ear
+    while (remaining_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // Not needed: on a line with its neighbours, or on one of them.
+            // A corner on a line with its neighbours, or on one of them, is not needed.
             remove(node);
             node = nodes_[node].previous;
-            without = 0;
-        } else if (search >= searches) {
-            node = cut_anyway(node, triangles);
+            corners_since_ear = 0;
+        } else if (failed_rounds >= max_failed_rounds) {
+            node = cut_convex_corner(node, triangles);
         } else if (is_ear(node)) {
             cut(node, triangles);
             node = nodes_[after].next; // skipping one makes better triangles than a fan
-            without = 0;
-        } else if (++without <= left_) {
+            corners_since_ear = 0;
+        } else if (++corners_since_ear <= remaining_) {
             node = after;
         } else {
-            const std::uint32_t before = left_;
-            node = without_small_crossings(node, triangles);
-            node = left_ == before ? cut_anyway(node, triangles) : node;
-            without = 0;
-            ++search;
+            const std::uint32_t before = remaining_;
+            node = cut_small_crossings(node, triangles);
+            node = remaining_ == before ? cut_convex_corner(node, triangles) : node;
+            corners_since_ear = 0;
+            ++failed_rounds;
         }
     }
 }
@@ -299,7 +300,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
 void Triangulator::append(std::span<const glm::dvec2> corners,
                           std::vector<std::uint32_t>& triangles) {
     load(corners);
-    if (left_ < 3) {
+    if (remaining_ < 3) {
         return;
     }
     if (is_convex()) {

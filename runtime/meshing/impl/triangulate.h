@@ -3,7 +3,7 @@
 // method of mapbox/earcut, after Held 2001, "FIST: Fast Industrial-Strength Triangulation of
 // Polygons", section 3.4). A convex polygon is a fan.
 //
-// A polygon that crosses itself gets triangles that are valid each, but may overlap.
+// A polygon that crosses itself gets triangles that are each valid but may overlap.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -43,15 +43,15 @@ private:
     void append_fan(std::vector<std::uint32_t>& triangles) const;
     void index_nodes();
     void remove(std::uint32_t node);
-    std::uint32_t without_small_crossings(std::uint32_t start, std::vector<std::uint32_t>& out);
-    std::uint32_t cut_anyway(std::uint32_t start, std::vector<std::uint32_t>& out);
+    std::uint32_t cut_small_crossings(std::uint32_t start, std::vector<std::uint32_t>& out);
+    std::uint32_t cut_convex_corner(std::uint32_t start, std::vector<std::uint32_t>& out);
     void cut(std::uint32_t node, std::vector<std::uint32_t>& triangles);
     void clip(std::vector<std::uint32_t>& triangles);
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> sorted_;
     bool indexed_ = false;
-    std::uint32_t left_ = 0; // nodes in the ring
+    std::uint32_t remaining_ = 0; // nodes in the ring
 };
 
 } // namespace lsys

@@ -69,7 +69,7 @@ float slope_of(const Run& run, std::size_t i) {
     }
     const float length = (i == 0 ? 0.0F : run.joints[low].length) + run.joints[i].length;
     const float slope = rise / length;
-    return std::min(std::max(slope, -kMaxSlope), kMaxSlope); // without branches
+    return std::min(std::max(slope, -kMaxSlope), kMaxSlope); // clamps without branches
 }
 
 } // namespace
@@ -221,7 +221,7 @@ void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& rin
     const glm::vec3 turn = (in + ring.tangent) * (1.0F / (length + sum));
     ring.normal = normal - normal_part * turn;
     ring.binormal = binormal - binormal_part * turn;
-    // Drawn along the edge to the plane.
+    // Projected along the edge onto the plane.
     const glm::vec3 along = in * (1.0F / sum);
     ring.wide_normal = normal - normal_part * along;
     ring.wide_binormal = binormal - binormal_part * along;
@@ -253,9 +253,9 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 normal_along = along_axis * axis;
     const glm::vec3 binormal_along = across_axis * axis;
     const float wide = 1.0F / part_cosine;
-    // A ring whose tangent has these parts of the edge before and across it.
+    // Writes the ring with the tangent `along` * in + `aside` * across_in.
     const auto put = [&](float along, float aside) {
-        const glm::vec3 mitre = along * across_in - aside * in; // the axis times the tangent
+        const glm::vec3 mitre = along * across_in - aside * in; // cross product of axis and tangent
         ring.tangent = along * in + aside * across_in;
         ring.normal = normal_along + across_axis * mitre;
         ring.binormal = binormal_along - along_axis * mitre;

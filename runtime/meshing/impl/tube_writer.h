@@ -1,9 +1,9 @@
 // TubeWriter: the vertices of rings for the runs of axes. The normal is carried from edge to edge
 // by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
-// ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. It lies
-// across the edge, so the first reflection, along the edge, leaves it as it is; the second, in the
-// plane that halves the bend, remains. Corners of neighbouring rings are joined by lines
-// that are parallel to the edge between them.
+// ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. The normal
+// is perpendicular to the edge, so the first reflection, along the edge, does not change it; only
+// the second, in the plane that halves the bend, is computed. Lines between corners of neighbouring
+// rings are parallel to the edge between them.
 #pragma once
 
 #include "runtime/meshing/impl/axis_reader.h"

@@ -19,13 +19,13 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kPieces = 64;
-constexpr std::uint64_t kMinOfPiece = 4096; // segments
-constexpr std::uint64_t kMaxOfPiece = std::uint64_t{1} << 17;
+constexpr std::uint64_t kMinPieceSegments = 4096; // segments
+constexpr std::uint64_t kMaxPieceSegments = std::uint64_t{1} << 17;
 constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // of pieces and colours
-constexpr std::size_t kJointsOfSegment = 2;                 // about, with ends and collars
-constexpr std::size_t kJointsOfPart = 2048;
-constexpr std::size_t kLong = 4 * kJointsOfPart; // a run that is written in parts
-static_assert(kLong <= 0xFFFF);
+constexpr std::size_t kJointsPerSegment = 2;                // about, with ends and collars
+constexpr std::size_t kJointsPerPart = 2048;
+constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // a run that is written in parts
+static_assert(kMinLongRun <= 0xFFFF);
 
 /// A Run without its joints and their radii.
 struct KeptRun {
@@ -44,8 +44,8 @@ struct LongRun {
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // of those of the piece
     std::uint64_t end_vertex = 0;
-    std::vector<TubeWriter::Place> places; // begins of parts
-    std::atomic<std::size_t> known{1};     // of the places
+    std::vector<TubeWriter::Place> places; // where each part begins
+    std::atomic<std::size_t> known{1};     // count of places found so far
 };
 
 /// A range of segments, and the runs of the axes that begin there.
@@ -63,8 +63,9 @@ struct Piece {
 std::vector<Piece> make_pieces(std::uint64_t segments, std::size_t colours) {
     const std::uint64_t max_pieces =
         std::max<std::uint64_t>(kMaxLists / std::max<std::size_t>(colours, 1), 1);
-    const std::uint64_t size = std::max(std::clamp(segments / kPieces, kMinOfPiece, kMaxOfPiece),
-                                        (segments + max_pieces - 1) / max_pieces);
+    const std::uint64_t size =
+        std::max(std::clamp(segments / kPieces, kMinPieceSegments, kMaxPieceSegments),
+                 (segments + max_pieces - 1) / max_pieces);
     std::vector<Piece> pieces;
     for (std::uint64_t begin = 0; begin < segments; begin += size) {
         Piece& piece = pieces.emplace_back();
@@ -88,7 +89,7 @@ public:
 
     void read() {
         Run run;
-        piece_.joints.reserve(kJointsOfSegment * (piece_.end - piece_.begin));
+        piece_.joints.reserve(kJointsPerSegment * (piece_.end - piece_.begin));
         for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
             if (begins_axis(axes_, skeleton_.segments[i], i)) {
                 reader_.start(i);
@@ -104,7 +105,7 @@ private:
     void keep(const Run& run) {
         const std::uint64_t first = triangles_.vertices();
         triangles_.add(run);
-        const bool is_long = run.joints.size() >= kLong;
+        const bool is_long = run.joints.size() >= kMinLongRun;
         piece_.runs.push_back(
             {.first_segment = run.first_segment,
              .joint_count = static_cast<std::uint16_t>(is_long ? 0 : run.joints.size()),
@@ -154,7 +155,7 @@ std::vector<Task> make_tasks(std::vector<Piece>& pieces, std::uint64_t vertices)
             task.end_run = run.number;
             task.end_vertex = piece.vertices + run.first_vertex;
             tasks.push_back(task);
-            const std::size_t parts = (run.joints.size() + kJointsOfPart - 1) / kJointsOfPart;
+            const std::size_t parts = (run.joints.size() + kJointsPerPart - 1) / kJointsPerPart;
             run.places.resize(parts + 1);
             for (std::size_t part = 0; part < parts; ++part) {
                 tasks.push_back({.piece = &piece,
@@ -209,7 +210,7 @@ private:
     /// Publishes the place of the next part before writing, unless there is no other thread.
     void write_part(LongRun& shared) {
         const Run run = run_of(task_.piece->runs[task_.first_run], shared.joints, shared.radii);
-        const std::size_t end = std::min((task_.part + 1) * kJointsOfPart, run.joints.size());
+        const std::size_t end = std::min((task_.part + 1) * kJointsPerPart, run.joints.size());
         if (task_.part == 0) {
             shared.places[0] = writer_.begin(run);
         }

@@ -10,8 +10,8 @@
 
 // toml++ is header-only and compiled here only. Version 3.3 asserts two things that do not hold:
 // that a key follows the `[` of a heading, and that a character beyond ASCII in a key is a blank.
-// With its assertions the process would end, and without them both are undefined. Made to continue,
-// it reports them as mistakes.
+// With its assertions the process would end, and without them both are undefined. The macros below
+// make it continue instead and report both as mistakes.
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
@@ -39,7 +39,7 @@ std::uint32_t character_length(std::string_view text) {
     return length;
 }
 
-/// toml++ counts lines and code points from 1.
+/// Converts places of toml++, which counts lines and code points from 1, to offsets of bytes.
 class Places {
 public:
     Places(FileId file, const SourceFile& source) : file_(file), source_(source) {}
@@ -80,8 +80,8 @@ private:
     std::vector<std::uint32_t> offsets_; // of the characters of the line and of its end
 };
 
-/// Levels of values that are kept. No key of a scene has as many, so a key that is not known or a
-/// wrong value is reported above; this bounds the recursion here and in ~SceneValue().
+/// Max depth of values that are kept: bounds the recursion here and in ~SceneValue(). No valid
+/// scene is as deep, so an unknown key or a wrong value is reported at a lower depth.
 constexpr std::uint32_t kMaxLevels = 32;
 
 SceneValue convert(const toml::node& node, std::uint32_t level, Places& places);
@@ -147,7 +147,7 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
     return value;
 }
 
-/// Messages of toml++ read "Error while parsing WHAT: REASON", with 'x' for our `x`.
+/// A message of toml++, "Error while parsing WHAT: REASON", with its 'x' written as `x`.
 struct Complaint {
     std::string what; // a string, a key-value pair; may be empty
     std::string reason;
@@ -209,18 +209,20 @@ bool is_bare(char c) {
 /// reading it.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
-    const bool has_lines = at + 2 < text.size() && text[at + 1] == quote && text[at + 2] == quote;
-    const std::string closing(has_lines ? 3 : 1, quote);
+    const bool is_multiline =
+        at + 2 < text.size() && text[at + 1] == quote && text[at + 2] == quote;
+    const std::string closing(is_multiline ? 3 : 1, quote);
     std::size_t end = at + closing.size();
     while (end < text.size() && !text.substr(end).starts_with(closing)) {
-        if (text[end] == '\n' && !has_lines) {
+        if (text[end] == '\n' && !is_multiline) {
             return end;
         }
         end += text[end] == '\\' && quote == '"' ? 2U : 1U;
     }
     end = std::min(end + closing.size(), text.size());
     // up to two quotes before the closing three belong to the string
-    for (int more = 0; has_lines && more < 2 && end < text.size() && text[end] == quote; ++more) {
+    for (int more = 0; is_multiline && more < 2 && end < text.size() && text[end] == quote;
+         ++more) {
         ++end;
     }
     return end;

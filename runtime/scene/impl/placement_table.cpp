@@ -39,7 +39,7 @@ constexpr std::uint32_t kDefaultYears = 100;
 constexpr double kMinSpacing = 0.001; // m
 constexpr double kDiskTrees = 0.7;    // PoissonDisk: trees per square of the spacing
 
-/// The sentence about keys that the method does not read.
+/// The keys that the method reads, for messages.
 std::string keys_of(const MethodRow& method) {
     std::string keys;
     const auto add = [&](bool reads, std::string_view key) {
@@ -78,7 +78,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         names[i] = kMethods[i].name;
     }
     const auto found = reader.choice("method", names);
-    const bool any = reader.has("method") && !found; // invalid method: accept all keys
+    const bool accepts_all = reader.has("method") && !found; // invalid method: accept all keys
     placement.method = static_cast<PlacementMethod>(found.value_or(0));
     placement.region = scene.terrain.region;
     const MethodRow& method = kMethods[found.value_or(0)];
@@ -88,7 +88,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
     const auto reads = [&](bool wanted, std::string_view key) {
         if (!wanted) {
             static_cast<void>(reader.entry(key));
-            if (!any) {
+            if (!accepts_all) {
                 reader.report_conflicting_key(
                     key, because, reader.has("method") ? reader.span_of("method") : SourceSpan{});
             }

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxInteger32 = std::numeric_limits<std::uint32_t>::max(
 constexpr std::uint64_t kMaxInteger63 = std::numeric_limits<std::int64_t>::max();
 constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
-constexpr double kMaxSeedsOfYear = 254.0;
+constexpr double kMaxSeedsPerYear = 254.0;
 
 /// The stem of a path: `pine` of `trees/pine.lsys`.
 std::string stem_of(std::string_view path) {
@@ -158,7 +158,7 @@ void read_place(SpeciesReader& from) {
         placed.min_scale = float_of((*scale)[0]);
         placed.max_scale = float_of((*scale)[1]);
     }
-    // Beyond any plant either way: the range of `#set height`.
+    // The range of `#set height`, wider than any plant needs.
     if (const auto height = from.reader.ordered_pair("height", {1.0e-6, 1.0e6, false, "m"})) {
         placed.min_height = float_of((*height)[0]);
         placed.max_height = float_of((*height)[1]);
@@ -196,7 +196,7 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
     number("vigour_spread", {0.0, 0.9, false, {}}, growth.vigour_spread);
     integer("lifespan", {1, kMaxYears}, growth.lifespan);
     integer("maturity", {1, std::uint64_t{2} * kMaxYears}, growth.maturity);
-    number("seeds", {0.0, kMaxSeedsOfYear, false, "a year"}, growth.seeds);
+    number("seeds", {0.0, kMaxSeedsPerYear, false, "a year"}, growth.seeds);
     number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
     if (growth.rate > growth.max_radius) {
         const SourceSpan at = reader.span_of(reader.has("rate") ? "rate" : "greatest_radius");

@@ -51,14 +51,14 @@ Device::Device() {
 }
 
 Device::~Device() {
-    glDeleteSync(pass_);
+    glDeleteSync(pass_end_);
 }
 
 void Device::end_pass() {
     if (!is_software_) {
         return;
     }
-    const GLsync before = std::exchange(pass_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    const GLsync before = std::exchange(pass_end_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
     glFlush();
     if (before != nullptr) {
         constexpr GLuint64 kLong = 60'000'000'000; // ns

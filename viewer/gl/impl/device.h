@@ -37,7 +37,7 @@ public:
 
 private:
     bool is_software_ = false;
-    GLsync pass_ = nullptr; // end of the last pass
+    GLsync pass_end_ = nullptr; // end of the last pass
     std::uint64_t live_ = 0;
     std::uint64_t uploaded_ = 0;
     std::vector<std::string> errors_;

@@ -84,7 +84,7 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     return {snorm8(e.x), snorm8(e.y)};
 }
 
-/// Textured by the program; pictures from files are reduced to their mean colour.
+/// Whether a built-in texture is drawn; pictures from files are reduced to their mean colour.
 bool is_textured(const Material& material) {
     return material.textured && material.picture == nullptr;
 }
@@ -125,8 +125,8 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     return numbers;
 }
 
-/// Index of draw commands.
-constexpr std::size_t place_of(std::size_t kind, bool blends) {
+/// Index in DrawBuffers::commands.
+constexpr std::size_t command_index(std::size_t kind, bool blends) {
     return kind + (blends ? kBranchClasses : 0);
 }
 
@@ -328,9 +328,9 @@ void ForestBuffers::upload_commands(const DrawLists& lists) {
         const IndexRanges& ranges = level.ranges[run.instance];
         for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
             if (ranges.count[kind] != 0) {
-                commands[place_of(kind, run.blends)].push_back({ranges.count[kind], run.count,
-                                                                ranges.first[kind],
-                                                                level.base_vertex, run.first});
+                commands[command_index(kind, run.blends)].push_back({ranges.count[kind], run.count,
+                                                                     ranges.first[kind],
+                                                                     level.base_vertex, run.first});
             }
         }
     }
@@ -341,7 +341,8 @@ void ForestBuffers::upload_commands(const DrawLists& lists) {
 }
 
 std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
-    const Commands& commands = current_->commands[place_of(static_cast<std::size_t>(kind), blends)];
+    const Commands& commands =
+        current_->commands[command_index(static_cast<std::size_t>(kind), blends)];
     if (commands.count == 0) {
         return 0;
     }

@@ -23,7 +23,8 @@ constexpr std::uint32_t kSupersampling = 2; // along a side
 constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
-constexpr std::array<float, ImpostorAtlas::kElevations> kElevation = {0.0F, 0.6108652F, 1.3089969F};
+constexpr std::array<float, ImpostorAtlas::kElevations> kElevationAngles = {0.0F, 0.6108652F,
+                                                                            1.3089969F};
 /// Margin of opaque_box() in texels: coarse mip levels spill over the edges of fine ones.
 constexpr float kBoxMargin = 2.5F;
 constexpr GLint kCentre = 2;
@@ -31,7 +32,7 @@ constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
 
-/// The form whose layers include `layer`; layers of a form are contiguous.
+/// The cylinder of the form whose layers include `layer`; layers of a form are contiguous.
 const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
     return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
                         [layer](const ImpostorForm& each) { return each.first_layer <= layer; })
@@ -122,13 +123,14 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
     const float deep = kImpostorMargin * std::hypot(form.radius, half_height);
     const float wide = kImpostorMargin * form.radius;
-    const float high = kImpostorMargin * (half_height * std::cos(kElevation[e]) +
-                                          form.radius * std::sin(kElevation[e]));
+    const float high = kImpostorMargin * (half_height * std::cos(kElevationAngles[e]) +
+                                          form.radius * std::sin(kElevationAngles[e]));
     for (std::uint32_t y = 0; y < kYaws; ++y) {
         const float yaw =
             2.0F * std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(kYaws);
-        const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevation[e]), std::sin(kElevation[e]),
-                               std::cos(yaw) * std::cos(kElevation[e]));
+        const glm::vec3 to_eye(std::sin(yaw) * std::cos(kElevationAngles[e]),
+                               std::sin(kElevationAngles[e]),
+                               std::cos(yaw) * std::cos(kElevationAngles[e]));
         const glm::vec3 right(std::cos(yaw), 0.0F, -std::sin(yaw));
         const glm::vec3 up = glm::cross(to_eye, right);
         FrameBlock block;

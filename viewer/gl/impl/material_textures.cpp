@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kOpaque = 0.5F; // min opacity of opaque texels
 
-/// Opaque part of the texels with opacities scaled by `factor`.
+/// Fraction of opaque texels after scaling opacities by `factor`.
 double coverage(const std::vector<std::uint8_t>& texels, float factor) {
     std::size_t opaque_count = 0;
     for (std::size_t i = 3; i < texels.size(); i += 4) {

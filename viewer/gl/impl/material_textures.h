@@ -12,7 +12,7 @@ class MaterialTextures {
 public:
     explicit MaterialTextures(Device& device) : device_(&device) {}
 
-    /// Requires has_texture(kind).
+    /// Texture of a kind of material. Precondition: has_texture(kind).
     [[nodiscard]] GLuint base(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
     /// Texture of a picture file; mip levels keep coverage if it has holes.

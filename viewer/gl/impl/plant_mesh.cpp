@@ -70,15 +70,15 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
         const Material& material = materials_[part.material];
         const bool bumpy = material.textured && material.kind == MaterialKind::Bark;
         const TextureObject& picture = pictures_[part.material];
-        const bool through = material.kind == MaterialKind::Leaf ||
-                             material.kind == MaterialKind::Flower ||
-                             (picture && material.two_sided);
+        const bool is_translucent = material.kind == MaterialKind::Leaf ||
+                                    material.kind == MaterialKind::Flower ||
+                                    (picture && material.two_sided);
         if (shaded) {
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
                         material.colour.a);
         }
         glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
-                    through ? 1 : 0);
+                    is_translucent ? 1 : 0);
         if (material.textured) {
             glBindTextureUnit(kBaseTexture,
                               picture ? picture.name() : textures.base(material.kind));
