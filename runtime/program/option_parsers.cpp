@@ -188,7 +188,8 @@ std::string help_text(const CLI::App& app, const std::string& program) {
     return text;
 }
 
-UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
+UsageError
+to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
     UsageError usage;
     usage.help = fmt::format("`{} --help` lists the options", command);
     usage.message = error.what();

@@ -75,7 +75,7 @@ inline Result<float> fraction(const std::string& text) {
 /// The mistake found by CLI11, worded like other messages, with the nearest option name. `command`:
 /// the words before the options of `app`, such as `lsc derive`.
 [[nodiscard]] UsageError
-describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
+to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 
 /// The text of `--help`, with one blank line between its parts. `program`: printed before the name
 /// of a command; empty if `app` is the program itself.
