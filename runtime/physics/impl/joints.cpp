@@ -213,8 +213,8 @@ void eliminate(const BodyForms& own,
     Rows twist; // the joint's coupling is joint + twist
     if (forces.exactness > 0.0) {
         // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
-        // directions normal to the bend, x = |bend| / 2; and exp(-w_p) exp(w) = exp(w - w_p - w_p x
-        // w / 2 ...).
+        // directions normal to the bend, with x = |bend| / 2; and
+        // exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
         const double half = 0.5 * glm::length(bend);
         const double normal_stiffness =
             half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
