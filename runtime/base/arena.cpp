@@ -12,10 +12,11 @@ namespace lsys {
 
 namespace {
 
-/// Arenas above this size use huge pages.
-constexpr std::size_t kHugeFrom = std::size_t{1} << 20;
-/// Zeroing a huge page takes as long as zeroing a third of it in small pages.
-constexpr std::size_t kWorthAHugePage = kHugePage / 3;
+/// Max bytes of an arena on small pages; larger arenas use huge pages.
+constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
+/// Min bytes in use for which a huge page pays off: zeroing it takes as long as zeroing a third of
+/// it in small pages.
+constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 /// Addresses reserved at once for a large arena; only written pages become memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 
@@ -83,8 +84,8 @@ bool Arena::reserve(std::size_t bytes) {
             return false;
         }
         release();
-        if (bytes <= kHugeFrom) {
-            capacity_ = kHugeFrom;
+        if (bytes <= kMaxSmallArena) {
+            capacity_ = kMaxSmallArena;
             data_ = map(capacity_);
         } else {
             capacity_ = std::max(round_up(bytes, kHugePage) * 4, kLargeReservation);
@@ -104,13 +105,13 @@ bool Arena::reserve(std::size_t bytes) {
     return true;
 }
 
-/// Asks for huge pages for the bytes in use; for the last page if a third of it is in use.
+/// Requests huge pages for the bytes in use; for the last page only if a third of it is in use.
 void Arena::advise() {
-    if (capacity_ <= kHugeFrom) {
+    if (capacity_ <= kMaxSmallArena) {
         return;
     }
     const std::size_t rest = used_ % kHugePage;
-    const std::size_t end = used_ - rest + (rest >= kWorthAHugePage ? kHugePage : 0);
+    const std::size_t end = used_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
     if (end > advised_) {
         advise_huge_pages(data_ + advised_, end - advised_);
         advised_ = end;

@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-/// Move only. Reserves more addresses than asked for, so that a word that grows a little per
+/// Move only. Reserves more addresses than requested, so that a word that grows a little per
 /// generation stays in place; pages that are never written cost nothing.
 class Arena {
 public:
@@ -44,7 +44,7 @@ private:
     std::byte* data_ = nullptr;
     std::size_t capacity_ = 0;
     std::size_t used_ = 0;
-    std::size_t advised_ = 0; // bytes from data_ on, for which huge pages were asked
+    std::size_t advised_ = 0; // bytes from data_ on for which huge pages were requested
 };
 
 } // namespace lsys

@@ -22,10 +22,10 @@ private:
     static constexpr std::size_t kWords = 31;
     static constexpr std::size_t kDistance = 3;
 
-    std::uint32_t sum();
+    std::uint32_t next_word();
 
     std::array<std::uint32_t, kWords> words_{}; // ring buffer of the last words
-    std::size_t at_ = kDistance;                // index of the word that the next sum replaces
+    std::size_t at_ = kDistance; // index of the word that next_word() replaces
 };
 
 } // namespace lsys

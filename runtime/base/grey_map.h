@@ -24,13 +24,13 @@ struct GreyMap {
     }
 };
 
-/// Reads a PNG file of 1 to 16 bits per sample; 8 bits b become 257 b. Gamma and opacity are
-/// ignored. Errors: a pixel with a colour, a damaged file, more than `max_bytes` needed beside
-/// `bytes`.
+/// Reads a PNG file of 1 to 16 bits per sample; a sample b of 8 bits becomes 257 b. Gamma and
+/// opacity are ignored. Errors: a pixel with a colour, a damaged file, more than `max_bytes` of
+/// memory needed in addition to `bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes);
 
-/// Reads raw samples of 16 bits, little-endian, by rows, without a header. Errors: sizes that do
-/// not fit, more than `max_bytes` needed beside `bytes`.
+/// Reads raw samples of 16 bits, little-endian, by rows, without a header. Errors: `bytes` is not
+/// of `columns` by `rows` samples, or the map needs more than `max_bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_raw(std::string_view bytes,
                                             std::uint32_t columns,
                                             std::uint32_t rows,

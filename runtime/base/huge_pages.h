@@ -7,7 +7,7 @@ namespace lsys {
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-/// Asks for huge pages for the whole pages among `bytes`; a refusal costs only time.
+/// Requests huge pages for the whole pages among `bytes`; a refusal costs only time.
 /// Precondition: `address` is a multiple of kHugePage.
 void advise_huge_pages(void* address, std::size_t bytes);
 

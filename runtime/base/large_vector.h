@@ -1,6 +1,6 @@
-// LargeVector: a std::vector for millions of items. Large blocks are aligned to huge pages and ask
-// for them, which makes fresh memory two to five times as fast. resize() leaves items of trivial
-// types uninitialised, so that they are written once.
+// LargeVector: a std::vector for millions of items. Large blocks are on huge pages, which makes
+// fresh memory two to five times as fast. resize() leaves items of trivial types uninitialised, so
+// that they are written once.
 #pragma once
 
 #include <cstddef>

@@ -15,13 +15,14 @@ enum class LimitKind : std::uint8_t { Modules, Memory };
 /// The limit that a derivation reached, and its place.
 struct LimitReport {
     LimitKind kind = LimitKind::Modules;
-    std::uint32_t generation = 0;           // age of the last complete word
-    std::uint64_t modules = 0;              // of that word
-    std::uint64_t predicted_modules = 0;    // of the word that did not fit
-    std::uint64_t predicted_bytes = 0;      // memory in use with that word
-    bool exact = true;                      // false: predictions are lower bounds
-    bool streamed = false;                  // `generation` is the age of the streamed word
-    std::uint32_t production = 0xFFFFFFFFu; // the one that adds most modules in that step, or none
+    std::uint32_t generation = 0;        // age of the last complete word
+    std::uint64_t modules = 0;           // of the last complete word
+    std::uint64_t predicted_modules = 0; // of the word that did not fit
+    std::uint64_t predicted_bytes = 0;   // memory in use with the word that did not fit
+    bool exact = true;                   // false: predictions are lower bounds
+    bool streamed = false;               // `generation` is the age of the streamed word
+    /// Index of the production that adds most modules to the word that did not fit, or none.
+    std::uint32_t production = 0xFFFFFFFFu;
 };
 
 } // namespace lsys

@@ -16,7 +16,7 @@ auto catch_out_of_memory(const Work& work, const OutOfMemory& out_of_memory) -> 
         return work();
     } catch (const std::bad_alloc&) {
         return out_of_memory();
-    } catch (const std::length_error&) { // thrown by strings and vectors that cannot be as long
+    } catch (const std::length_error&) { // thrown by strings and vectors above max_size()
         return out_of_memory();
     }
 }

@@ -16,15 +16,15 @@ namespace lsys {
 
 namespace {
 
-/// The source of libpng, and the reason of its failure.
+/// The input of libpng, and the reason of its failure.
 struct PngInput {
-    std::string_view left;
+    std::string_view unread;
     std::array<char, 128> reason{};
 };
 
 // libpng ends a failed call by longjmp: no function between setjmp and longjmp owns anything.
 
-[[noreturn]] void fail(png_structp png, png_const_charp message) {
+[[noreturn]] void fail_to_read(png_structp png, png_const_charp message) {
     auto* const input = static_cast<PngInput*>(png_get_error_ptr(png));
     std::strncpy(input->reason.data(), message, input->reason.size() - 1);
     png_longjmp(png, 1);
@@ -32,13 +32,13 @@ struct PngInput {
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-void take(png_structp png, png_bytep to, png_size_t count) {
+void read_input(png_structp png, png_bytep to, png_size_t count) {
     auto* const input = static_cast<PngInput*>(png_get_io_ptr(png));
-    if (input->left.size() < count) {
-        fail(png, "the file ends early");
+    if (input->unread.size() < count) {
+        fail_to_read(png, "the file ends early");
     }
-    std::memcpy(to, input->left.data(), count);
-    input->left.remove_prefix(count);
+    std::memcpy(to, input->unread.data(), count);
+    input->unread.remove_prefix(count);
 }
 
 struct PngSize {
@@ -48,8 +48,7 @@ struct PngSize {
     std::uint32_t passes = 0;
 };
 
-/// Prepares libpng to give samples in the form asked for. Returns false on failure, see
-/// PngInput::reason.
+/// Prepares libpng to give samples as `form`. Returns false on failure, see PngInput::reason.
 bool prepare_reading(png_structp png, png_infop info, PngForm form, PngSize& size) {
     if (setjmp(png_jmpbuf(png)) != 0) {
         return false;
@@ -94,13 +93,13 @@ read_with(png_structp png, png_infop info, const PngRequest& request, PngInput& 
     }
     const std::uint64_t pixels = std::uint64_t{size.columns} * size.rows;
     if (pixels > request.max_pixels) {
-        return Error{fmt::format("a {} of {} by {} pixels; the most is {}", request.what,
+        return Error{fmt::format("a {} of {} by {} pixels; the most is {}", request.noun,
                                  size.columns, size.rows, request.max_pixels)};
     }
     const std::size_t row_bytes = png_get_rowbytes(png, info);
-    const std::uint64_t needed = row_bytes * size.rows + pixels * request.further_bytes;
+    const std::uint64_t needed = row_bytes * size.rows + pixels * request.copy_bytes;
     if (needed > request.max_bytes) {
-        return memory_error(fmt::format("a {} of {} by {} pixels ({})", request.what, size.columns,
+        return memory_error(fmt::format("a {} of {} by {} pixels ({})", request.noun, size.columns,
                                         size.rows, byte_size_text(needed)),
                             request.max_bytes);
     }
@@ -129,10 +128,10 @@ void append(png_structp png, png_bytep bytes, png_size_t count) {
 
 void ignore_flush(png_structp /*png*/) {}
 
-/// Writes all rows as differences to the row above, into one IDAT: for small pictures of noise
-/// nearly as small as the best filter for each row, and much faster. Returns false on failure.
+/// Writes all rows as differences to the row above, into one IDAT: much faster than the best filter
+/// per row, and nearly as small for small pictures of noise. Returns false on failure.
 bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_bytep rgba) {
-    constexpr int kLevel = 2; // higher ones save less than 5 %
+    constexpr int kLevel = 2; // higher levels save less than 5 %
     const std::size_t row_bytes = std::size_t{4} * size.columns;
     const bool opaque = size.channels == 3;
     if (setjmp(png_jmpbuf(png)) != 0) {
@@ -144,7 +143,7 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, kLevel);
     png_set_compression_strategy(png, 0); // the default of zlib
-    // At least the size of deflate's output for incompressible bytes.
+    // At least the size of zlib's output for incompressible bytes.
     png_set_compression_buffer_size(png, row_bytes * size.rows / 1000 * 1001 + 1024);
     png_write_info(png, info);
     if (opaque) {
@@ -161,13 +160,14 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
 
 Result<PngSamples> read_png_samples(std::string_view bytes, const PngRequest& request) {
     PngInput input{bytes, {}};
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, fail, ignore_warning);
+    png_structp png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, fail_to_read, ignore_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     if (info == nullptr) {
         png_destroy_read_struct(&png, nullptr, nullptr);
         return Error{"there is no memory to read a PNG"};
     }
-    png_set_read_fn(png, &input, take);
+    png_set_read_fn(png, &input, read_input);
     Result<PngSamples> samples = read_with(png, info, request, input);
     png_destroy_read_struct(&png, &info, nullptr);
     return samples;

@@ -26,20 +26,19 @@ enum class PngForm : std::uint8_t {
     Rgba,        // four bytes per pixel
 };
 
-/// Options of reading a picture. Too large a picture is refused before memory is allocated.
+/// Options of reading a picture. A picture above a maximum is refused before memory is allocated.
 struct PngRequest {
     PngForm form = PngForm::Rgba;
     std::uint64_t max_pixels = 0;
-    std::uint64_t max_bytes = 0;     // of the samples and the caller's copy of them
-    std::uint32_t further_bytes = 0; // per pixel, of the caller's copy
-    std::string_view what;           // name in errors: "map"
+    std::uint64_t max_bytes = 0;  // of the samples and the caller's copy of them
+    std::uint32_t copy_bytes = 0; // per pixel of the caller's copy
+    std::string_view noun;        // of the picture in errors: "map"
 };
 [[nodiscard]] Result<PngSamples> read_png_samples(std::string_view bytes,
                                                   const PngRequest& request);
 
-/// The bytes of a PNG file of four bytes a pixel, red, green, blue and opacity; without opacity
-/// where all is opaque. Empty without memory for it. One version of libpng and zlib writes the same
-/// bytes always.
+/// The bytes of a PNG file of RGBA pixels, four bytes each; an opaque picture is written as RGB.
+/// Empty if memory runs out. A version of libpng and zlib always writes the same bytes.
 [[nodiscard]] std::string
 write_png(std::uint32_t columns, std::uint32_t rows, std::span<const std::uint8_t> rgba);
 

@@ -17,8 +17,8 @@ namespace {
 
 const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 
-/// Words of four counters each, one per 64-bit lane. The high halves are ignored: products and the
-/// result take the low halves.
+/// The words x0 ... x3 of four counters, one counter per 64-bit lane. The high halves are ignored:
+/// products and the result take the low halves.
 struct Lanes {
     __m256i x0;
     __m256i x1;
@@ -38,7 +38,7 @@ philox_round(Lanes& lanes, __m256i key0, __m256i key1) {
              _mm256_xor_si256(_mm256_xor_si256(high0, lanes.x3), key1), product0};
 }
 
-/// Runs all rounds on two rows of lanes; one row multiplies while the other waits.
+/// Runs all rounds on two sets of lanes, so that the multiplications of one overlap the other's.
 [[gnu::target("avx2"), gnu::always_inline]] inline void
 philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     auto key0 = static_cast<std::uint32_t>(seed);
@@ -53,7 +53,7 @@ philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     }
 }
 
-/// The low halves of all eight lanes, in order.
+/// The low halves of the lanes of `first`, then of `second`.
 [[gnu::target("avx2"), gnu::always_inline]] inline __m256i low_halves(__m256i first,
                                                                       __m256i second) {
     const __m256i packed = _mm256_castps_si256(_mm256_shuffle_ps(

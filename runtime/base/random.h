@@ -67,9 +67,10 @@ void draw_units(const DrawKey& key,
                 std::size_t count,
                 float* units);
 
+/// Blocks per draw_block_run().
+inline constexpr std::uint32_t kBlockRun = 8;
 /// First words of blocks `first_block` ... `first_block` + 7 at one position. Uses vector
 /// instructions if the machine has them; the words are the same on every machine.
-inline constexpr std::uint32_t kBlockRun = 8;
 [[nodiscard]] std::array<std::uint32_t, kBlockRun> draw_block_run(std::uint64_t seed,
                                                                   std::uint32_t generation,
                                                                   std::uint64_t position,

@@ -1,4 +1,4 @@
-// Arithmetic of sizes that stays at the max number instead of wrapping.
+// Arithmetic of sizes that stays at the maximum of the type instead of wrapping.
 #pragma once
 
 #include <cstdint>

@@ -52,9 +52,9 @@ struct Workers::Team {
         {
             const std::lock_guard lock(mutex);
             stops = true;
-            ++tickets;
+            ++tasks_begun;
         }
-        begun.notify_all();
+        task_begun.notify_all();
         for (std::thread& helper : helpers) {
             helper.join();
         }
@@ -67,22 +67,22 @@ struct Workers::Team {
         {
             const std::lock_guard lock(mutex);
             task = &new_task;
-            ++tickets;
+            ++tasks_begun;
         }
-        begun.notify_all();
+        task_begun.notify_all();
         new_task();
         std::unique_lock lock(mutex);
         task = nullptr;
-        left.wait(lock, [&] { return busy == 0; });
+        all_left.wait(lock, [&] { return busy == 0; });
     }
 
-    /// Returns whether there is a task after the last one seen; else the team ends.
+    /// Waits for a task after number `last`; returns false when the team ends.
     bool wait_for_task(std::uint64_t last) {
-        for (int i = 0; i < kPolls && tickets.load(std::memory_order_relaxed) == last; ++i) {
+        for (int i = 0; i < kPolls && tasks_begun.load(std::memory_order_relaxed) == last; ++i) {
             pause_a_moment();
         }
         std::unique_lock lock(mutex);
-        begun.wait(lock, [&] { return stops || tickets != last; });
+        task_begun.wait(lock, [&] { return stops || tasks_begun != last; });
         return !stops;
     }
 
@@ -92,27 +92,27 @@ struct Workers::Team {
             const Task* current = nullptr;
             {
                 const std::lock_guard lock(mutex);
-                last = tickets;
+                last = tasks_begun;
                 current = task;
                 busy += current != nullptr ? 1 : 0;
             }
             if (current == nullptr) {
-                continue; // woken too late
+                continue; // woken after the end of the task
             }
             (*current)();
             const std::lock_guard lock(mutex);
             if (--busy == 0) {
-                left.notify_one();
+                all_left.notify_one();
             }
         }
     }
 
     std::mutex mutex;
-    std::condition_variable begun;
-    std::condition_variable left;
-    std::atomic<std::uint64_t> tickets{0}; // tasks begun so far
-    const Task* task = nullptr;            // null once its pieces are all taken
-    std::uint32_t busy = 0;                // helpers within the task
+    std::condition_variable task_begun;
+    std::condition_variable all_left;          // signalled when no helper is within the task
+    std::atomic<std::uint64_t> tasks_begun{0}; // number of tasks so far
+    const Task* task = nullptr;                // null once its pieces are all taken
+    std::uint32_t busy = 0;                    // helpers within the task
     bool stops = false;
     std::vector<std::thread> helpers; // last: they use all of the above
 };
@@ -153,8 +153,8 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         }
         return;
     }
-    // Each thread takes the next piece until none is left, so that neighbours are done at about the
-    // same time.
+    // Each thread takes the next piece until none is left, so that neighbouring pieces run at about
+    // the same time.
     std::atomic<std::uint64_t> next{0};
     std::atomic<bool> has_memory{true};
     const auto take_pieces = [&] {

@@ -8,8 +8,8 @@
 
 namespace lsys {
 
-/// The team is ready in microseconds, which matters for words that derive in milliseconds: oneTBB's
-/// arenas take one to two milliseconds before their first task.
+/// Own threads instead of oneTBB: this team is ready in microseconds and many words derive in
+/// milliseconds, while oneTBB's arenas take one to two milliseconds before their first task.
 class Workers {
 public:
     /// `threads` 0: as many as the machine has. No thread is started before it is needed. Builds
@@ -20,14 +20,14 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    /// Starts the threads before the first for_each() needs them.
+    /// Starts the threads now, so that the first for_each() need not.
     void start();
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
     /// one worker or one piece, on the calling thread. Uses fewer threads where the system gives
     /// fewer than asked for. A piece may wait for a piece of a lower number, which has been begun,
     /// and for no other. A piece that no other waits for may throw std::bad_alloc or
-    /// std::length_error; for_each() then throws either when all threads have ended, and some
-    /// pieces may not have run.
+    /// std::length_error; for_each() then throws one of the two when all threads have left their
+    /// pieces, and some pieces may not have run.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);
 
 private:

@@ -360,8 +360,8 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsc " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
-        return describe(error, command == nullptr ? app : *command,
-                        command == nullptr ? "lsc" : "lsc " + command->get_name());
+        return to_usage_error(error, command == nullptr ? app : *command,
+                              command == nullptr ? "lsc" : "lsc " + command->get_name());
     }
     return parsed;
 }

@@ -2,7 +2,7 @@
 
 namespace lsys {
 
-bool closes_unopened(const Bytecode& bytecode, TableRange codes) {
+bool has_unmatched_close(const Bytecode& bytecode, TableRange codes) {
     std::int64_t depth = 0;
     for (std::uint32_t i = codes.first; i < codes.first + codes.count; ++i) {
         const SymbolKind kind =
@@ -39,7 +39,7 @@ BracketCounter::BracketCounter(const Bytecode& bytecode) {
 }
 
 ProductionId only_unbalanced_production(const Bytecode& bytecode) {
-    if (closes_unopened(bytecode, bytecode.axiom.codes)) {
+    if (has_unmatched_close(bytecode, bytecode.axiom.codes)) {
         return kNoProduction;
     }
     ProductionId found = kNoProduction;
@@ -50,7 +50,7 @@ ProductionId only_unbalanced_production(const Bytecode& bytecode) {
         if (rewrites_bracket(bytecode, bytecode.productions[i])) {
             return kNoProduction;
         }
-        if (closes_unopened(bytecode, bytecode.productions[i].successor.codes)) {
+        if (has_unmatched_close(bytecode, bytecode.productions[i].successor.codes)) {
             if (found != kNoProduction) {
                 return kNoProduction;
             }

@@ -10,9 +10,10 @@
 
 namespace lsys {
 
-/// Whether a `]` of the template has no `[` in it.
-[[nodiscard]] bool closes_unopened(const Bytecode& bytecode, TableRange codes);
-/// Whether the production removes a bracket from the word, so that another loses its partner.
+/// Whether a `]` of the template has no matching `[` in the template.
+[[nodiscard]] bool has_unmatched_close(const Bytecode& bytecode, TableRange codes);
+/// Whether the production rewrites a bracket, so that the matching bracket of the word may lose its
+/// partner.
 [[nodiscard]] bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production);
 
 /// Checks the brackets of a word, which may come in pieces.

@@ -28,7 +28,7 @@ struct Derivation::State {
     std::vector<float> globals;
     std::optional<Plan> plan;
     std::optional<Passes> passes;
-    std::optional<Plan> decompose_plan; // if there are such productions
+    std::optional<Plan> decompose_plan; // if the program has productions of #decompose
     std::optional<Passes> decompose_passes;
     Word word;
     Word next;  // written by the current pass
@@ -39,18 +39,18 @@ struct Derivation::State {
     std::uint32_t age = 0;
     DerivationEnd end;
 
-    [[nodiscard]] std::optional<Stop> fail(RuntimeError with) {
-        end.error = std::move(with);
+    [[nodiscard]] std::optional<Stop> fail(RuntimeError error) {
+        end.error = std::move(error);
         return Stop::Diagnosed;
     }
 
-    /// Notes a word after `word` that may not fit: its modules and all bytes held with it.
+    /// Records the size of a next word that may not fit: modules, and bytes held with it.
     void report_limit(LimitKind kind, std::uint64_t modules, std::uint64_t bytes) {
         end.limit = {kind, age, word.module_count(), modules, bytes};
     }
 
-    /// Draws the globals and prepares the plan, which depends on them.
-    [[nodiscard]] std::optional<Stop> begin() {
+    /// Draws the globals and makes the plans, which depend on them.
+    [[nodiscard]] std::optional<Stop> make_plans() {
         std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
         if (wrong) {
             return fail(std::move(*wrong));
@@ -68,8 +68,9 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Lets all words keep origins, or none. Returns false if there is no memory.
-    [[nodiscard]] bool agree_on_origins() {
+    /// Makes all words keep origins, or none of them, by the option. Returns false if there is no
+    /// memory.
+    [[nodiscard]] bool apply_origin_option() {
         for (Word* const each : {&word, &next, &spare}) {
             if (!options.origins) {
                 each->drop_origins();
@@ -80,9 +81,9 @@ struct Derivation::State {
         return true;
     }
 
-    /// Takes the word of a saved derivation in place of the axiom.
-    [[nodiscard]] std::optional<Stop> take_over(Word saved, std::uint32_t saved_age) {
-        const bool knows = saved.keeps_origins();
+    /// Starts from the word of a saved derivation instead of the axiom.
+    [[nodiscard]] std::optional<Stop> adopt_saved_word(Word saved, std::uint32_t saved_age) {
+        const bool has_origins = saved.keeps_origins();
         word = std::move(saved);
         age = saved_age;
         report_limit(LimitKind::Memory, word.module_count(),
@@ -91,10 +92,10 @@ struct Derivation::State {
         if (options.origins && end.limit.predicted_bytes > options.limits.max_bytes) {
             return Stop::Limit;
         }
-        if (!agree_on_origins()) {
+        if (!apply_origin_option()) {
             return Stop::OutOfMemory;
         }
-        if (!knows) {
+        if (!has_origins) {
             std::fill(word.origins().begin(), word.origins().end(), Origin{kNone, age});
         }
         return std::nullopt;
@@ -107,7 +108,7 @@ struct Derivation::State {
         if (wrong) {
             return fail(std::move(*wrong));
         }
-        if (!agree_on_origins()) {
+        if (!apply_origin_option()) {
             return Stop::OutOfMemory;
         }
         const std::uint64_t count = bytecode.axiom.codes.count;
@@ -132,9 +133,11 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// The word that the next pass over `current` writes; take() then makes it `current`.
-    [[nodiscard]] Word& room_beside(const Word* current) { return current == &next ? spare : next; }
-    void take(const Word& written, const Word*& current) {
+    /// The word that the next pass over `current` writes; make_current() then makes it `current`.
+    [[nodiscard]] Word& target_of_pass(const Word* current) {
+        return current == &next ? spare : next;
+    }
+    void make_current(const Word& written, const Word*& current) {
         if (&written == &spare) {
             std::swap(next, spare);
         }
@@ -142,19 +145,21 @@ struct Derivation::State {
     }
 
     /// Runs one pass over `current`, which then refers to the written word; `word` is unchanged.
-    [[nodiscard]] std::optional<Stop> pass(Passes& by, const PassKeys& keys, const Word*& current) {
-        Word& out = room_beside(current);
+    [[nodiscard]] std::optional<Stop>
+    pass(Passes& runner, const PassKeys& keys, const Word*& current) {
+        Word& out = target_of_pass(current);
         const Word& other = current == &word ? spare : word;
         const std::uint64_t plans =
             plan->held_bytes() + (decompose_plan ? decompose_plan->held_bytes() : 0);
-        const std::optional<Stop> stop = by.run(*current, out, keys, plans + other.held_bytes());
+        const std::optional<Stop> stop =
+            runner.run(*current, out, keys, plans + other.held_bytes());
         if (stop == Stop::Diagnosed) {
-            end.error = by.error();
+            end.error = runner.error();
         } else if (stop == Stop::Limit || stop == Stop::OutOfMemory) {
-            end.limit = by.limit();
+            end.limit = runner.limit();
             end.limit.modules = word.module_count();
         } else if (!stop) {
-            take(out, current);
+            make_current(out, current);
         }
         return stop;
     }
@@ -193,16 +198,16 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Removes what `%` cuts off, before anything is rewritten.
+    /// Makes the cuts of `%` modules, before anything is rewritten.
     [[nodiscard]] std::optional<Stop> prune(const Word*& current) {
-        if (!pruner.any()) {
+        if (!pruner.can_cut()) {
             return std::nullopt;
         }
         const PrunedSize size = pruned_size(pruner, *current);
         if (size.modules == current->module_count()) {
             return std::nullopt;
         }
-        Word& out = room_beside(current);
+        Word& out = target_of_pass(current);
         report_limit(LimitKind::Memory, size.modules,
                      plan->held_bytes() + word.held_bytes() + spare.held_bytes() +
                          out.held_bytes_after(size.modules, size.parameters));
@@ -214,8 +219,8 @@ struct Derivation::State {
             return Stop::OutOfMemory;
         }
         write_pruned(pruner, *current, out);
-        take(out, current);
-        passes->forget();
+        make_current(out, current);
+        passes->discard_census();
         return std::nullopt;
     }
 
@@ -231,29 +236,30 @@ struct Derivation::State {
         });
     }
 
-    /// Runs passes of #decompose over a word of age `of` until nothing matches.
-    [[nodiscard]] std::optional<Stop> decompose(std::uint32_t of, const Word*& current) {
+    /// Runs passes of #decompose over a word of age `word_age` until nothing matches.
+    [[nodiscard]] std::optional<Stop> decompose(std::uint32_t word_age, const Word*& current) {
         if (!decompose_plan) {
             return std::nullopt;
         }
-        decompose_plan->prepare(of);
-        decompose_passes->forget();
-        PassKeys keys{options.seed, of, kFirstDecomposeDraw, true};
+        decompose_plan->prepare(word_age);
+        decompose_passes->discard_census();
+        PassKeys keys{options.seed, word_age, kFirstDecomposeDraw, true};
         for (std::uint32_t done = 0; decompose_passes->may_rewrite_any(*current); ++done) {
-            std::optional<RuntimeError> left = undecomposed(*current, keys);
-            if (!left) {
+            std::optional<RuntimeError> unfinished = undecomposed(*current, keys);
+            if (!unfinished) {
                 break;
             }
             if (done == depth.passes) {
-                return depth.checked ? fail(std::move(*left)) : std::nullopt;
+                return depth.checked ? fail(std::move(*unfinished)) : std::nullopt;
             }
             if (const std::optional<Stop> stop = pass(*decompose_passes, keys, current)) {
                 end.limit.generation = age;
-                end.limit.modules = of == 0 ? 0 : end.limit.modules; // there is no axiom yet
+                // For the axiom, no word is complete yet.
+                end.limit.modules = word_age == 0 ? 0 : end.limit.modules;
                 return stop;
             }
             keys.first_draw += kDrawsOfPass;
-            passes->forget();
+            passes->discard_census();
         }
         return std::nullopt;
     }
@@ -271,7 +277,7 @@ struct Derivation::State {
             stop = decompose(age + 1, current);
         }
         if (stop) {
-            passes->forget();
+            passes->discard_census();
             return stop;
         }
         if (current == &next) {
@@ -301,12 +307,12 @@ struct Derivation::State {
                      : std::nullopt;
     }
 
-    /// Runs `work` for a public function and keeps how it ended.
+    /// Runs `work` for a public function; catches missing memory, and stores the result in `end`.
     template <typename Work>
     [[nodiscard]] std::optional<Stop> run(const Work& work) {
         end.stop = catch_out_of_memory(work, [this]() -> std::optional<Stop> {
             if (passes) {
-                passes->forget();
+                passes->discard_census();
             }
             report_limit(LimitKind::Memory, word.module_count(), word.held_bytes());
             end.limit.exact = false;
@@ -325,7 +331,7 @@ Derivation& Derivation::operator=(Derivation&&) noexcept = default;
 
 std::optional<Stop> Derivation::start() {
     return state_->run([this]() -> std::optional<Stop> {
-        std::optional<Stop> stop = state_->begin();
+        std::optional<Stop> stop = state_->make_plans();
         state_->age = 0;
         if (!stop) {
             stop = state_->make_axiom();
@@ -337,8 +343,8 @@ std::optional<Stop> Derivation::start() {
 std::optional<Stop> Derivation::resume(Word word, std::uint32_t age) {
     LSYS_CHECK(word.code_width() == state_->word.code_width(), word.code_width());
     return state_->run([&] {
-        const std::optional<Stop> stop = state_->begin();
-        return stop ? stop : state_->take_over(std::move(word), age);
+        const std::optional<Stop> stop = state_->make_plans();
+        return stop ? stop : state_->adopt_saved_word(std::move(word), age);
     });
 }
 

@@ -23,7 +23,7 @@ enum class RuntimeErrorKind : std::uint8_t {
     RangeTooWide,  // a bound or the width is not finite
     OutOfBounds,   // a #param outside its bounds
     Unbalanced,    // a `]` without its `[` in the last word, whose age is `generation`
-    TooDeep,       // a later stage's production still matches after the max number of passes
+    TooDeep,       // a #decompose or #interpret production still matches after the last pass
 };
 
 /// The facts of a run-time error; runtime_diagnostic() makes the message.
@@ -35,28 +35,29 @@ struct RuntimeError {
     std::uint64_t position = 0;   // index of the module in that word
     SymbolId symbol = kNoSymbol;  // of the module
     std::vector<float> parameters; // of the module
-    float value = 0.0F;            // the value, or min
-    float second = 0.0F;           // max
-    std::uint32_t global = kNone;  // for OutOfBounds and errors while globals are drawn
-    bool in_condition = false;     // else in an argument
+    float value = 0.0F;            // for NotFinite and OutOfBounds
+    float minimum = 0.0F;          // for RangeReversed and RangeTooWide
+    float maximum = 0.0F;
+    std::uint32_t global = kNone; // for OutOfBounds and errors while globals are drawn
+    bool in_condition = false;    // false: in an argument
 };
 
 struct DeriveOptions {
-    std::uint32_t generations = 0; // to derive; the value of steps()
+    std::uint32_t generations = 0; // number to derive; the value of steps()
     std::uint64_t seed = 0;
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Keep the origin of each module, which takes 8 bytes per module and time to write them.
     bool origins = false;
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;
-    /// Modules per chunk of a thread. No word depends on it; tests make it small.
+    /// Max modules per chunk of a thread. Words do not depend on it; tests make it small.
     std::uint32_t chunk_modules = 1U << 16;
-    /// Called between generations, and now and then within a long one; from any thread, but never
-    /// from two at once.
+    /// Called after each generation, and several times during a long one; from any thread, but
+    /// never from two at once.
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
 };
 
-/// Why a derivation ended before its last word, as facts for messages.
+/// The reason why a derivation ended before its last word, as facts for messages.
 struct DerivationEnd {
     std::optional<Stop> stop; // none: the derivation is complete, or may go on
     RuntimeError error;       // for Stop::Diagnosed
@@ -72,10 +73,10 @@ public:
     Derivation(Derivation&&) noexcept;
     Derivation& operator=(Derivation&&) noexcept;
 
-    /// Draws the globals and makes the axiom. This call or resume() comes first.
+    /// Draws the globals and makes the axiom. The first call is start() or resume().
     [[nodiscard]] std::optional<Stop> start();
     /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
-    /// same values. Origins that the word does not keep are unknown.
+    /// same values. If the word has no origins, those of its modules are unknown.
     [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
     /// Rewrites the word once. After a Stop the word is still that of age().
     [[nodiscard]] std::optional<Stop> step();

@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Larger programs would lose more time by folding than they gain.
+/// Larger programs are not folded: folding would take more time than it saves.
 constexpr std::size_t kMaxProductions = 4096;
 constexpr std::uint32_t kMaxAxiomParameters = 4096;
 constexpr std::uint32_t kMaxCodes = 4096;
@@ -32,7 +32,7 @@ public:
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
             const BytecodeProduction& production = bytecode.productions[i];
             const SymbolId symbol = bytecode.patterns[production.predecessor.first].symbol;
-            if (production.stage != Stage::Interpret) { // its words are never stored
+            if (production.stage != Stage::Interpret) { // words of #interpret are never stored
                 (production.stage == Stage::Rewrite ? by_symbol_
                                                     : parts_)[static_cast<std::size_t>(symbol)]
                     .push_back(i);
@@ -43,11 +43,11 @@ public:
     std::optional<Bytecode> run(const std::vector<float>& axiom_parameters) {
         const Code before = program_.code_count();
         WordTemplate& axiom = program_.axiom;
-        take(axiom, axiom_parameters.data());
+        note_modules(axiom, axiom_parameters.data());
         if (!ok_) {
             return std::nullopt;
         }
-        put(axiom, axiom_parameters.data());
+        fold_axiom(axiom, axiom_parameters.data());
         decompose();
         for (std::uint32_t age = 0; age < generations_ && !next_.empty() && ok_; ++age) {
             const std::vector<Code> now = std::exchange(next_, {});
@@ -56,14 +56,14 @@ public:
             }
             decompose();
         }
-        const bool any = program_.code_count() > before || bare_axiom_;
+        const bool any = program_.code_count() > before || axiom_is_folded_;
         return ok_ && any ? std::optional(std::move(program_)) : std::nullopt;
     }
 
 private:
     using Table = std::vector<std::vector<std::uint32_t>>; // productions by symbol
 
-    /// Applies #decompose to the new modules until none is left.
+    /// Applies #decompose to the new modules until no further ones appear.
     void decompose() {
         for (std::size_t i = 0; i < next_.size() && ok_; ++i) {
             apply(parts_, next_[i]);
@@ -93,12 +93,13 @@ private:
             const auto reads_others = [&](std::uint32_t first) {
                 return uses_formal_outside(program_, first, own_first, own_end);
             };
-            const bool knows = own_known && own_first == 0 && !reads_others(production.condition) &&
-                               !reads_others(production.successor.arguments);
-            if (knows && !may_match(production, own.data())) {
+            const bool formals_known = own_known && own_first == 0 &&
+                                       !reads_others(production.condition) &&
+                                       !reads_others(production.successor.arguments);
+            if (formals_known && !may_match(production, own.data())) {
                 continue;
             }
-            expand(production, own.data(), knows);
+            expand(production, own.data(), formals_known);
         }
     }
 
@@ -113,23 +114,23 @@ private:
                value != 0.0F;
     }
 
-    void expand(const BytecodeProduction& production, const float* own, bool knows) {
+    void expand(const BytecodeProduction& production, const float* own, bool formals_known) {
         const WordTemplate& successor = production.successor;
         if (successor.parameter_count == 0) {
-            take(successor, nullptr);
+            note_modules(successor, nullptr);
             return;
         }
         std::vector<float> values(successor.parameter_count);
         EvalFault fault;
         const bool known =
-            knows && !has_random_parameters(program_, successor) &&
+            formals_known && !has_random_parameters(program_, successor) &&
             !contains(program_, successor.arguments, Opcode::Step) &&
             evaluate(program_, successor.arguments, frame(own), nullptr, values.data(), fault);
-        take(successor, known ? values.data() : nullptr);
+        note_modules(successor, known ? values.data() : nullptr);
     }
 
     /// Notes the modules of a template, folded if `arguments` are known.
-    void take(const WordTemplate& words, const float* arguments) {
+    void note_modules(const WordTemplate& words, const float* arguments) {
         for (std::uint32_t i = 0; i < words.codes.count && ok_; ++i) {
             Code code = program_.template_codes[words.codes.first + i];
             const std::uint32_t stored = program_.stored_parameters(code);
@@ -163,8 +164,8 @@ private:
     }
 
     /// Puts the folded modules into the axiom.
-    void put(WordTemplate& axiom, const float* arguments) {
-        bare_axiom_ = axiom.parameter_count != 0;
+    void fold_axiom(WordTemplate& axiom, const float* arguments) {
+        axiom_is_folded_ = axiom.parameter_count != 0;
         for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {
             Code& code = program_.template_codes[axiom.codes.first + i];
             const std::uint32_t stored = program_.stored_parameters(code);
@@ -187,12 +188,12 @@ private:
     std::uint32_t generations_;
     FoldedIndex index_;
     std::vector<bool> seen_; // by code
-    std::vector<Code> next_; // first written at the next age
+    std::vector<Code> next_; // modules that occur first at the next age
     Table by_symbol_;
     Table parts_; // productions of #decompose
     std::uint32_t max_codes_ = 0;
     std::uint64_t trials_ = 0;
-    bool bare_axiom_ = false; // the axiom stored parameters and no longer does
+    bool axiom_is_folded_ = false; // the axiom stored parameters before it was folded
     bool ok_ = true;
 };
 
@@ -211,7 +212,7 @@ fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generat
     std::vector<float> globals;
     std::vector<float> axiom;
     if (draw_globals(bytecode, seed, globals) || axiom_parameters(bytecode, seed, globals, axiom)) {
-        return std::nullopt; // the derivation says what is wrong
+        return std::nullopt; // the derivation will report the error
     }
     return Folder(bytecode, std::move(globals), generations).run(axiom);
 }

@@ -11,9 +11,9 @@
 
 namespace lsys {
 
-/// The program with every module folded that `generations` generations from the axiom can write and
-/// whose arguments are known in advance. It derives the same words with codes of its own. Returns
-/// nothing if there is nothing to fold, or if codes of the same width cannot number these modules.
+/// The program with folded modules: all whose arguments are known in advance and that `generations`
+/// generations from the axiom can write. It derives the same words with codes of its own. Returns
+/// nothing if there is nothing to fold, or if the codes need a greater width.
 [[nodiscard]] std::optional<Bytecode>
 fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generations);
 

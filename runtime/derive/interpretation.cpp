@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Values that the plan refers to.
+/// Values to which the plan refers.
 struct Prepared {
     Prepared(const Bytecode& program, const InterpretInputs& given)
         : bytecode(program), inputs(given) {}
@@ -124,7 +124,7 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
         return nullptr;
     }
     auto prepared = std::make_unique<Prepared>(bytecode, inputs);
-    // the derivation has drawn them before, without an error
+    // The derivation has already drawn the globals without an error.
     static_cast<void>(draw_globals(bytecode, inputs.seed, prepared->globals));
     prepared->globals.resize(bytecode.globals.size());
     auto plan = std::make_unique<Plan>(

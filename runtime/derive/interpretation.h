@@ -27,8 +27,8 @@ public:
     using Sink =
         std::function<bool(std::span<const Code>, std::span<const float>, std::span<const Origin>)>;
 
-    /// Returns null if the program has no such productions. `bytecode` outlives the result.
-    /// `origins`: every piece has origins.
+    /// Returns null if the program has no productions of `#interpret`. `bytecode` outlives the
+    /// result. `origins`: feed() and the sink get the origin of each module.
     [[nodiscard]] static std::unique_ptr<Interpretation>
     make(const Bytecode& bytecode, const InterpretInputs& inputs, bool origins, Sink sink);
     virtual ~Interpretation() = default;
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] virtual std::optional<Stop> feed(std::span<const Code> codes,
                                                    std::span<const float> parameters,
                                                    std::span<const Origin> origins) = 0;
-    /// After Stop::Diagnosed.
+    /// The error after Stop::Diagnosed.
     [[nodiscard]] virtual const RuntimeError& error() const = 0;
 
 protected:

@@ -12,7 +12,7 @@
 namespace lsys {
 
 /// Bit of Origin::generation of a followed module (Derivation::follow()): `place` is the index of a
-/// module in the word that was followed, and all that is written for it keeps that index.
+/// module in the word that was followed, and all modules written for that module keep this index.
 inline constexpr std::uint32_t kFollowed = 1U << 31;
 
 struct Origin {

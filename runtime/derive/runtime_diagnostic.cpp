@@ -67,8 +67,8 @@ void place(Diagnostic& diagnostic,
         "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
 }
 
-/// The verb for the treatment of the module.
-const char* doing(const RuntimeError& error, const Bytecode& bytecode) {
+/// The verb for the stage of the production.
+const char* verb_of(const RuntimeError& error, const Bytecode& bytecode) {
     switch (error.production == kNoProduction
                 ? Stage::Rewrite
                 : bytecode.productions[static_cast<std::size_t>(error.production)].stage) {
@@ -90,7 +90,7 @@ void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Byteco
             fmt::format("module {} of the axiom (counted from 0)", grouped_digits(error.position)));
     } else {
         diagnostic.notes.push_back(fmt::format(
-            "while {} `{}`, module {} of generation {} (counted from 0)", doing(error, bytecode),
+            "while {} `{}`, module {} of generation {} (counted from 0)", verb_of(error, bytecode),
             module_text(error, bytecode), grouped_digits(error.position), error.generation));
     }
 }
@@ -118,14 +118,14 @@ Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
     const bool reversed = error.kind == RuntimeErrorKind::RangeReversed;
     std::string why = "its minimum lies above its maximum";
     if (!reversed) {
-        why = std::isfinite(error.value) && std::isfinite(error.second)
+        why = std::isfinite(error.minimum) && std::isfinite(error.maximum)
                   ? "its width overflows binary32"
                   : "its bounds must be finite";
     }
     Diagnostic diagnostic = make_diagnostic(
         DiagnosticCode::BadRangeBounds, {},
-        fmt::format("the range {{{}, {}}} of {} cannot be drawn from: {}", number(error.value),
-                    number(error.second), owner(error, bytecode), why));
+        fmt::format("the range {{{}, {}}} of {} cannot be drawn from: {}", number(error.minimum),
+                    number(error.maximum), owner(error, bytecode), why));
     note_module(diagnostic, error, bytecode);
     if (reversed) {
         diagnostic.help.emplace_back("order the bounds with `min` and `max`");
@@ -210,7 +210,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                             bool sources_loaded) {
     const bool modules = report.kind == LimitKind::Modules;
     const bool no_memory = !modules && report.predicted_bytes <= limits.max_bytes;
-    // a report without a word is about the axiom itself
+    // A report without a complete word is about the axiom.
     const bool axiom = report.modules == 0 && report.generation == 0 && !report.streamed;
     const std::uint64_t failed =
         std::uint64_t{report.generation} + (axiom || report.streamed ? 0 : 1);

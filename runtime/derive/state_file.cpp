@@ -144,7 +144,7 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     const auto parameters = get<std::uint64_t>(at);
     const auto width = get<std::uint64_t>(at);
 
-    // sizes are compared before they are multiplied
+    // Sizes are compared before they are multiplied, so that no product overflows.
     const std::uint64_t body = bytes.size() - kHeaderBytes - kChecksumBytes;
     if ((width != 1 && width != 2 && width != 4) || modules > body / width ||
         parameters > (body - modules * width) / sizeof(float)) {

@@ -43,7 +43,7 @@ void Word::drop_origins() {
 
 std::uint64_t Word::held_bytes_after(std::uint64_t module_count,
                                      std::uint64_t parameter_count) const {
-    // an arena that is too small is released before it grows
+    // An arena that is too small is released before it grows.
     const auto held = [](const Arena& arena, std::uint64_t bytes) {
         return bytes > arena.capacity() ? bytes : std::max<std::uint64_t>(arena.used(), bytes);
     };

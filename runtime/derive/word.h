@@ -1,7 +1,7 @@
 // Word: the derived string, packed. A stream of codes of one width (1, 2 or 4 bytes, little-endian)
-// and a stream of binary32 parameters of those codes that store any, in order. Made by derive, read
+// and a stream of the binary32 parameters that these codes store, in order. Made by derive, read
 // by dumps and by the turtle. Memory comes from arenas, which are reused and not initialised. A
-// word may keep the origin of each module beside them.
+// word may also keep the origin of each module.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

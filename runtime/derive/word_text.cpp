@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
-/// Words of programs with more codes, and shorter words, are printed module by module.
+/// Limits for printing two modules at a time: max codes of the program, min modules of the word.
 constexpr std::size_t kMaxPairedCodes = 64;
-constexpr std::size_t kPairedFrom = 4096;
+constexpr std::size_t kMinPairedWord = 4096;
 /// Room for the longest binary32 as text and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
 
@@ -62,7 +62,7 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
             text = one_text_ ? "``" : "````";
         }
         if (characters && !one_text_ && text.front() == '`') {
-            text.insert(0, 1, ' '); // side by side two texts would be one
+            text.insert(0, 1, ' '); // without it two adjacent back quotes would read as one text
         }
         const bool identifier = !letters && is_identifier(text);
         spelling.starts_identifier = identifier;
@@ -146,7 +146,7 @@ bool WordPrinter::write(const C* codes,
     char* at = begin;
     bool after_identifier = after_identifier_;
     const std::size_t size = spellings_.size();
-    if (pairs_.empty() && count >= kPairedFrom && size <= kMaxPairedCodes) {
+    if (pairs_.empty() && count >= kMinPairedWord && size <= kMaxPairedCodes) {
         make_pairs();
     }
     for (std::size_t i = 0; i < count; ++i) {

@@ -47,7 +47,7 @@ private:
         bool ends_identifier =
             false; // the text ends with an identifier, since no parameters follow
     };
-    /// Two neighbours as one short text; length 0 if they are written one by one.
+    /// The text of two adjacent modules; length 0 if they are printed one by one.
     struct Pair {
         std::array<char, kShort - 1> text{};
         std::uint8_t length = 0;
@@ -65,7 +65,7 @@ private:
     std::vector<Spelling> spellings_; // by code; folded arguments included
     std::vector<std::string> long_texts_;
     std::vector<char> letters_; // by code, if every module is one character
-    std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: not made
+    std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: none made yet
     std::vector<char> buffer_;
     bool after_identifier_ = false;
     bool one_text_ = false;

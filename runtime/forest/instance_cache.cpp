@@ -256,7 +256,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
             break;
         }
         if (k > 0) {
-            turtle.begin_again(derive.seed);
+            turtle.begin_word(derive.seed);
         }
         recorder.begin_hero(k, turtle.place(), turtle.drawn());
         if (!turtle.feed(derivation.word()) && !turtle.finish()) {

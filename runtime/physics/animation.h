@@ -22,7 +22,7 @@ struct PlantAnimation {
     float frames_per_second = 24.0F;
     std::uint32_t frame_count = 0;
     std::uint32_t segment_count = 0;
-    LargeVector<SegmentPlace> places; // frame by frame, in each all segments in order
+    LargeVector<SegmentPlace> places; // frame by frame; in each frame by segment
 
     [[nodiscard]] std::span<const SegmentPlace> frame(std::uint32_t number) const {
         return std::span(places).subspan(std::size_t{number} * segment_count, segment_count);
@@ -37,7 +37,7 @@ struct PlantAnimation {
 
 /// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at once.
 /// Between two frames there are equal steps, none longer than the plant's time step.
-/// `frames_per_second` is 0.1 to 10,000, else 24.
+/// `frames_per_second` outside 0.1 to 10,000 becomes 24.
 [[nodiscard]] PlantAnimation
 record(PlantPhysics& physics, std::uint32_t frames, float frames_per_second);
 

@@ -1,37 +1,37 @@
 // Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
-// "Real-time procedural animation of trees". As there, a segment turns about its base against a
+// "Real-time procedural animation of trees". As in these, a segment turns about its base against a
 // spring, moved by weight, wind and a damper, and carries its children. Differences:
 // - Hooke's torque is -k d - c w with the relative angular velocity w. The thesis prints + for the
 //   damper, which would add energy.
 // - Wind is a velocity in m/s. Its force on a segment is 1/2 rho C A |v| v: v is the velocity of
-//   the air relative to the segment, A the area across it. Torque is lever x force as in the
-//   thesis. So still air brakes.
-// - A trunk feels the weight and the inertia of its crown: all joints are solved together.
+//   the air relative to the segment, A the area that faces it. Torque is lever x force as in the
+//   thesis. So still air slows motion down.
+// - The weight and the inertia of the crown act on the trunk: all joints are solved together.
 //
-// A step is implicit (impl/joints.cpp), which alone proves nothing: rotations are not linear, and
-// centrifugal terms are explicit. So a step is also checked. Let E be the allowed energy, at first
-// that of the start.
+// A step is implicit (impl/joints.cpp), which alone does not prove stability: rotations are not
+// linear, and centrifugal terms are explicit. So a step is also checked. Let E be the allowed
+// energy, at first the energy at the start.
 //   1. Take the solved motion for the whole step, else for a quarter, a sixteenth ... of it: the
-//      first part whose energy of position V (springs and weight) is at most E.
-//   2. If there is none, stand still in this step, which leaves V as it was, at most E.
-//   3. Scale velocities down, if need be, so that V + energy of motion is at most E.
+//      first part whose potential energy V (springs and weight) is at most E.
+//   2. If there is none, stand still in this step: V, which is at most E, does not change.
+//   3. Scale velocities down, if need be, so that V + kinetic energy is at most E.
 //   4. Set E to that sum.
-// Energy of motion is never negative, so V + energy of motion never grows, for any grammar and any
-// error of the solver; with wind, by no more than its work. Sums of doubles are exact up to
-// rounding: V may exceed E by 1e-12 of the magnitudes of its terms, but not by more in later steps,
-// as E itself never rises. Step 1 nearly always takes the whole step: the solver minimises an upper
-// bound of the energy (see there). Implicit Euler damps motions that are too fast for the time
-// step.
+// Kinetic energy is never negative, so V + kinetic energy never grows, for any grammar and any
+// error of the solver; with wind, it grows by no more than the work of the wind. Sums of doubles
+// are exact up to rounding: V may exceed E by 1e-12 of the magnitudes of its terms, but not by more
+// in later steps, as E itself never rises. Item 1 nearly always takes the whole step: the solver
+// minimises an upper bound of the energy (impl/joints.cpp). Implicit Euler damps motions that are
+// too fast for the time step.
 //
-// The ground is part of V: a spring under each tip that is above it at rest, which is 0 there. What
-// the spring leaves in the ground, pose() raises (impl/ground.h).
+// The ground is part of V: a spring under each tip that is above the ground at rest, with energy 0
+// at rest. pose() raises tips that the springs leave in the ground (impl/ground.h).
 //
 // With LoadRule::Own a joint moves as if its segment stood alone on its parent; V counts weights
 // at bases that stand still. settle() then solves joint by joint, from the root to the tips.
 //
-// settle() takes long steps, each from standstill and without dampers. Each goes downhill. The
-// nearer the end, the more of the true second derivative of the energy it uses: in the end it is
-// Newton's method, which doubles the digits in each round.
+// settle() takes long steps, each from standstill and without dampers. Each lowers the energy. Near
+// the end, steps use more of the true second derivative of the energy; the last ones are Newton's
+// method, which doubles the number of correct digits per round.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -48,12 +48,12 @@ namespace lsys {
 
 namespace {
 
-constexpr double kDragCoefficient = 1.1; // of long cylinders and of plates, about
+constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr int kTrials = 12;
 constexpr double kTrialShare = 0.25;
 constexpr double kRounding = 1e-12;
-constexpr double kMinDoubt = 1e-3; // about the true stiffness in settle(), where there is any
-constexpr double kRestStep = 1e3;  // s, of rounds of settle(): inertia does not matter
+constexpr double kMinDoubt = 1e-3; // in settle(): min of 1 - exactness, unless it is 0
+constexpr double kRestStep = 1e3;  // s, step of settle(), so long that inertia does not matter
 
 float finite_or(float value, float other) {
     return std::isfinite(value) ? value : other;
@@ -75,9 +75,9 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
-/// The rotation of a body at rest on a joint that bears nothing else, on a parent with rotation
-/// `start`. Force F at arm c bends it towards F by the angle x with k x = |c| |F| sin(a - x), where
-/// a is the angle between c and F: one root from 0 to a.
+/// The rotation at rest of a body whose joint bears nothing but the body, on a parent with rotation
+/// `start`. Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x),
+/// where a is the angle between c and F. There is one root from 0 to a.
 glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Forces& forces) {
     constexpr int kHalvings = 60;
     constexpr int kWindRounds = 40; // the drag depends on the rotation
@@ -125,7 +125,7 @@ Forces forces_of(const PhysicsOptions& options) {
     return forces;
 }
 
-/// Raises an object and its far end from the ground, if they are above it at rest.
+/// Raises an object, and its far end, out of the ground if they are above the ground at rest.
 void lay_on_ground(const PlacedObject& rest, PlacedObject& object) {
     const float length = std::abs(object.size);
     if (rest.position.y < 0.0F) {
@@ -177,23 +177,23 @@ struct PlantPhysics::State {
     Workers workers;
     PlantBodies plant;
     double time = 0.0;
-    double energy = 0.0; // that of the plant up to rounding, never less
+    double energy = 0.0; // the energy allowed: that of the plant up to rounding, never less
 
-    /// Stores place and velocities, and computes their energy.
-    void look() {
+    /// Computes poses, velocities and energy from the current motion.
+    void update_energy() {
         for (std::size_t b = 0; b < plant.motion.size(); ++b) {
             plant.solution[b].spin = plant.motion[b].spin;
         }
         const Energies energies = move_bodies(plant, forces, 0.0, 1.0, workers);
-        energy = energies.position + energies.motion;
+        energy = energies.potential + energies.kinetic;
     }
 
     struct Step {
         double share = 0.0; // part of the solved motion that was taken
         double turn = 0.0;  // rad, max
     };
-    /// The place of rest where each joint bears its own segment only: from the root to the tips,
-    /// each joint by itself.
+    /// Moves the plant to rest where each joint bears its own segment only: joint by joint, from
+    /// the root to the tips.
     void settle_own_loads() {
         const std::vector<Body>& bodies = plant.rest.bodies;
         plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
@@ -213,10 +213,10 @@ struct PlantPhysics::State {
             }
         });
         plant.motion.assign(plant.motion.size(), BodyMotion{});
-        look();
+        update_energy();
     }
 
-    /// Makes a step, which ends at standstill without `keep_velocity`.
+    /// Makes a step; without `keep_velocity` it ends at standstill.
     Step advance(const Forces& now, bool keep_velocity) {
         solve_spins(plant, now, workers);
         double share = 1.0;
@@ -225,19 +225,19 @@ struct PlantPhysics::State {
             const Energies energies =
                 move_bodies(plant, now, share * now.step, keep_velocity ? share : 0.0, workers);
             const double allowed = energy + std::max(now.windy ? energies.work : 0.0, 0.0);
-            const bool known = std::isfinite(energies.position + energies.motion);
-            if (share > 0.0 &&
-                !(known && energies.position <= allowed + kRounding * energies.terms)) {
+            const bool known = std::isfinite(energies.potential + energies.kinetic);
+            if (share > 0.0 && !(known && energies.potential <=
+                                              allowed + kRounding * energies.potential_magnitude)) {
                 share *= kTrialShare;
                 continue;
             }
-            const double left = std::max(allowed - energies.position, 0.0);
-            double motion = energies.motion;
-            if (share > 0.0 && motion > left) {
-                scale_velocities(plant, std::sqrt(left / motion), workers);
-                motion = left;
+            const double left = std::max(allowed - energies.potential, 0.0);
+            double kinetic = energies.kinetic;
+            if (share > 0.0 && kinetic > left) {
+                scale_velocities(plant, std::sqrt(left / kinetic), workers);
+                kinetic = left;
             }
-            energy = std::min(allowed, energies.position + motion);
+            energy = std::min(allowed, energies.potential + kinetic);
             plant.poses.swap(plant.next_poses);
             return {share, energies.turn};
         }
@@ -259,7 +259,7 @@ void PlantPhysics::set(const PhysicsOptions& options) {
     if (s.options.surface_mass != before.surface_mass) {
         s.plant.rest = make_bodies(s.rest, static_cast<double>(s.options.surface_mass));
     }
-    s.look();
+    s.update_energy();
 }
 
 const PhysicsOptions& PlantPhysics::options() const {
@@ -285,7 +285,7 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
     long_step.step = kRestStep;
     long_step.damping = 0.0;
     scale_velocities(s.plant, 0.0, s.workers);
-    s.look();
+    s.update_energy();
     double doubt = 1.0;
     for (std::uint32_t round = 0; round < max_rounds; ++round) {
         const State::Step made = s.advance(long_step, false);

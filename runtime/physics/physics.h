@@ -2,10 +2,10 @@
 // base (Crankshaw 2019, chapter 6, after Barron et al. 2001), bent by its weight and by wind.
 // Metres, kilograms, seconds, radians. Made from the skeleton at rest; gives bent skeletons.
 //
-// Always holds: everything is finite, for any skeleton; without wind the energy never
-// grows, for any springs, masses, lengths and time step; the same numbers for any number of
-// threads. The head of physics.cpp describes a step and proves this. On the ground no end of a
-// segment, object or corner is below y = 0 that is not at rest.
+// What always holds: all values are finite, for any skeleton; without wind the energy never grows,
+// for any springs, masses, lengths and time step; results are the same for any number of threads.
+// The comment at the top of physics.cpp describes a step and proves this. With the ground, no end
+// of a segment, object or corner is below y = 0 unless it is below y = 0 at rest.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -19,13 +19,14 @@ namespace lsys {
 
 struct Wind {
     glm::vec3 velocity{0.0F}; // m/s
-    /// Amplitude of gusts, as a part of the velocity: a smooth function of time; 0 is steady wind.
+    /// Amplitude of gusts as a fraction of the velocity; gusts are a smooth function of time. 0:
+    /// steady wind.
     float gust = 0.0F;
 
     friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-/// Values that are not finite count as 0; so do negative ones where they have no meaning.
+/// Values that are not finite count as 0, and so do negative ones except of gravity and velocity.
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
@@ -34,13 +35,13 @@ struct PhysicsOptions {
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
     LoadRule load = LoadRule::Carried;
-    bool ground = true;        // the plane y = 0 holds what is above it at rest
+    bool ground = true;        // the plane y = 0 holds parts that are above it at rest
     std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
 class PlantPhysics {
 public:
-    /// The springs are relaxed in `rest`, where the plant starts without moving.
+    /// The springs are relaxed in `rest`, from which the plant starts at standstill.
     PlantPhysics(const Skeleton& rest, const PhysicsOptions& options);
     ~PlantPhysics();
     PlantPhysics(const PlantPhysics&) = delete;
@@ -53,15 +54,15 @@ public:
 
     /// One time step.
     void step();
-    /// Moves the plant to its place of rest in steady wind, without motion and without passing of
-    /// time. Returns whether, within `max_rounds`, no segment turned by more than
-    /// `tolerance` (radians) in a round.
+    /// Moves the plant to its state of rest in steady wind, at standstill; time() does not change.
+    /// Returns whether, within `max_rounds`, there was a round in which no segment turned by more
+    /// than `tolerance` (radians).
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Returns the plant to rest, at time 0.
     void reset();
 
-    [[nodiscard]] double time() const; // s, of all steps
-    /// J, of motion, springs and weight; 0 in the rest pose without motion.
+    [[nodiscard]] double time() const; // s, sum of all steps
+    /// Kinetic and potential energy in J; 0 in the rest pose at standstill.
     [[nodiscard]] double energy() const;
     [[nodiscard]] const Skeleton& rest() const;
     /// The bent plant: `out` is the skeleton at rest with other bases, frames, positions and

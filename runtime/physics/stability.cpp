@@ -1,10 +1,10 @@
 // Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
 // derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints and w . G w of the
 // weight, which has no coupling between bodies (see impl/joints.cpp). G is -m g y about the level
-// axes, where y is the height of what a body carries above its base: loads to the side bend a plant
-// without limit, loads above it make it fall. Elimination from the tips to the root, P = k +
-// G + sum of R of the children, R = k - k P^-1 k, finds whether it is positive definite: it is
-// where each P is (Sylvester). Bisection over the multiple of the weight gives the factor.
+// axes, where y is the height of a body's load above its base: a load to the side bends a plant but
+// never makes it buckle, a load above does. Elimination from the tips to the root, P = k + G + sum
+// of R of the children, R = k - k P^-1 k, finds whether the sum is positive definite: it is if each
+// P is (Sylvester). Bisection over the multiple of the weight gives the factor.
 #include "runtime/physics/stability.h"
 
 #include "runtime/physics/impl/bodies.h"
@@ -35,7 +35,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
         Symmetric sum = added[b];
         sum.xx -= arm.y * gravity;
         sum.zz -= arm.y * gravity;
-        const Symmetric beyond = sum; // felt through the joint
+        const Symmetric beyond = sum; // without the joint's spring
         sum.add_diagonal(body.spring);
         if (sum.trace() <= 0.0 || !is_positive(sum)) {
             if (sum.trace() == 0.0 && body.spring == 0.0 && body.mass == 0.0) {
@@ -52,7 +52,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
     return true;
 }
 
-/// Segments of the trunk of the first plant: order 0, from the root on.
+/// Measures the trunk of the first plant: its segments of order 0.
 void measure_trunk(const Skeleton& rest, double gravity, Stability& out) {
     double bending = 0.0; // integral of E I
     double mass = 0.0;
@@ -96,7 +96,7 @@ Stability stability_of(const Skeleton& rest, const PhysicsOptions& options) {
         out.load_factor = std::numeric_limits<double>::infinity();
         return out;
     }
-    double low = 1e-12; // of log-scale bisection
+    double low = 1e-12; // lower bound of the bisection, on a logarithmic scale
     double high = kMaxFactor;
     if (!stands(low)) {
         return out;
@@ -157,7 +157,7 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
     const double most = widens ? 1e3 : kMaxFactor;
     const double buckling = stability_of(rest, options).load_factor;
     double low = 1.0;
-    if (buckling > 0.0 && buckling < 1.0) { // below it, it falls for certain
+    if (buckling > 0.0 && buckling < 1.0) { // the plant buckles with any smaller factor
         low = widens ? std::pow(buckling, -0.5) : 1.0 / buckling;
     }
     const double growth = widens ? 1.3 : 2.0;

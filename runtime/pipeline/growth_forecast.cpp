@@ -28,10 +28,10 @@ bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {
         return production.condition == kNone && !rewrites_bracket(bytecode, production) &&
-               !closes_unopened(bytecode, production.successor.codes);
+               !has_unmatched_close(bytecode, production.successor.codes);
     };
     return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
-           !closes_unopened(bytecode, bytecode.axiom.codes) &&
+           !has_unmatched_close(bytecode, bytecode.axiom.codes) &&
            std::all_of(bytecode.productions.begin(), bytecode.productions.end(), is_safe);
 }
 

@@ -31,7 +31,7 @@ struct PlantGrowth::State {
     std::optional<SkeletonGrowth> growth; // up to the derivation's word
     std::vector<Origin> ancestors;        // of the derivation's word
     bool is_whole = false;                // drawings and word belong together; not after a stop
-    bool noted_sharp = false;
+    bool noted_lost_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 
@@ -100,7 +100,7 @@ struct PlantGrowth::State {
                           nullptr);
             return Stop::Limit;
         }
-        if (growth->counts().sharp != 0 && !std::exchange(noted_sharp, true)) {
+        if (growth->counts().lost_corners != 0 && !std::exchange(noted_lost_corners, true)) {
             step.messages.add_info("polygons lose corners from one generation to the next; they "
                                    "do so at once");
         }

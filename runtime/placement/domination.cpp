@@ -20,18 +20,18 @@ namespace {
 
 constexpr std::uint64_t kPiece = 2048;
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
-/// A plant without tolerance dies after this fraction of the time in which its radius grew has
-/// passed in the shade, so the time is longer for larger plants.
-constexpr float kShadeEndured = 0.25F;
-constexpr float kLifeSpread = 0.2F; // relative to the lifespan, +-
-constexpr std::uint32_t kEndOfNumbers = 0xFFFFFFFFu;
+/// Time in the shade after which a plant without tolerance dies, as a fraction of the time in which
+/// its radius grew; so larger plants live longer in the shade.
+constexpr float kShadeTolerance = 0.25F;
+constexpr float kLifeSpread = 0.2F; // max deviation from the lifespan, relative to it
+constexpr std::uint32_t kMaxNumber = 0xFFFFFFFFu;
 
 std::uint32_t oldest_age(const SpeciesGrowth& growth) {
     return growth.lifespan + growth.lifespan / 5 + 1;
 }
 
-/// Finds a point of the unit disc among two of its square. Returns false if both miss it, once in
-/// 22 times.
+/// Finds a point of the unit disc among two random points of the square around it. Returns false if
+/// both are outside the disc, once in 22 times.
 bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         point = {2.0 * unit(words[i]) - 1.0, 2.0 * unit(words[i + 1]) - 1.0};
@@ -61,7 +61,7 @@ struct Sprout {
     std::uint16_t species = 0;
 };
 
-/// Draws and limits of the placement for one plant or seed.
+/// The rules of life of plants and seeds in one year.
 class Life {
 public:
     Life(const PlacementOptions& options, const Terrain& terrain, std::uint32_t year)
@@ -84,14 +84,14 @@ public:
     void grow(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         ++plant.age;
-        const float more = open_growth(growth, plant.radius, plant.vigour);
-        plant.radius += plant.dominated ? more * growth.tolerance : more;
+        const float growth_in_year = open_growth(growth, plant.radius, plant.vigour);
+        plant.radius += plant.dominated ? growth_in_year * growth.tolerance : growth_in_year;
     }
 
     /// Stress of a year in the shade, or recovery of a year in the open.
-    void suffer(ForestPlant& plant) const {
+    void update_stress(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
-        const float harm = growth.rate * plant.vigour / (plant.radius * kShadeEndured);
+        const float harm = growth.rate * plant.vigour / (plant.radius * kShadeTolerance);
         plant.stress = plant.dominated ? plant.stress + harm * (1.0F - growth.tolerance)
                                        : std::max(0.0F, plant.stress - harm);
     }
@@ -236,7 +236,7 @@ Result<void> Domination::step() {
     Workers workers(options_.threads);
     const std::uint64_t seeds = count_seeds(life, workers, plants_);
     const std::uint64_t max_plants = plants_.size() + seeds;
-    if (max_plants > kMaxTrees || seeds > kEndOfNumbers - next_number_) {
+    if (max_plants > kMaxTrees || seeds > kMaxNumber - next_number_) {
         return Error{
             fmt::format("in year {} there are {} plants and {} seeds; a forest has at most "
                         "{} of both, and 2^32 plants in all years",
@@ -253,7 +253,7 @@ Result<void> Domination::step() {
     });
     find_dominated(options_.region, plants_, workers);
     workers.for_each(piece_count(plants_.size()), [&](std::uint64_t piece) {
-        for_piece(plants_, piece, [&](ForestPlant& plant) { life.suffer(plant); });
+        for_piece(plants_, piece, [&](ForestPlant& plant) { life.update_stress(plant); });
     });
     plants_.erase(std::remove_if(plants_.begin(), plants_.end(),
                                  [&](const ForestPlant& plant) { return life.is_dead(plant); }),

@@ -88,7 +88,7 @@ Result<Placement> place_trees(const PlacementOptions& options, const Terrain& te
     Workers workers(options.threads);
     const TreeMaker maker(options, terrain);
     Placement placement;
-    // six standard deviations are hardly ever exceeded, and unused room takes no memory
+    // Six standard deviations are hardly ever exceeded, and unused capacity takes no memory.
     placement.trees.reserve(static_cast<std::size_t>(
         expected.value() + kDeviations * std::sqrt(expected.value()) + kDeviations));
     if (const Result<void> placed = place_with({options, terrain, maker, workers}, placement);

@@ -1,4 +1,4 @@
-// Placement: the trees of a forest: where each stands, and its species, scale and direction. Every
+// Placement: the trees of a forest, with position, species, scale and yaw. Every
 // draw for a tree is a function of the forest's key and the tree's number, so results are the same
 // for any number of threads and on any machine. runtime/placement/README.md describes each method.
 #pragma once
@@ -26,12 +26,12 @@ enum class PlacementMethod : std::uint8_t {
     PoissonDisk, // no two closer than `spacing`, no room for one more (Bridson 2007)
     DensityMap,  // error diffusion over a picture (Deussen et al. 1998)
     Domination,  // plants that grow and compete for `years`, see runtime/placement/domination.h
-    // The others fill the cells of an unbounded grid: a tree in two regions has the same place and
-    // number in both, and adjacent regions share none.
+    // Methods on the cells of an unbounded grid: a tree in two overlapping regions has the same
+    // place and number in both, and adjacent regions have no tree in common.
     Jittered,     // one in each square of `spacing`
     UniformCells, // independent places of `density`
     PoissonCells, // no two closer than `spacing`, hardly room for one more
-    DensityCells, // a picture, by hash
+    DensityCells, // a picture, by ranks of places
 };
 
 /// Whether adjacent regions of the method fit together, without gaps or duplicates.
@@ -45,7 +45,7 @@ struct SpeciesGrowth {
     float vigour_spread = 0.3F;   // vigours are drawn from [1 - vigour_spread, 1]
     std::uint32_t lifespan = 300; // years, +- a fifth
     std::uint32_t maturity = 20;  // years, min age to have seeds
-    float seeds = 0.5F;           // sprouting per year and plant that is not dominated
+    float seeds = 0.5F;           // seeds per year and plant that is not dominated
     float seed_distance = 20.0F;  // m, max
 };
 
@@ -53,8 +53,8 @@ struct PlacementSpecies {
     double share = 1.0; // of the trees, relative to other species that can live at a place
     float min_scale = 1.0F;
     float max_scale = 1.0F;
-    /// m, of a full-grown tree; 0: none. Else Tree::scale is such a height, drawn in place of a
-    /// scale, for size_trees().
+    /// m, height of a full-grown tree; 0: unset. If set, a height is drawn instead of a scale and
+    /// stored in Tree::scale, which size_trees() converts.
     float min_height = 0.0F;
     float max_height = 0.0F;
     float lowest = -std::numeric_limits<float>::infinity();  // m, altitude
@@ -70,9 +70,9 @@ struct PlacementOptions {
     std::vector<PlacementSpecies> species; // indexed by Tree::species
     std::uint64_t count = 0;               // Uniform: places; Domination: plants of the first year
     double spacing = 0.0;                  // m; PoissonDisk, Jittered, PoissonCells
-    double density = 0.0; // places per m2: UniformCells; where white: DensityMap, DensityCells
+    double density = 0.0; // places per m2: UniformCells; per white m2: DensityMap, DensityCells
     const GreyMap* density_map = nullptr;
-    std::optional<Region> map_region; // span of the map, black beyond it; none: `region`
+    std::optional<Region> map_region; // extent of the map, black outside; none: `region`
     std::uint32_t years = 0;          // Domination
     std::uint32_t threads = 0;        // 0: as many as the machine has
 };
@@ -89,12 +89,12 @@ struct Placement {
 };
 
 /// Places trees within the region, at terrain.height() of their x and z, in time linear in the
-/// places. Errors: an invalid option, named; more than kMaxTrees expected, found before memory is
-/// allocated; a region whose cells have numbers beyond 32 bits.
+/// places. Errors: an invalid option, with its name; more than kMaxTrees expected trees, checked
+/// before memory is allocated; a region whose cells have numbers beyond 32 bits.
 [[nodiscard]] Result<Placement> place_trees(const PlacementOptions& options,
                                             const Terrain& terrain);
 
-/// The reason, for the user, why there are fewer trees than asked for; empty if there are not.
+/// The reason, for the user, why there are fewer trees than places; empty if there are not.
 [[nodiscard]] std::string placement_note(const PlacementReport& report);
 
 } // namespace lsys

@@ -19,7 +19,7 @@ struct Parsed {
     T value{};
 };
 
-/// All of `text` as a number.
+/// Parses the whole of `text` as a number.
 template <typename T>
 Parsed<T> parse_all(std::string_view text) {
     Parsed<T> parsed;
@@ -71,16 +71,16 @@ Result<Wind> parse_wind(std::string_view text) {
 Result<std::uint64_t> parse_size(std::string_view text) {
     std::string_view digits = text;
     double unit = 1.0;
-    for (const std::string_view tail : {"iB", "B"}) {
-        if (digits.size() > tail.size() + 1 && digits.ends_with(tail)) {
-            digits.remove_suffix(tail.size());
+    for (const std::string_view suffix : {"iB", "B"}) {
+        if (digits.size() > suffix.size() + 1 && digits.ends_with(suffix)) {
+            digits.remove_suffix(suffix.size());
             break;
         }
     }
-    constexpr std::string_view kSuffixes = "KMGT";
+    constexpr std::string_view kPrefixes = "KMGT";
     if (!digits.empty()) {
         const char last = digits.back() == 'k' ? 'K' : digits.back();
-        if (const std::size_t power = kSuffixes.find(last); power != std::string_view::npos) {
+        if (const std::size_t power = kPrefixes.find(last); power != std::string_view::npos) {
             unit = std::ldexp(1.0, 10 * static_cast<int>(power + 1));
             digits.remove_suffix(1);
         }
@@ -107,7 +107,7 @@ Result<Definition> parse_definition(std::string_view text) {
     const std::string_view number = text.substr(equals + 1);
     const Parsed<float> parsed = parse_all<float>(number);
     if (parsed.error == std::errc::result_out_of_range) {
-        // A number too large is an error; one too small becomes the nearest, or zero.
+        // Overflow is an error; underflow gives the nearest binary32, which may be zero.
         const Parsed<double> wide = parse_all<double>(number);
         if (wide.error == std::errc() && std::abs(wide.value) < 1.0) {
             definition.value = static_cast<float>(wide.value);

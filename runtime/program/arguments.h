@@ -21,7 +21,7 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// A number from `low` to `high`.
 [[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);
 
-/// `x,y,z` or `x,y,z,gust`: metres per second, and the fraction of gusts.
+/// `x,y,z` or `x,y,z,gust`: velocity in metres per second, and amplitude of gusts relative to it.
 [[nodiscard]] Result<Wind> parse_wind(std::string_view text);
 
 /// Bytes: a whole number, or a number with a suffix K, M, G or T (powers of 1024; also `KiB`,

@@ -5,7 +5,7 @@
 
 namespace lsys {
 
-/// Closes the descriptor at the end of its life.
+/// Closes the descriptor in its destructor.
 class Descriptor {
 public:
     explicit Descriptor(int descriptor) : descriptor_(descriptor) {}

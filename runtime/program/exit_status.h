@@ -12,7 +12,7 @@ namespace lsys {
 enum class ExitStatus : std::uint8_t {
     Ok = 0,
     AuthorErrors = 1,
-    Failure = 2, // usage, environment
+    Failure = 2, // a wrong command line, or an error of the environment
     Limit = 3,
     Interrupted = 130
 };

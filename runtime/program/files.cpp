@@ -26,7 +26,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kReadBytes = std::size_t{1} << 20;
 
 /// An Error if `size` bytes exceed the limit.
 Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
@@ -40,8 +40,8 @@ Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
     return {};
 }
 
-/// The reason why a file of this kind is not read; empty if it is.
-std::string_view reason_against(const struct stat& facts, int descriptor, FileKind kind) {
+/// The reason to refuse reading a file; empty if it may be read.
+std::string_view refusal_reason(const struct stat& facts, int descriptor, FileKind kind) {
     if (S_ISDIR(facts.st_mode)) {
         return "it is a directory";
     }
@@ -65,9 +65,9 @@ Result<std::string> read_descriptor(int descriptor,
     bytes.reserve(expected + 1);
     while (true) {
         const std::size_t size = bytes.size();
-        // One byte more than expected, to see the end without growing.
+        // One byte more than expected, so that the end of the file is found without growing.
         const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
-        bytes.resize(size + std::min(room, kPiece));
+        bytes.resize(size + std::min(room, kReadBytes));
         const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
         const int reason = errno;
         bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
@@ -84,13 +84,13 @@ Result<std::string> read_descriptor(int descriptor,
             return bytes;
         }
         if (bytes.size() == bytes.capacity()) {
-            const std::uint64_t next = bytes.size() + std::max(bytes.size() / 2, kPiece);
+            const std::uint64_t next = bytes.size() + std::max(bytes.size() / 2, kReadBytes);
             bytes.reserve(std::min(next, std::max(max_bytes, max_bytes + 1)));
         }
     }
 }
 
-/// Six unpredictable letters.
+/// Six unpredictable letters or digits.
 std::string random_letters() {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::uint64_t bits = 0;
@@ -141,8 +141,8 @@ Result<std::string> read_standard_input(const ReadLimit& limit, const Console& c
     std::string bytes;
     while (in.good()) {
         const std::size_t size = bytes.size();
-        bytes.resize(size + kPiece);
-        in.read(bytes.data() + size, static_cast<std::streamsize>(kPiece));
+        bytes.resize(size + kReadBytes);
+        in.read(bytes.data() + size, static_cast<std::streamsize>(kReadBytes));
         bytes.resize(size + static_cast<std::size_t>(in.gcount()));
         if (console.interrupted()) {
             return Error{"interrupted"};
@@ -161,14 +161,14 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // Does not wait for the writer of a pipe, which is refused.
+    // O_NONBLOCK: opening a pipe does not wait for its writer; pipes are refused below.
     const int mode = kind == FileKind::Regular ? O_NONBLOCK : 0;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
     struct stat facts {};
     if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
         return Error{errno_text(errno)};
     }
-    if (const std::string_view reason = reason_against(facts, file.get(), kind); !reason.empty()) {
+    if (const std::string_view reason = refusal_reason(facts, file.get(), kind); !reason.empty()) {
         return Error{std::string(reason)};
     }
     const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
@@ -217,8 +217,8 @@ void Output::clear_temporary() {
     }
 }
 
-/// Makes an empty file beside target_: with `mode` if it replaces an existing file (private before
-/// that), else with the mode of the umask.
+/// Makes an empty file beside target_. Its mode is `mode` if it replaces an existing file (0600
+/// until it is set), else that of the umask.
 Result<void> Output::make_temporary(bool exists, unsigned mode) {
     constexpr int kAttempts = 100;
     const mode_t first_mode = exists ? 0600 : 0666;

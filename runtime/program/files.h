@@ -46,7 +46,7 @@ void report_complete_frames(const std::string& path,
                             const Console& console);
 
 /// A file being written. A regular file appears under its name, or replaces an existing one, only
-/// at commit(); without it nothing changes. Move only.
+/// at commit(); without a commit() nothing changes. Move only.
 class Output {
 public:
     Output(const Output&) = delete;
@@ -80,7 +80,7 @@ private:
     std::string path_;              // as given by the user
     std::string target_;            // with links resolved
     std::string temporary_;         // beside target_; empty for devices and pipes
-    TemporaryName* slot_ = nullptr; // of temporary_
+    TemporaryName* slot_ = nullptr; // registration of temporary_
     int descriptor_ = -1;           // -1: standard output, or finished
     bool is_finished_ = false;
     bool must_be_new_ = false;

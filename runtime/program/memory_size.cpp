@@ -22,8 +22,8 @@ std::uint64_t limit_in(const fs::path& path) {
     return file >> bytes ? bytes : kNoLimit;
 }
 
-/// The min limit of a group and its parents. `base`: the folder of the topmost visible group, the
-/// only one that counts for a group of another name space.
+/// The min limit of a group and its parents. `base`: the folder of the topmost visible group, whose
+/// limit is the only one found if the group belongs to another cgroup namespace.
 std::uint64_t min_limit(const fs::path& base, std::string_view group, const char* file) {
     fs::path folder = base;
     std::uint64_t min_bytes = limit_in(folder / file);

@@ -188,7 +188,8 @@ std::string help_text(const CLI::App& app, const std::string& program) {
     return text;
 }
 
-UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
+UsageError
+to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
     UsageError usage;
     usage.help = fmt::format("`{} --help` lists the options", command);
     usage.message = error.what();
@@ -196,7 +197,7 @@ UsageError describe(const CLI::ParseError& error, const CLI::App& app, const std
         return error.get_exit_code() == static_cast<int>(code);
     };
     const std::vector<std::string> extras = app.remaining(true);
-    // A missing file is noticed first, but an option that does not exist may be why it is missing.
+    // CLI11 reports a missing file before an unknown option, which may be its cause.
     const auto unknown = std::find_if(extras.begin(), extras.end(), [](const std::string& extra) {
         return extra.starts_with('-');
     });

@@ -72,13 +72,13 @@ inline Result<float> fraction(const std::string& text) {
     return parse_number(text, 0.0F, 1.0F);
 }
 
-/// The mistake found by CLI11 in words of this program, with the nearest name. `command`: the words
-/// before the options of `app`.
+/// The mistake found by CLI11, worded like other messages, with the nearest option name. `command`:
+/// the words before the options of `app`, such as `lsc derive`.
 [[nodiscard]] UsageError
-describe(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
+to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 
-/// The text of `--help`, with one blank line between its parts. `program`: written before the name
-/// of `app`; empty for a program.
+/// The text of `--help`, with one blank line between its parts. `program`: printed before the name
+/// of a command; empty if `app` is the program itself.
 [[nodiscard]] std::string help_text(const CLI::App& app, const std::string& program);
 
 void add_messages(CLI::App& app, MessageOptions& options);

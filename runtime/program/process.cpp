@@ -26,7 +26,7 @@ static_assert(kSignalStatus + SIGINT == static_cast<int>(ExitStatus::Interrupted
 constexpr unsigned kShutdownSeconds = 2;
 
 std::atomic<bool> interrupted{false};
-std::atomic<int> first_signal{0}; // to end the process
+std::atomic<int> first_signal{0}; // first signal received that ends the process
 std::atomic<bool> has_alarm{false};
 // Required for use in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -36,7 +36,7 @@ extern "C" void on_end_signal(int signal) {
     first_signal.compare_exchange_strong(none, signal);
     const bool again = interrupted.exchange(true);
     if (signal != SIGINT) {
-        // A second one has no meaning: timeout(1) and shells that lose their terminal send two.
+        // A second SIGTERM or SIGHUP means no more: timeout(1) and a closing terminal send two.
         if (!has_alarm.exchange(true)) {
             ::alarm(kShutdownSeconds);
         }
@@ -57,20 +57,20 @@ void handle_signals() {
     action.sa_handler = on_end_signal; // without SA_RESTART, so that a blocked read returns
     ::sigaction(SIGINT, &action, nullptr);
     for (const int signal : {SIGTERM, SIGHUP}) {
-        struct sigaction before {};
-        ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) { // which nohup(1) sets
+        struct sigaction inherited {};
+        ::sigaction(signal, nullptr, &inherited);
+        if (inherited.sa_handler != SIG_IGN) { // SIG_IGN is set by nohup(1)
             ::sigaction(signal, &action, nullptr);
         }
     }
     action.sa_handler = on_alarm;
     ::sigaction(SIGALRM, &action, nullptr);
-    // Makes a file beyond `ulimit -f` an error of the write.
+    // A write beyond `ulimit -f` then returns an error.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Opens closed standard streams, whose descriptors the first files of the run would get otherwise.
-/// They can be neither read nor written, nor reopened as /dev/stdout; /dev/null would hide lost
+/// Opens closed standard streams, so that no file of the run gets their descriptors. The streams
+/// opened can be neither read nor written, nor reopened as /dev/stdout; /dev/null would hide lost
 /// output.
 void fill_standard_streams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

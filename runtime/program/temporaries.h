@@ -1,5 +1,5 @@
-// Names of the temporary files of this process, for removal by a signal handler. Registered by
-// Output, removed by process.cpp.
+// Names of the temporary files of this process. Output registers them; the signal handlers of
+// process.cpp remove the files.
 #pragma once
 
 #include <string>

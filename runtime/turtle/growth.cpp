@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Where something stands, before (0) and after (1).
+/// A value before (0) and after (1).
 template <typename T>
 using Ends = std::array<T, 2>;
 
@@ -24,12 +24,12 @@ struct Joint {
     glm::dvec3 tip{};
 };
 
-/// How something moves against its parent.
+/// The motion of an item relative to its parent.
 struct Motion {
     Ends<glm::quat> turn;
     Ends<glm::vec3> offset;            // from the parent's tip, in its frame
-    std::uint32_t parent = kNoSegment; // of the segments to write
-    bool eases = false;                // grows or shrinks
+    std::uint32_t parent = kNoSegment; // index among the segments to write
+    bool eases = false;                // grows from nothing or shrinks to nothing
 };
 
 struct MovingSegment {
@@ -37,7 +37,7 @@ struct MovingSegment {
     Ends<float> length{};
     Ends<float> base_radius{};
     Ends<float> tip_radius{};
-    bool is_apart = false; // does not begin at its parent's end, though it does at one end of time
+    bool is_apart = false; // linked in `after` only: between the two it has a gap to its parent
 };
 
 struct MovingObject {
@@ -50,28 +50,28 @@ struct MovingPolygon {
     std::uint32_t first_corner = 0;
 };
 
-double mixed(float before, float after, double part) {
+double interpolated(float before, float after, double part) {
     return static_cast<double>(before) +
            part * (static_cast<double>(after) - static_cast<double>(before));
 }
 
-glm::dvec3 mixed(const Ends<glm::vec3>& ends, double part) {
+glm::dvec3 interpolated(const Ends<glm::vec3>& ends, double part) {
     return glm::dvec3(ends[0]) + part * (glm::dvec3(ends[1]) - glm::dvec3(ends[0]));
 }
 
-/// Precondition: the turns are on the same side (shorter_way()).
-glm::dquat mixed(const Ends<glm::quat>& ends, double part) {
+/// Precondition: use_shorter_turn().
+glm::dquat interpolated(const Ends<glm::quat>& ends, double part) {
     return glm::normalize(glm::dquat(ends[0]) * (1.0 - part) + glm::dquat(ends[1]) * part);
 }
 
-/// A turn and its negative are the same; the nearer one is the shorter way.
-void shorter_way(Ends<glm::quat>& turn) {
+/// A quaternion and its negative are the same turn; the nearer one gives the shorter rotation.
+void use_shorter_turn(Ends<glm::quat>& turn) {
     if (glm::dot(turn[0], turn[1]) < 0.0F) {
         turn[1] = -turn[1];
     }
 }
 
-/// Slow at both ends.
+/// Eases `part` in and out.
 double eased(double part) {
     return part * part * (3.0 - 2.0 * part);
 }
@@ -80,7 +80,7 @@ glm::dvec3 tip_of(const glm::dvec3& base, const glm::dquat& frame, double length
     return base + frame * glm::dvec3(0.0, length, 0.0);
 }
 
-/// A start of growth is this near to the parent's end, as a part of its coordinates, by rounding.
+/// Max rounding error of the distance from a parent's tip, relative to the size of coordinates.
 constexpr double kRounding = 1e-5;
 
 } // namespace
@@ -89,23 +89,23 @@ struct SkeletonGrowth::State {
     Skeleton before;
     Skeleton after;
     GrowthCounts counts;
-    LargeVector<MovingSegment> segments; // of `after`, then those that shrink
+    LargeVector<MovingSegment> segments; // those of `after`, then those that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
-    LargeVector<Ends<glm::vec3>> corners;     // from the parent's tip, in its frame
-    LargeVector<std::uint32_t> gone_segments; // in `before`
-    LargeVector<std::uint32_t> gone_objects;
-    LargeVector<std::uint32_t> gone_polygons;
-    // Only while it is made.
-    LargeVector<Ends<Joint>> joints; // by segment
-    LargeVector<std::uint32_t> now;  // the segment to write that continues one of `before`
+    LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in its frame
+    LargeVector<std::uint32_t> shrinking_segments; // indexes in `before`
+    LargeVector<std::uint32_t> shrinking_objects;
+    LargeVector<std::uint32_t> shrinking_polygons;
+    // Used only by the constructor.
+    LargeVector<Ends<Joint>> joints;    // by segment
+    LargeVector<std::uint32_t> written; // by segment of `before`: the written one that continues it
 
     [[nodiscard]] Joint joint(std::uint32_t segment, std::size_t end) const {
         return segment == kNoSegment ? Joint{} : joints[segment][end];
     }
-    /// The segment to write that stands for a segment of `before`.
-    [[nodiscard]] std::uint32_t now_of(std::uint32_t segment) const {
-        return segment == kNoSegment ? kNoSegment : now[segment];
+    /// The written segment that continues a segment of `before`.
+    [[nodiscard]] std::uint32_t written_of(std::uint32_t segment) const {
+        return segment == kNoSegment ? kNoSegment : written[segment];
     }
 
     void set_end(Motion& motion,
@@ -117,9 +117,9 @@ struct SkeletonGrowth::State {
         motion.turn[end] = glm::quat(back * frame);
         motion.offset[end] = glm::vec3(back * (place - from.tip));
     }
-    /// The end at which it is nothing, once the other end is set: at the parent's tip, turned
-    /// against it as at the other end. What has no parent stays in its place.
-    static void set_nothing(Motion& motion, std::size_t end) {
+    /// Sets the end at which an item has size 0, after the other end is set: at the parent's tip,
+    /// with the same turn relative to the parent. An item without a parent stays in its place.
+    static void set_vanished(Motion& motion, std::size_t end) {
         motion.turn[end] = motion.turn[1 - end];
         motion.offset[end] = motion.parent == kNoSegment ? motion.offset[1 - end] : glm::vec3(0.0F);
         motion.eases = true;
@@ -149,7 +149,7 @@ struct SkeletonGrowth::State {
         set_end(moving.motion, 1, segment.base, segment.frame);
         set_widths(moving, 1, segment);
         if (piece.of == kNoSegment) {
-            set_nothing(moving.motion, 0);
+            set_vanished(moving.motion, 0);
             ++counts.grown;
         } else {
             const Segment& old = before.segments[piece.of];
@@ -158,9 +158,9 @@ struct SkeletonGrowth::State {
             set_end(moving.motion, 0, tip_of(old.base, frame, low), frame);
             moving.length[0] = old.length * (piece.high - piece.low);
             moving.base_radius[0] = static_cast<float>(
-                mixed(old.base_radius, old.tip_radius, static_cast<double>(piece.low)));
+                interpolated(old.base_radius, old.tip_radius, static_cast<double>(piece.low)));
             moving.tip_radius[0] = static_cast<float>(
-                mixed(old.base_radius, old.tip_radius, static_cast<double>(piece.high)));
+                interpolated(old.base_radius, old.tip_radius, static_cast<double>(piece.high)));
             const glm::vec3& offset = moving.motion.offset[0];
             const double near = kRounding * (1.0 + static_cast<double>(glm::length(old.base)));
             if (segment.linked && static_cast<double>(glm::length(offset)) > near) {
@@ -168,36 +168,36 @@ struct SkeletonGrowth::State {
             } else if (segment.linked) {
                 moving.motion.offset = {};
             }
-            now[piece.of] = index; // the last piece
+            written[piece.of] = index; // the last piece
             ++counts.kept;
         }
-        shorter_way(moving.motion.turn);
+        use_shorter_turn(moving.motion.turn);
         add_joints(moving);
         segments.push_back(moving);
     }
 
-    void add_gone_segment(std::uint32_t index) {
+    void add_shrinking_segment(std::uint32_t index) {
         const Segment& segment = before.segments[index];
         MovingSegment moving;
-        moving.motion.parent = now_of(segment.parent);
+        moving.motion.parent = written_of(segment.parent);
         set_end(moving.motion, 0, segment.base, segment.frame);
         set_widths(moving, 0, segment);
-        set_nothing(moving.motion, 1);
-        now[index] = static_cast<std::uint32_t>(segments.size());
+        set_vanished(moving.motion, 1);
+        written[index] = static_cast<std::uint32_t>(segments.size());
         add_joints(moving);
         segments.push_back(moving);
-        gone_segments.push_back(index);
+        shrinking_segments.push_back(index);
         ++counts.gone;
     }
 
     void move_segments(const std::vector<SegmentPiece>& pieces) {
-        now.assign(before.segments.size(), kNoSegment);
+        written.assign(before.segments.size(), kNoSegment);
         for (std::uint32_t i = 0; i < after.segments.size(); ++i) {
             add_segment(i, pieces[i]);
         }
         for (std::uint32_t i = 0; i < before.segments.size(); ++i) {
-            if (now[i] == kNoSegment) {
-                add_gone_segment(i);
+            if (written[i] == kNoSegment) {
+                add_shrinking_segment(i);
             }
         }
     }
@@ -211,7 +211,7 @@ struct SkeletonGrowth::State {
             set_end(moving.motion, 1, object.position, object.frame);
             moving.size[1] = object.size;
             if (old_of[i] == kNone) {
-                set_nothing(moving.motion, 0);
+                set_vanished(moving.motion, 0);
                 ++counts.grown;
             } else {
                 const PlacedObject& old = before.objects[old_of[i]];
@@ -220,7 +220,7 @@ struct SkeletonGrowth::State {
                 is_kept[old_of[i]] = true;
                 ++counts.kept;
             }
-            shorter_way(moving.motion.turn);
+            use_shorter_turn(moving.motion.turn);
             objects.push_back(moving);
         }
         for (std::uint32_t i = 0; i < before.objects.size(); ++i) {
@@ -229,34 +229,34 @@ struct SkeletonGrowth::State {
             }
             const PlacedObject& object = before.objects[i];
             MovingObject moving;
-            moving.motion.parent = now_of(object.parent);
+            moving.motion.parent = written_of(object.parent);
             set_end(moving.motion, 0, object.position, object.frame);
             moving.size[0] = object.size;
-            set_nothing(moving.motion, 1);
+            set_vanished(moving.motion, 1);
             objects.push_back(moving);
-            gone_objects.push_back(i);
+            shrinking_objects.push_back(i);
             ++counts.gone;
         }
     }
 
-    /// The corner of a polygon as seen from the parent.
+    /// The corner of a polygon relative to the parent.
     [[nodiscard]] glm::vec3
     local_corner(const glm::vec3& corner, std::uint32_t parent, std::size_t end) const {
         const Joint from = joint(parent, end);
         return {glm::conjugate(from.frame) * (glm::dvec3(corner) - from.tip)};
     }
 
-    /// Adds the corners at one end of time; at the other the polygon is nothing.
+    /// Adds the corners at one end of time; at the other end all corners are one point.
     void add_corners(const glm::vec3* first,
                      std::uint32_t count,
                      std::uint32_t parent,
                      std::size_t end) {
-        const glm::vec3 nothing =
+        const glm::vec3 vanished =
             parent == kNoSegment ? local_corner(*first, parent, end) : glm::vec3(0.0F);
         for (std::uint32_t i = 0; i < count; ++i) {
             Ends<glm::vec3>& corner = corners.emplace_back();
             corner[end] = local_corner(first[i], parent, end);
-            corner[1 - end] = nothing;
+            corner[1 - end] = vanished;
         }
     }
 
@@ -271,23 +271,23 @@ struct SkeletonGrowth::State {
             add_corners(&after.corners[polygon.first_corner], polygon.corner_count, polygon.parent,
                         1);
             if (old_of[i] == kNone) {
-                set_nothing(moving.motion, 0);
+                set_vanished(moving.motion, 0);
                 ++counts.grown;
             } else {
                 const Polygon& old = before.polygons[old_of[i]];
                 set_end(moving.motion, 0, {}, old.frame);
                 for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
-                    // More corners than before: neighbours begin in one.
+                    // With more corners than before, adjacent corners begin at the same point.
                     const auto at = static_cast<std::uint32_t>(std::uint64_t{k} * old.corner_count /
                                                                polygon.corner_count);
                     corners[moving.first_corner + k][0] =
                         local_corner(before.corners[old.first_corner + at], polygon.parent, 0);
                 }
                 is_kept[old_of[i]] = true;
-                counts.sharp += polygon.corner_count < old.corner_count ? 1 : 0;
+                counts.lost_corners += polygon.corner_count < old.corner_count ? 1 : 0;
                 ++counts.kept;
             }
-            shorter_way(moving.motion.turn);
+            use_shorter_turn(moving.motion.turn);
             polygons.push_back(moving);
         }
         for (std::uint32_t i = 0; i < before.polygons.size(); ++i) {
@@ -297,13 +297,13 @@ struct SkeletonGrowth::State {
             const Polygon& polygon = before.polygons[i];
             MovingPolygon moving;
             moving.first_corner = static_cast<std::uint32_t>(corners.size());
-            moving.motion.parent = now_of(polygon.parent);
+            moving.motion.parent = written_of(polygon.parent);
             set_end(moving.motion, 0, {}, polygon.frame);
-            set_nothing(moving.motion, 1);
+            set_vanished(moving.motion, 1);
             add_corners(&before.corners[polygon.first_corner], polygon.corner_count,
                         moving.motion.parent, 0);
             polygons.push_back(moving);
-            gone_polygons.push_back(i);
+            shrinking_polygons.push_back(i);
             ++counts.gone;
         }
     }
@@ -315,16 +315,16 @@ struct SkeletonGrowth::State {
         out.corners = from.corners;
     }
 
-    /// What is drawn of `after`, then of `before`, with all that does not move.
+    /// Copies the drawing of `after`, then the shrinking items of `before`; pose() moves them.
     void copy_fixed(Skeleton& out) const {
         copy_drawing(after, out);
-        for (const std::uint32_t index : gone_segments) {
+        for (const std::uint32_t index : shrinking_segments) {
             out.segments.push_back(before.segments[index]);
         }
-        for (const std::uint32_t index : gone_objects) {
+        for (const std::uint32_t index : shrinking_objects) {
             out.objects.push_back(before.objects[index]);
         }
-        for (const std::uint32_t index : gone_polygons) {
+        for (const std::uint32_t index : shrinking_polygons) {
             out.polygons.push_back(before.polygons[index]);
         }
         out.corners.resize(corners.size());
@@ -339,47 +339,49 @@ struct SkeletonGrowth::State {
         };
         const auto place_of = [&](const Motion& motion, double now_part) {
             const Joint& from = joint_of(motion);
-            return Joint{glm::normalize(from.frame * mixed(motion.turn, now_part)),
-                         from.tip + from.frame * mixed(motion.offset, now_part)};
+            return Joint{glm::normalize(from.frame * interpolated(motion.turn, now_part)),
+                         from.tip + from.frame * interpolated(motion.offset, now_part)};
         };
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const MovingSegment& moving = segments[i];
-            const double way = moving.motion.eases ? ease : part;
-            const Joint base = place_of(moving.motion, way);
-            const double length = mixed(moving.length[0], moving.length[1], way);
+            const double progress = moving.motion.eases ? ease : part;
+            const Joint base = place_of(moving.motion, progress);
+            const double length = interpolated(moving.length[0], moving.length[1], progress);
             placed[i] = {base.frame, tip_of(base.tip, base.frame, length)};
             Segment& segment = out.segments[i];
             segment.base = base.tip;
             segment.frame = base.frame;
             segment.length = static_cast<float>(length);
-            segment.base_radius =
-                static_cast<float>(mixed(moving.base_radius[0], moving.base_radius[1], way));
-            segment.tip_radius =
-                static_cast<float>(mixed(moving.tip_radius[0], moving.tip_radius[1], way));
+            segment.base_radius = static_cast<float>(
+                interpolated(moving.base_radius[0], moving.base_radius[1], progress));
+            segment.tip_radius = static_cast<float>(
+                interpolated(moving.tip_radius[0], moving.tip_radius[1], progress));
             segment.parent = moving.motion.parent;
             segment.linked = segment.linked && !moving.is_apart;
         }
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const MovingObject& moving = objects[i];
-            const double way = moving.motion.eases ? ease : part;
-            const Joint at = place_of(moving.motion, way);
+            const double progress = moving.motion.eases ? ease : part;
+            const Joint at = place_of(moving.motion, progress);
             PlacedObject& object = out.objects[i];
             object.position = at.tip;
             object.frame = at.frame;
-            object.size = static_cast<float>(mixed(moving.size[0], moving.size[1], way));
+            object.size =
+                static_cast<float>(interpolated(moving.size[0], moving.size[1], progress));
             object.parent = moving.motion.parent;
         }
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const MovingPolygon& moving = polygons[i];
-            const double way = moving.motion.eases ? ease : part;
+            const double progress = moving.motion.eases ? ease : part;
             const Joint& from = joint_of(moving.motion);
             Polygon& polygon = out.polygons[i];
-            polygon.frame = place_of(moving.motion, way).frame;
+            polygon.frame = place_of(moving.motion, progress).frame;
             polygon.parent = moving.motion.parent;
             polygon.first_corner = moving.first_corner;
             for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
                 out.corners[polygon.first_corner + k] =
-                    from.tip + from.frame * mixed(corners[moving.first_corner + k], way);
+                    from.tip +
+                    from.frame * interpolated(corners[moving.first_corner + k], progress);
             }
         }
     }
@@ -399,7 +401,7 @@ SkeletonGrowth::SkeletonGrowth(Skeleton before,
     state.move_objects(found.objects);
     state.move_polygons(found.polygons);
     state.joints = {};
-    state.now = {};
+    state.written = {};
 }
 
 SkeletonGrowth::~SkeletonGrowth() = default;

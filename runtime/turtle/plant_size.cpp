@@ -13,15 +13,16 @@ namespace lsys {
 
 namespace {
 
-/// Least height of a box, as a part of its longest side: below it lie rounding errors of turns.
-constexpr double kLeastHeight = 1e-6;
+/// Min height of a box relative to its longest side; smaller values may be rounding errors of
+/// turns.
+constexpr double kMinRelativeHeight = 1e-6;
 
-double wide(float value) {
+double to_double(float value) {
     return static_cast<double>(value);
 }
 
-/// The base-2 logarithm of a number from 1 on. The series of the area tangent, for a mantissa
-/// within a factor sqrt(2) of 1; its first term left out is below 1e-18.
+/// The base-2 logarithm of a number of at least 1, by the series of artanh for a mantissa within a
+/// factor sqrt(2) of 1; omitted terms are below 1e-18.
 double portable_log2(double value) {
     constexpr int kTerms = 12;
     int exponent = 0;
@@ -38,7 +39,7 @@ double portable_log2(double value) {
     return exponent + 2.0 * z * sum / std::numbers::ln2;
 }
 
-/// 2^value for a value from 0 to 1000: Taylor's series within half a power of two.
+/// 2^value for a value from 0 to 1000, by the Taylor series of 2^x for x from -1/2 to 1/2.
 double portable_exp2(double value) {
     constexpr int kTerms = 16;
     const double whole = std::floor(value + 0.5);
@@ -51,17 +52,17 @@ double portable_exp2(double value) {
 }
 
 float mass_of(const Segment& segment, double density) {
-    return mass_of_cone(wide(segment.length), wide(segment.base_radius), wide(segment.tip_radius),
-                        density);
+    return mass_of_cone(to_double(segment.length), to_double(segment.base_radius),
+                        to_double(segment.tip_radius), density);
 }
 
 float spring_of(const Segment& segment, double elasticity) {
-    return spring_of_beam(wide(segment.length), wide(segment.base_radius), wide(segment.tip_radius),
-                          elasticity);
+    return spring_of_beam(to_double(segment.length), to_double(segment.base_radius),
+                          to_double(segment.tip_radius), elasticity);
 }
 
-/// Calls change(segment) and lets its mass and spring follow, unless the author has given them:
-/// values that are not those of its shape.
+/// Calls change(segment), and computes its mass and spring again unless the author gave them:
+/// unless they differ from those of the shape.
 template <typename Change>
 void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
     const bool mass_follows = segment.mass == mass_of(segment, material.density);
@@ -93,7 +94,7 @@ float spring_of_beam(double length, double base_radius, double tip_radius, doubl
 }
 
 StemMaterial material_of(const Settings& settings) {
-    return {wide(settings.density), wide(settings.elasticity)};
+    return {to_double(settings.density), to_double(settings.elasticity)};
 }
 
 double pipe_factor(std::uint32_t count, double exponent) {
@@ -136,10 +137,10 @@ std::optional<Stop> apply_pipe(const Pipe& pipe,
         }
         if (tips[i] != last_tips) {
             last_tips = tips[i];
-            last_factor = pipe_factor(last_tips, wide(pipe.exponent));
+            last_factor = pipe_factor(last_tips, to_double(pipe.exponent));
         }
-        const auto width = static_cast<float>(
-            std::min(last_factor * wide(pipe.tip_width), wide(std::numeric_limits<float>::max())));
+        const auto width = static_cast<float>(std::min(
+            last_factor * to_double(pipe.tip_width), to_double(std::numeric_limits<float>::max())));
         change_segment(segment, material, [&](Segment& each) {
             each.base_radius = 0.5F * width;
             each.tip_radius = 0.5F * width;
@@ -165,11 +166,13 @@ Bounds bounds_of(const Skeleton& skeleton) {
 
 double height_of(const Skeleton& skeleton) {
     const Bounds bounds = bounds_of(skeleton);
-    return wide(bounds.high.y) - wide(bounds.low.y);
+    return to_double(bounds.high.y) - to_double(bounds.low.y);
 }
 
 void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton) {
-    const auto scaled = [factor](float value) { return static_cast<float>(wide(value) * factor); };
+    const auto scaled = [factor](float value) {
+        return static_cast<float>(to_double(value) * factor);
+    };
     const auto place = [&](const glm::vec3& at) {
         return glm::vec3(scaled(at.x), scaled(at.y), scaled(at.z));
     };
@@ -196,7 +199,7 @@ bool scale_to_height(double height, const StemMaterial& material, Skeleton& skel
         return true;
     }
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
-    if (!(size.y > kLeastHeight * std::max(size.x, size.z)) || size.y <= 0.0) {
+    if (!(size.y > kMinRelativeHeight * std::max(size.x, size.z)) || size.y <= 0.0) {
         return false;
     }
     scale_plant(height / size.y, material, skeleton);

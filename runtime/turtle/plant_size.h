@@ -1,6 +1,6 @@
 // Sizes of a drawn plant: the widths of the pipe model and a height in metres (docs/language.md
-// section 7.5). Both change a skeleton after the turtle, widths first, and before everything that
-// reads metres: physics, meshing, placement.
+// section 7.5). Both change a skeleton after the turtle, widths first, and before all steps that
+// read metres: physics, meshing, placement.
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -17,12 +17,12 @@ namespace lsys {
 [[nodiscard]] float
 mass_of_cone(double length, double base_radius, double tip_radius, double density);
 
-/// N m/rad: E I / length of a beam of the mean diameter d, I = pi d^4 / 64, at most the largest
-/// binary32, which one without length has: it is rigid. Lengths in m, `elasticity` E in Pa.
+/// N m/rad: E I / length of a beam of the mean diameter d, I = pi d^4 / 64. At most the largest
+/// binary32, also for a beam without length, which is rigid. Lengths in m, `elasticity` E in Pa.
 [[nodiscard]] float
 spring_of_beam(double length, double base_radius, double tip_radius, double elasticity);
 
-/// What mass and spring of a segment follow from unless the author gives them.
+/// The material from which mass and spring of a segment are computed unless the author gives them.
 struct StemMaterial {
     double density = 0.0;    // kg/m^3
     double elasticity = 0.0; // Pa
@@ -30,14 +30,16 @@ struct StemMaterial {
 [[nodiscard]] StemMaterial material_of(const Settings& settings);
 
 /// count^(1 / exponent) in binary64: the factor between the width of a tip and that of a segment
-/// with `count` tips above it. Made of operations that IEEE 754 rounds, so it has the same bits on
-/// every machine; the error is below 1e-13 of the value. Preconditions: count >= 1, 1 <= exponent.
+/// with `count` tips above it. Uses only operations that IEEE 754 rounds correctly, so it has the
+/// same bits on every machine; the relative error is below 1e-13. Preconditions: count >= 1,
+/// exponent >= 1.
 [[nodiscard]] double pipe_factor(std::uint32_t count, double exponent);
 
 /// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
-/// once; tips: the segments without children that hang on it, itself if it has none. Masses and
-/// springs that are those of shape and `material` follow. Stop::Limit: the count of tips does not fit into
-/// `max_bytes` beside the skeleton; Stop::OutOfMemory. The skeleton is unchanged then.
+/// once; tips: the number of its descendants without children, 1 if it has no children. Masses and
+/// springs that follow from shape and `material` are computed again. Returns Stop::Limit if the
+/// counts do not fit into `max_bytes` beside the skeleton, or Stop::OutOfMemory; the skeleton is
+/// then unchanged.
 [[nodiscard]] std::optional<Stop> apply_pipe(const Pipe& pipe,
                                              const StemMaterial& material,
                                              std::uint64_t max_bytes,
@@ -46,16 +48,15 @@ struct StemMaterial {
 /// The box of a plant: axes of segments, places of objects, corners of polygons; without radii.
 [[nodiscard]] Bounds bounds_of(const Skeleton& skeleton);
 
-/// m, of bounds_of(); 0 of a plant of which nothing is drawn.
+/// Height of bounds_of() in m; 0 if nothing is drawn.
 [[nodiscard]] double height_of(const Skeleton& skeleton);
 
-/// Scales all lengths and widths by `factor`. Masses and springs that are those of shape and
-/// `material` follow; those of the author stay.
+/// Scales all lengths and widths by `factor`. Masses and springs that follow from shape and
+/// `material` are computed again; those given by the author stay.
 void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton);
 
 /// Scales the plant evenly so that its box is `height` m high. Returns false, without a change, if
-/// the box has no height: less than a millionth of its longest side. A plant of which nothing is
-/// drawn stays empty.
+/// the box is flat: lower than a millionth of its longest side. An empty drawing stays empty.
 [[nodiscard]] bool scale_to_height(double height, const StemMaterial& material, Skeleton& skeleton);
 
 } // namespace lsys

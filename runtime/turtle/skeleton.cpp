@@ -61,14 +61,14 @@ void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& 
 SkeletonStats measure(const Skeleton& skeleton) {
     SkeletonStats stats;
     double farthest = 0.0;
-    const auto see = [&](const glm::vec3& point) {
+    const auto add_point = [&](const glm::vec3& point) {
         stats.bounds.add(point);
         farthest = std::max(farthest,
                             std::hypot(static_cast<double>(point.x), static_cast<double>(point.z)));
     };
     for (const Segment& segment : skeleton.segments) {
-        see(segment.base);
-        see(tip(segment));
+        add_point(segment.base);
+        add_point(tip(segment));
         const auto length = static_cast<double>(segment.length);
         const auto a = static_cast<double>(segment.base_radius);
         const auto b = static_cast<double>(segment.tip_radius);
@@ -81,10 +81,10 @@ SkeletonStats measure(const Skeleton& skeleton) {
         ++stats.segments_by_order[segment.order];
     }
     for (const PlacedObject& object : skeleton.objects) {
-        see(object.position);
+        add_point(object.position);
     }
     for (const glm::vec3& corner : skeleton.corners) {
-        see(corner);
+        add_point(corner);
     }
     stats.height = static_cast<double>(stats.bounds.high.y - stats.bounds.low.y);
     stats.crown_width = 2.0 * farthest;

@@ -1,7 +1,7 @@
-// Skeleton: the drawing of the turtle, without surfaces. Segments, objects and polygons in
-// the order they were drawn, so that a parent comes before its children. Metres, kilograms,
-// right-handed axes, +Y up. A frame is the unit quaternion that takes the turtle's axes at the
-// start (right +X, heading +Y, up +Z) to those at the place.
+// Skeleton: the drawing of the turtle, without surfaces. Segments, objects and polygons are in the
+// order of drawing, so that a parent comes before its children. Metres, kilograms, right-handed
+// axes, +Y up. A frame is the unit quaternion that takes the turtle's axes at the start (right +X,
+// heading +Y, up +Z) to its axes at the item.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -28,15 +28,15 @@ struct Segment {
     float tip_radius = 0.0F;
     float spring = 0.0F;               // N m / rad, of the joint at the base
     float mass = 0.0F;                 // kg
-    std::uint32_t parent = kNoSegment; // the last one drawn before it on its path
-    std::uint16_t order = 0;           // open brackets around it: 0 is the trunk
+    std::uint32_t parent = kNoSegment; // the segment drawn before it on its path
+    std::uint16_t order = 0;           // number of open brackets around it: 0 is the trunk
     std::uint16_t colour = 0;          // index into the palette
-    std::uint8_t sides = 0;            // corners of its cross-section, as the author asked for
-    bool linked = false;               // it begins where its parent ends
+    std::uint8_t sides = 0;            // corners of its cross-section, set by the author
+    bool linked = false;               // begins where its parent ends
     bool forked = false;               // branches that are drawn elsewhere begin at its end
 };
 
-/// Something of the object library, drawn from `position` along the frame's +Y.
+/// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
     TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files, of MeshFile
@@ -65,8 +65,8 @@ struct Skeleton {
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
-    // Origins of the modules that drew them, a polygon's of its `{`; empty unless the turtle was
-    // fed with origins.
+    // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
+    // had origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;
     LargeVector<Origin> polygon_origins;
@@ -102,16 +102,16 @@ struct SkeletonStats {
     Bounds bounds;            // bounds of axes, object positions and corners, without radii
     double height = 0.0;      // m, from the lowest to the highest point
     double crown_width = 0.0; // m, twice the max horizontal distance from the start
-    double length = 0.0;      // m, of all segments
-    double volume = 0.0;      // m^3, of truncated cones
-    double mass = 0.0;        // kg, of the segments
+    double length = 0.0;      // m, sum over all segments
+    double volume = 0.0;      // m^3, sum over truncated cones
+    double mass = 0.0;        // kg, sum over all segments
     std::vector<std::uint64_t> segments_by_order;
 };
 [[nodiscard]] SkeletonStats measure(const Skeleton& skeleton);
 
-/// The skeleton as text, a line for each segment, then each object, then each polygon.
+/// Number of lines of the skeleton as text: a line per segment, then per object, then per polygon.
 [[nodiscard]] std::uint64_t line_count(const Skeleton& skeleton);
-/// With what `origins`, which may be null, says of the module that drew it.
+/// Appends a line of the text, with the origin of the item unless `origins` is null.
 /// Precondition: line < line_count(); with `origins`, the skeleton has them.
 void append_line(const Skeleton& skeleton,
                  std::uint64_t line,

@@ -5,7 +5,7 @@
 
 namespace lsys {
 
-/// Draws the common case; returns false without effect where forward() must find a fault or limit.
+/// Draws the common case; returns false without effect if forward() has to check faults and limits.
 [[gnu::always_inline]] inline bool
 Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
     const float length = action.given > 0 ? arguments[0] : now.step;
@@ -27,8 +27,8 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     return true;
 }
 
-/// Sets the origin of the item that the current module has drawn, one at most.
-[[gnu::always_inline]] inline bool Turtle::State::take_origin(const Origin& from) {
+/// Stores the origin of the item that the current module has drawn, if it has drawn one.
+[[gnu::always_inline]] inline bool Turtle::State::add_origin(const Origin& from) {
     const auto add = [this](const auto& items, LargeVector<Origin>& origins, const Origin& each) {
         if (origins.size() == items.size()) {
             return true;
@@ -52,7 +52,7 @@ void Turtle::State::run_some(std::span<const C> codes,
     const std::uint64_t first = position;
     const C* const begin = codes.data();
     const bool plain = !has_tropism && !traits.width_is_relative;
-    Pose pose = now.pose; // in registers; now.pose is valid for other than quick actions
+    Pose pose = now.pose; // in registers; now.pose is set before actions that are not quick
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
         const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
@@ -73,7 +73,7 @@ void Turtle::State::run_some(std::span<const C> codes,
             case QuickAction::Forward:
                 if (plain && !polygons.any() && quick_forward(action, arguments, pose)) {
                     if constexpr (kOrigins) {
-                        if (!take_origin(origins[at - begin])) {
+                        if (!add_origin(origins[at - begin])) {
                             return;
                         }
                     }
@@ -110,7 +110,7 @@ void Turtle::State::run_some(std::span<const C> codes,
             return;
         }
         if constexpr (kOrigins) {
-            if (!take_origin(origin)) {
+            if (!add_origin(origin)) {
                 return;
             }
         }
@@ -120,7 +120,7 @@ void Turtle::State::run_some(std::span<const C> codes,
     position = first + codes.size();
 }
 
-/// Words that are texts. What a command draws is noticed one or more modules later.
+/// Walks over words that are texts. A command is executed one or more modules after it is read.
 template <typename C>
 void Turtle::State::run_text(std::span<const C> codes,
                              const float*& parameters,
@@ -136,7 +136,7 @@ void Turtle::State::run_text(std::span<const C> codes,
         const Origin before = pending.origin;
         origin = here;
         if (!take_character(action, codes[i], arguments) ||
-            (origins != nullptr && !take_origin(before))) {
+            (origins != nullptr && !add_origin(before))) {
             return;
         }
     }
@@ -198,7 +198,7 @@ std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
         }
         const std::optional<Stop> stop = interpretation->feed(
             piece, parameters.first(stored), origins.empty() ? origins : origins.first(count));
-        if (stop && !end.stop) { // else the turtle has ended it
+        if (stop && !end.stop) { // otherwise run() has set end.stop
             end.stop = stop;
             if (stop == Stop::Diagnosed) {
                 end.error = interpretation->error();
@@ -270,7 +270,7 @@ std::optional<Stop> Turtle::finish() {
     State& state = *state_;
     if (!state.end.stop && state.pending.is_set && !state.pending.in_parameter) {
         if (state.execute_pending() && state.keeps_origins) {
-            static_cast<void>(state.take_origin(state.pending.origin));
+            static_cast<void>(state.add_origin(state.pending.origin));
         }
     }
     if (!state.end.stop) {
@@ -284,7 +284,7 @@ std::optional<Stop> Turtle::finish() {
     return state.end.stop;
 }
 
-void Turtle::begin_again(std::uint64_t seed) {
+void Turtle::begin_word(std::uint64_t seed) {
     State& state = *state_;
     state.options.seed = seed;
     LSYS_CHECK(!state.end.stop);

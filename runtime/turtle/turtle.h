@@ -1,7 +1,7 @@
 // The turtle: reads modules of a derived word in order and draws the skeleton (docs/language.md
-// section 7). Characters mean nothing here: the compiler gave each symbol its operation. State is
-// in double precision, so that ten million rotations leave the frame orthonormal and a far-off
-// plant as exact as a near one.
+// section 7). No character has a meaning here: the compiler gives each symbol its operation. State
+// is in double precision, so that the frame stays orthonormal through ten million rotations and a
+// plant far from the origin is as exact as a near one.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -48,7 +48,7 @@ struct TurtleFault {
     Code code = 0;              // code of that module; 0 at the end of a word
 };
 
-/// Facts of a drawing for messages, whether it is complete or why it ended before its last module.
+/// The end of a drawing, as facts for messages: whether it is complete, or why it is not.
 struct DrawingEnd {
     std::optional<Stop> stop;          // none: the drawing is complete, or may go on
     std::optional<RuntimeError> error; // a production of `#interpret` that cannot be applied
@@ -80,16 +80,16 @@ struct DrawnCounts {
 
 /// The `[` of a valid branch in the word of an instanced system (docs/language.md section 9).
 struct BranchStart {
-    bool take = false; // an instance instead of the branch
+    bool take = false; // whether an instance replaces the branch
     std::uint32_t age = 0;
     std::uint32_t id = 0;
-    std::span<const float> formals; // that its text uses
+    std::span<const float> formals; // values of the formals that the branch uses
     TurtlePlace place;
-    std::uint32_t segment = kNoSegment; // that ends there
-    DrawnCounts drawn;                  // so far
+    std::uint32_t segment = kNoSegment; // the segment that ends at `place`
+    DrawnCounts drawn;                  // items drawn before the branch
 };
 
-/// Sees the valid branches of a word as the turtle comes to them.
+/// Called for each valid branch of a word when the turtle reads its brackets.
 class BranchWatcher {
 public:
     virtual ~BranchWatcher() = default;
@@ -111,10 +111,10 @@ struct TurtleOptions {
     /// Options of the derivation of the word, which productions of `#interpret` read.
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
-    BranchWatcher* branches = nullptr; // outlives the turtle; none: every branch is drawn
+    BranchWatcher* branches = nullptr; // outlives the turtle; null: every branch is drawn
 };
 
-/// Draws a word given in pieces, each module as the productions of `#interpret` rewrite it.
+/// Draws a word, given in pieces, after the productions of `#interpret` have rewritten it.
 /// Positions of faults count the modules drawn. Functions that return a Stop return none on
 /// success; end() has the facts.
 class Turtle {
@@ -128,7 +128,7 @@ public:
     /// Reserves room for the drawing of these codes; optional.
     [[nodiscard]] std::optional<Stop> reserve(const Word& word);
     /// Draws the next modules of the word; nothing after a Stop. With `origins` of the codes, or a
-    /// word that keeps them, the drawing has origins too; then every piece has them.
+    /// word that keeps them, the drawing has origins too; all pieces must then have them.
     [[nodiscard]] std::optional<Stop> feed(const Word& word);
     [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
                                            std::span<const float> parameters);
@@ -137,9 +137,9 @@ public:
                                            std::span<const Origin> origins);
     /// Ends the word. The last call for it.
     [[nodiscard]] std::optional<Stop> finish();
-    /// Begins another word, of a derivation with that seed, from the same start and into the same
-    /// skeleton. After finish().
-    void begin_again(std::uint64_t seed);
+    /// Begins another word, derived with `seed`: from the same start, into the same skeleton.
+    /// Precondition: finish().
+    void begin_word(std::uint64_t seed);
     [[nodiscard]] TurtlePlace place() const;
     [[nodiscard]] DrawnCounts drawn() const;
 

@@ -11,19 +11,19 @@
 
 namespace lsys {
 
-/// One diagnostic for each kind of fault that happened, with the number of times and the first
-/// module. Errors for those that end a drawing, else warnings.
+/// One diagnostic for each kind of fault that occurred, with the number of faults and the first
+/// module: an error if it ends the drawing, else a warning.
 [[nodiscard]] std::vector<Diagnostic>
 turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
                    const Bytecode& bytecode);
 
-/// A plant that does not fit into `max_bytes`, of which `what` ("the skeleton") needs more.
+/// The error that `what`, such as "the skeleton", does not fit into `max_bytes`.
 [[nodiscard]] Diagnostic plant_limit_diagnostic(std::string_view what, std::uint64_t max_bytes);
 /// Overload for another limit, given in words, with a help text.
 [[nodiscard]] Diagnostic
 plant_limit_diagnostic(std::string_view what, std::string_view limit, std::string help);
 
-/// A plant of which the system has no memory for `what`, although it may be within the limit.
+/// The error that the system has no memory for `what`, although it may be within the limit.
 [[nodiscard]] Diagnostic no_memory_diagnostic(std::string_view what);
 
 } // namespace lsys

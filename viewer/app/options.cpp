@@ -202,7 +202,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsview " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
-        return describe(error, app, "lsview");
+        return to_usage_error(error, app, "lsview");
     }
     options.file = options.files.front();
     options.is_forest =

@@ -55,7 +55,7 @@ look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
     if (banks == 1) {
         return _mm256_shuffle_epi8(bank(0), codes);
     }
-    // a code of another bank gets its high bit set, for which the shuffle yields 0
+    // A code of another bank gets its high bit set, for which the shuffle yields 0.
     const __m256i spread = _mm256_set1_epi8(0x70);
     __m256i found = _mm256_setzero_si256();
     for (std::size_t i = 0; i < banks; ++i) {
@@ -119,34 +119,34 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     tables_.banks = (std::size_t{codes} + kBankCodes - 1) / kBankCodes;
     const std::size_t size = tables_.banks * kBankCodes;
     tables_.centre.assign(size, 0);
-    tables_.left.assign(size, kAnywhere);
-    tables_.right.assign(size, kAnywhere);
-    tables_.at_begin = kAnywhere;
-    tables_.at_end = kAnywhere;
+    tables_.left.assign(size, kAnyNeighbours);
+    tables_.right.assign(size, kAnyNeighbours);
+    tables_.at_begin = kAnyNeighbours;
+    tables_.at_end = kAnyNeighbours;
     tables_.looks_left = false;
     tables_.looks_right = false;
 
-    // each pair of guards is a group; beyond six groups neighbours are not checked
+    // Each pair of guards is a group. Rows beyond six groups accept any neighbours.
     std::array<std::pair<std::uint32_t, std::uint32_t>, 6> groups;
     std::size_t group_count = 0;
     const auto group_of = [&](const Row& row) -> std::uint8_t {
         if (row.kind != RowKind::General || contexts == nullptr ||
             (row.left_guard == kNone && row.right_guard == kNone)) {
-            return kAnywhere;
+            return kAnyNeighbours;
         }
         const std::pair guards{row.left_guard, row.right_guard};
         const auto end = groups.begin() + group_count;
         auto at = std::find(groups.begin(), end, guards);
         if (at == end) {
             if (group_count == groups.size()) {
-                return kAnywhere;
+                return kAnyNeighbours;
             }
             *at = guards;
             ++group_count;
         }
-        return static_cast<std::uint8_t>(kAnywhere << 1 << (at - groups.begin()));
+        return static_cast<std::uint8_t>(kAnyNeighbours << 1 << (at - groups.begin()));
     };
-    std::uint32_t same = 0; // parameters per module that stores any; kNone: they differ
+    std::uint32_t same = 0; // parameters of each module that stores some; kNone: counts differ
     for (Code code = 0; code < codes; ++code) {
         const Row& row = plan.row(code);
         if (row.stored != 0) {
@@ -160,19 +160,19 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     stored_each_ = same == kNone ? 0 : same == 0 ? 1 : same;
     for (std::size_t i = 0; i < group_count; ++i) {
         const auto [left, right] = groups[i];
-        const auto bit = static_cast<std::uint8_t>(kAnywhere << 1 << i);
+        const auto bit = static_cast<std::uint8_t>(kAnyNeighbours << 1 << i);
         tables_.at_begin |= left == kNone ? bit : 0;
         tables_.at_end |= right == kNone ? bit : 0;
         tables_.looks_left = tables_.looks_left || left != kNone;
         tables_.looks_right = tables_.looks_right || right != kNone;
         for (Code code = 0; code < codes; ++code) {
-            // a module that a search passes by does not tell what lies beyond it
-            const bool passed_by = contexts->role(code) != ContextRole::Module;
+            // A context search skips brackets and ignored modules, so these may hide any neighbour.
+            const bool is_skipped = contexts->role(code) != ContextRole::Module;
             const std::uint8_t* const guards = plan.guards();
-            if (left == kNone || passed_by || guards[left + code] != 0) {
+            if (left == kNone || is_skipped || guards[left + code] != 0) {
                 tables_.left[code] |= bit;
             }
-            if (right == kNone || passed_by || guards[right + code] != 0) {
+            if (right == kNone || is_skipped || guards[right + code] != 0) {
                 tables_.right[code] |= bit;
             }
         }
@@ -195,7 +195,7 @@ std::uint64_t ActiveMask::fill(const C* codes,
                 bits[0] = mask_block(tables_, codes, length, 0, done);
                 active += count_bits(bits[0].active);
             }
-            // the last module of a word has no neighbour, so its block is not among these
+            // The last module of a word has no right neighbour; mask_block() handles its block.
             const std::uint64_t last = std::min<std::uint64_t>(first + count, length - 1);
             if (done == 0 || done == kBlock) {
                 const std::size_t blocks = last > first + done ? (last - first - done) / kBlock : 0;

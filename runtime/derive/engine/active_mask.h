@@ -1,7 +1,7 @@
-// ActiveMask: bits per module of a stretch, 64 modules at a time: may it be rewritten, and does it
-// store a parameter? The bits come from comparing vectors of codes, so that a module that is
-// certain to be copied costs a fraction of a table lookup. A module of a production with a context
-// is active only if its neighbours may be those of the context.
+// ActiveMask: two bits per module, 64 modules at a time: whether it may be rewritten, and whether
+// it stores a parameter. Vectors of codes are looked up at once, so that a module that is certain
+// to be copied costs a fraction of a table lookup. A module that only productions with contexts may
+// rewrite is active only if its neighbours may be those of a context.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -35,13 +35,13 @@ public:
     static constexpr std::size_t kModules = 4096;
     static constexpr std::size_t kBlock = 64;
 
-    /// Builds the tables for the plan as it is prepared. `contexts` knows the modules that a
-    /// context search passes by; it may be null if no active production has a context.
+    /// Builds the tables for the current rows of the plan. `contexts` knows the modules that a
+    /// context search skips; it may be null if no active production has a context.
     void prepare(const Plan& plan, const ContextTables* contexts);
 
-    /// Whether the mask can be used: not with too many codes, nor if a match takes several modules.
+    /// Whether the mask can be used: the program has few enough codes, and a match is one module.
     [[nodiscard]] bool usable() const { return usable_; }
-    /// Whether some module is rewritten by chance alone.
+    /// Whether some code has a Choice row.
     [[nodiscard]] bool has_choices() const { return has_choices_; }
 
     /// Writes the bits of the `count` modules from `first` to bits[0 .. (count + 63) / 64); bits
@@ -71,17 +71,17 @@ public:
     }
 
     static constexpr std::uint8_t kStores = 0x80;
-    /// The group of modules that are rewritten with any neighbours.
-    static constexpr std::uint8_t kAnywhere = 0x01;
-    /// Lookup tables by code, a byte of group bits each: the groups of productions that may rewrite
-    /// a module, and the groups that accept it as a left or as a right neighbour.
+    /// The group of rows that accept any neighbours.
+    static constexpr std::uint8_t kAnyNeighbours = 0x01;
+    /// Lookup tables by code, each of one byte of group bits: the groups of a module's row, and the
+    /// groups that accept the module as a left or as a right neighbour.
     struct Tables {
         std::vector<std::uint8_t> centre; // kStores: stores a parameter
         std::vector<std::uint8_t> left;
         std::vector<std::uint8_t> right;
-        std::uint8_t at_begin = kAnywhere; // groups that need no left neighbour
-        std::uint8_t at_end = kAnywhere;   // groups that need no right neighbour
-        std::size_t banks = 0;             // 16 codes each
+        std::uint8_t at_begin = kAnyNeighbours; // groups that need no left neighbour
+        std::uint8_t at_end = kAnyNeighbours;   // groups that need no right neighbour
+        std::size_t banks = 0;                  // 16 codes each
         bool looks_left = false;
         bool looks_right = false;
     };
@@ -89,7 +89,7 @@ public:
 private:
     Tables tables_;
     const Row* rows_ = nullptr;
-    std::uint32_t stored_each_ = 1; // parameters per module that stores any; 0: they differ
+    std::uint32_t stored_each_ = 1; // parameters of each module that stores some; 0: counts differ
     bool usable_ = false;
     bool has_choices_ = false;
 };

@@ -16,8 +16,8 @@ namespace lsys {
 struct PassKeys {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
-    std::uint64_t first_draw = 0; // 4096 k in the pass of rule k of a sequential generation
-    bool same_age = false;        // the written word has the same generation, not the next
+    std::uint64_t first_draw = 0; // 4096 k for the pass of rule k of a sequential generation
+    bool same_age = false;        // the written word has age `generation`, not the next
 };
 
 /// Holds references: word and keys may change between calls.
@@ -51,7 +51,7 @@ public:
         const float* const thresholds = plan_.thresholds(choice).data();
         std::uint32_t taken = 0;
         for (std::uint32_t i = 0; i + 1 < choice.count; ++i) {
-            taken += thresholds[i] > u ? 0U : 1U; // they ascend
+            taken += thresholds[i] > u ? 0U : 1U; // thresholds ascend
         }
         return plan_.records(choice)[taken];
     }

@@ -82,7 +82,7 @@ bool ContextTables::is_plain(const C* codes) const {
                        [this](C code) { return roles_[code] == ContextRole::Module; });
 }
 
-/// Walks once, with a stack of the module to the left of each open `[`.
+/// One walk from the left, with a stack that holds the module to the left of each open `[`.
 template <typename C>
 void ContextTables::build_left(const C* codes) {
     std::vector<std::uint64_t> open;
@@ -99,7 +99,7 @@ void ContextTables::build_left(const C* codes) {
             open.push_back(left);
             break;
         case ContextRole::Close:
-            left = kNowhere; // without its `[`, nothing beyond it is on the path
+            left = kNowhere; // if the `]` is unmatched, no module before it is on the path
             if (!open.empty()) {
                 left = open.back();
                 open.pop_back();
@@ -109,8 +109,9 @@ void ContextTables::build_left(const C* codes) {
     }
 }
 
-/// Walks once from the right: a `]` ends the axis before it, which goes on after the branch at its
-/// `[`. A `[` without its `]` is a branch that reaches to the end of the word.
+/// One walk from the right. At a `]` the axis of a branch ends; before its `[` the next module on
+/// the axis is the one after the branch. A `[` without its `]` is a branch that reaches to the end
+/// of the word.
 template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {
@@ -119,23 +120,23 @@ void ContextTables::build_right(const C* codes) {
     };
     std::vector<Closed> closed;
     std::uint64_t next = kNowhere;
-    std::uint64_t seen = count_; // gap of the first module or bracket not ignored
+    std::uint64_t unignored = count_; // index of the next module or bracket that is not ignored
     next_.set(count_, kNowhere);
     for (std::uint64_t i = count_; i-- > 0;) {
         switch (roles_[codes[i]]) {
         case ContextRole::Module:
             next = i;
-            seen = i;
+            unignored = i;
             break;
         case ContextRole::Ignored:
             if (needs_jump_) {
-                jump_.set(i, seen);
+                jump_.set(i, unignored);
             }
             break;
         case ContextRole::Close:
             closed.push_back({next, i + 1});
             next = kNowhere;
-            seen = i;
+            unignored = i;
             break;
         case ContextRole::Open: {
             Closed after{kNowhere, count_};
@@ -147,7 +148,7 @@ void ContextTables::build_right(const C* codes) {
             if (needs_jump_) {
                 jump_.set(i, after.gap);
             }
-            seen = i;
+            unignored = i;
             break;
         }
         }

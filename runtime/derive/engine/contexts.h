@@ -1,7 +1,7 @@
-// ContextTables: for each place of a word the next module towards the root and along the axis, in
-// constant time, so that no long branch or row of ignored modules is walked twice. Built per word
-// if an active production has a context. A word without brackets and ignored modules needs no
-// table: neighbours are adjacent.
+// ContextTables: the next module towards the root and the next one along the axis for each place of
+// a word, in constant time, so that no long branch or run of ignored modules is walked twice. Built
+// per word if an active production has a context. A word without brackets and ignored modules needs
+// no table: its neighbours are adjacent.
 //
 // A gap g is the place before module g; gap count is the end of the word.
 #pragma once
@@ -79,12 +79,12 @@ public:
         }
         return next_.get(gap);
     }
-    /// For a `[`, the gap after its branch; for an ignored module, the gap after the row of ignored
-    /// modules. Available if a right context has brackets and the word is not plain.
+    /// For a `[`, the gap after its branch; for an ignored module, the gap after the run of ignored
+    /// modules. Available if a right context has brackets and the word is not plain().
     [[nodiscard]] std::uint64_t jump_from(std::uint64_t index) const { return jump_.get(index); }
+    static constexpr std::uint64_t kOffsetStride = 64;
     /// The number of parameters stored before module `index` rounded down to a multiple of
     /// kOffsetStride. Available if a formal of a context is used.
-    static constexpr std::uint64_t kOffsetStride = 64;
     [[nodiscard]] std::uint64_t offset_before(std::uint64_t index) const {
         return offsets_.as<std::uint64_t>()[index / kOffsetStride];
     }

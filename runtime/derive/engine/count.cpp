@@ -30,8 +30,8 @@ CountResult count_modules(const Plan& plan,
     while (index < end) {
         const C code = codes[index];
         const Row& row = rows[code];
-        std::uint64_t wrote = row.code_count;
-        std::uint64_t stored = row.parameter_count;
+        std::uint64_t new_modules = row.code_count;
+        std::uint64_t new_parameters = row.parameter_count;
         std::uint32_t record = 0;
         if (row.kind != RowKind::Fixed) {
             if (row.kind == RowKind::Choice) {
@@ -45,20 +45,21 @@ CountResult count_modules(const Plan& plan,
             }
             *records = static_cast<R>(record);
             const Entry& entry = entries[record == 0 ? code : row.base + record];
-            wrote = entry.code_count;
-            stored = entry.parameter_count;
+            new_modules = entry.code_count;
+            new_parameters = entry.parameter_count;
         }
-        if (wrote > room_modules - modules || stored > room_parameters - written_parameters) {
+        if (new_modules > room_modules - modules ||
+            new_parameters > room_parameters - written_parameters) {
             break;
         }
-        modules += wrote;
-        written_parameters += stored;
+        modules += new_modules;
+        written_parameters += new_parameters;
         records += row.kind != RowKind::Fixed ? 1 : 0;
         parameter += row.stored;
         ++index;
         if (record != 0 && several) {
-            const std::uint32_t used = plan.used_by(entries[row.base + record]);
-            for (std::uint32_t i = 1; i < used; ++i, ++index) {
+            const std::uint32_t replaced = plan.replaced_modules(entries[row.base + record]);
+            for (std::uint32_t i = 1; i < replaced; ++i, ++index) {
                 parameter += rows[codes[index]].stored;
             }
         }

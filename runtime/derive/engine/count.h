@@ -1,6 +1,6 @@
-// The counting pass: the number of modules and parameters that rewriting a stretch will write, so
-// that every word is sized exactly before it is written, in parts that do not overlap. Each module
-// whose row is not Fixed leaves one record.
+// The counting pass: the number of modules and parameters that rewriting a range of modules will
+// write, so that every word is sized exactly before threads write disjoint parts of it. Each module
+// whose row is not Fixed gets one record.
 #pragma once
 
 #include "runtime/derive/engine/active_mask.h"
@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// The stretch to count: from `begin` to `end`, or until the room is used up.
+/// The modules to count: from `begin` to `end`, or until the room is used up.
 struct CountRequest {
     ModulePlace begin;
     std::uint64_t end = 0;
@@ -36,8 +36,8 @@ template <typename C, typename R>
                                         const CountRequest& request,
                                         R* records);
 
-/// Counts all modules from `begin` to `end` by their mask, without looking at modules that are
-/// certain to be copied: a record for each active module whose row is not Fixed.
+/// Counts all modules from `begin` to `end` by their mask, without a lookup of modules that are
+/// certain to be copied. Writes a record for each active module whose row is not Fixed.
 template <typename C, typename R>
 [[nodiscard]] CountResult count_active(const Plan& plan,
                                        Chooser<C>& chooser,

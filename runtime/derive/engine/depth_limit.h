@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// Whether some module of the word may be rewritten as the plan is prepared.
+/// Whether the current rows of the plan may rewrite some module of the word.
 template <typename C>
 [[nodiscard]] bool may_rewrite(const Plan& plan, const WordView<C>& word) {
     const Row* const rows = plan.rows().data();
@@ -21,7 +21,7 @@ template <typename C>
     return false;
 }
 
-/// The first module that a production matches, or for which a condition has no value.
+/// The first module that a production matches, or for which a condition has no finite value.
 template <typename C>
 [[nodiscard]] std::optional<ModulePlace>
 find_match(const Plan& plan, Chooser<C>& chooser, const WordView<C>& word) {

@@ -66,7 +66,7 @@ struct Numbers : UnknownDomain<float> {
     bool range(float& x, float maximum, std::uint32_t index, const std::uint32_t* at) {
         const Fault kind = check_range(x, maximum);
         if (kind != Fault::None) {
-            fault = {kind, static_cast<std::uint32_t>(at - begin), x, maximum};
+            fault = {kind, static_cast<std::uint32_t>(at - begin), 0.0F, x, maximum};
             return false;
         }
         LSYS_DCHECK(draws != nullptr);
@@ -75,7 +75,7 @@ struct Numbers : UnknownDomain<float> {
     }
     bool take(float x, const std::uint32_t* at) {
         if (!std::isfinite(x)) {
-            fault = {Fault::NotFinite, static_cast<std::uint32_t>(at - begin), x, 0.0F};
+            fault = {Fault::NotFinite, static_cast<std::uint32_t>(at - begin), x, 0.0F, 0.0F};
             return false;
         }
         *out++ = x;

@@ -1,5 +1,5 @@
 // The general evaluator of conditions and arguments: a stack machine over Bytecode instructions.
-// Always right; the common expressions have faster forms (expressions/shape.h) that agree with it.
+// It evaluates every expression; the common ones have faster forms (shape.h) with equal results.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -14,9 +14,10 @@ struct EvalFrame {
     const float* formals = nullptr;
     const float* globals = nullptr;
     float step = 0.0F;  // age of the word being rewritten
-    float steps = 0.0F; // generations asked for
+    float steps = 0.0F; // number of generations of the derivation
 };
 
+/// Number of the first draw of branches: the first of block 2^31.
 inline constexpr std::uint64_t kFirstBranchDraw = std::uint64_t{4} << 31;
 
 /// Source of the draws of random ranges: one module, or the start of the derivation.
@@ -34,8 +35,8 @@ public:
         return {seed, kStartGeneration, position, 0};
     }
     [[nodiscard]] float draw(std::uint32_t range);
-    /// Decides whether branch `branch` of the module's successor is taken: draws of their own, from
-    /// block 2^31 on.
+    /// The draw that decides whether branch `branch` of the module's successor is taken. Branches
+    /// draw from blocks of their own, from 2^31 on.
     [[nodiscard]] float draw_branch(std::uint32_t branch);
 
 private:
@@ -59,11 +60,12 @@ enum class Fault : std::uint8_t { None, NotFinite, RangeReversed, RangeTooWide }
 struct EvalFault {
     Fault kind = Fault::None;
     std::uint32_t instruction = 0;
-    float value = 0.0F;  // the value, or min
-    float second = 0.0F; // max
+    float value = 0.0F;   // for NotFinite
+    float minimum = 0.0F; // for RangeReversed and RangeTooWide
+    float maximum = 0.0F;
 };
 
-/// Whether `{minimum, maximum}` can be drawn from.
+/// The fault of the range `{minimum, maximum}`; None if it can be drawn from.
 [[nodiscard]] Fault check_range(float minimum, float maximum);
 
 /// Runs the instructions from `first` to End. Operands of Emit and Test are appended at `out`, in

@@ -23,14 +23,14 @@ RuntimeErrorKind kind_of(Fault fault) {
 }
 
 template <typename C>
-RuntimeError describe(const Plan& plan,
-                      const PassKeys& keys,
-                      const WordView<C>& word,
-                      ModulePlace place,
-                      const float* own,
-                      const Candidate& candidate,
-                      const EvalFault& fault,
-                      bool in_condition) {
+RuntimeError make_error(const Plan& plan,
+                        const PassKeys& keys,
+                        const WordView<C>& word,
+                        ModulePlace place,
+                        const float* own,
+                        const Candidate& candidate,
+                        const EvalFault& fault,
+                        bool in_condition) {
     const Bytecode& bytecode = plan.bytecode();
     RuntimeError error;
     error.kind = kind_of(fault.kind);
@@ -41,7 +41,8 @@ RuntimeError describe(const Plan& plan,
     error.symbol = bytecode.symbol_of(word.codes[place.index]);
     error.parameters.assign(own, own + bytecode.symbol(error.symbol).parameter_count);
     error.value = fault.value;
-    error.second = fault.second;
+    error.minimum = fault.minimum;
+    error.maximum = fault.maximum;
     error.in_condition = in_condition;
     return error;
 }
@@ -64,8 +65,8 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
         const Row& row = plan.row(code);
         std::uint32_t record = 0;
         if (row.kind != RowKind::Fixed && !chooser.choose(place, row, record)) {
-            return describe(plan, keys, word, place, matcher.own_parameters(place),
-                            plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
+            return make_error(plan, keys, word, place, matcher.own_parameters(place),
+                              plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
         }
         const Entry& entry = plan.entries()[record == 0 ? code : row.base + record];
         if (entry.candidate != kNone && entry.parameter_count != 0) {
@@ -73,11 +74,11 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
             values.resize(entry.parameter_count);
             if (!evaluate_entry(plan, keys, matcher, word.first_position + place.index, place,
                                 entry, values.data(), fault)) {
-                return describe(plan, keys, word, place, matcher.own_parameters(place),
-                                plan.candidate(entry.candidate), fault, false);
+                return make_error(plan, keys, word, place, matcher.own_parameters(place),
+                                  plan.candidate(entry.candidate), fault, false);
             }
         }
-        const std::uint32_t modules = record != 0 ? plan.used_by(entry) : 1;
+        const std::uint32_t modules = record != 0 ? plan.replaced_modules(entry) : 1;
         for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
             place.parameter += plan.row(word.codes[place.index]).stored;
         }

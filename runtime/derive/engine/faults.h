@@ -1,5 +1,5 @@
-// Finds the module at fault: the slow walk to the lowest position of a word at which a condition or
-// an argument has no value, after a pass has met any such place.
+// Finds the module at fault after a pass has failed: a slow walk to the lowest position of the word
+// at which a condition or an argument has no finite value.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// The first fault among the modules from `begin` to those that begin before `end`. Within a
-/// module, conditions in file order come before arguments from left to right.
+/// The first fault among the modules from `begin` to `end`; a match of several modules may reach
+/// past `end`. Within a module, conditions in file order come before arguments from left to right.
 template <typename C>
 [[nodiscard]] std::optional<RuntimeError> find_fault(const Plan& plan,
                                                      const PassKeys& keys,

@@ -1,5 +1,5 @@
-// The widths that templates of the engine are instantiated for: codes C of 1, 2 and 4 bytes,
-// records R of 1 and 4 bytes. INSTANTIATE is a macro of these types.
+// The types for which templates of the engine are instantiated: codes C of 1, 2 and 4 bytes,
+// records R of 1 and 4 bytes. INSTANTIATE is a macro with parameters C, or C and R.
 #pragma once
 
 #include <cstdint>

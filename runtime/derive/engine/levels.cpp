@@ -112,13 +112,13 @@ bool Levels<C, R>::fail(RuntimeError error) {
 }
 
 template <typename C, typename R>
-void Levels<C, R>::look_at(const Level& level, const PassKeys& keys) {
+void Levels<C, R>::set_view(const Level& level, const PassKeys& keys) {
     view_ = {level.codes.get(), level.parameters.get(), level.count, level.first_position,
              level.origins.get()};
     keys_ = keys;
 }
 
-/// Makes the cuts of a block that a generation is about to rewrite.
+/// Makes the cuts of a block before a generation rewrites it.
 template <typename C, typename R>
 void Levels<C, R>::prune(std::uint64_t index) {
     Level& level = levels_[index];
@@ -160,14 +160,14 @@ void Levels<C, R>::pass_down(Level& level, Level& below) {
     level.next.index = level.count;
 }
 
-/// Rewrites as much of a level's block as fits into the one below.
+/// Rewrites as much of a level's block as fits into the block of the level below.
 template <typename C, typename R>
 bool Levels<C, R>::descend(std::uint64_t index) {
     Level& level = levels_[index];
     Level& below = levels_[index + 1];
     const bool rewrites = steps_.rewrites(index);
     const Plan& plan = rewrites ? *steps_.rewriting : *steps_.passes;
-    look_at(level, steps_.keys_of(index));
+    set_view(level, steps_.keys_of(index));
     if (!rewrites && level.next.index == 0 && (level.settled || !may_rewrite(plan, view_))) {
         pass_down(level, below);
         return true;
@@ -199,7 +199,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     return true;
 }
 
-/// Whether nothing matches any more after the last pass over a word; else fails.
+/// Whether no production matches after the last pass over a block; fails with TooDeep if one does.
 template <typename C, typename R>
 bool Levels<C, R>::is_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {
@@ -209,7 +209,7 @@ bool Levels<C, R>::is_decomposed(std::uint64_t index) {
     PassKeys keys = steps_.keys_of(index);
     keys.first_draw = steps_.keys_of(index - 1).first_draw;
     keys.same_age = true;
-    look_at(level, keys);
+    set_view(level, keys);
     if (level.settled || !may_rewrite(*steps_.passes, view_)) {
         return true;
     }
@@ -245,7 +245,7 @@ bool Levels<C, R>::add_level() {
     if (options_.origins) {
         level.origins = std::make_unique_for_overwrite<Origin[]>(room_codes_);
     }
-    // wide loads read past the last parameter, where they need finite numbers
+    // Wide loads read past the last parameter, where they need finite numbers.
     std::fill_n(level.parameters.get(), parameter_bytes / sizeof(float), 0.0F);
     return true;
 }

@@ -18,7 +18,8 @@
 
 namespace lsys {
 
-/// The steps of a word on its way down: generations of rewriting, each followed by passes.
+/// The steps between levels: generations of rewriting, and passes of a later stage over the word of
+/// each age.
 struct LevelSteps {
     const Plan* rewriting = nullptr; // may be null for a single generation
     const Plan* passes = nullptr;    // plan of a later stage; null: `depth` is 0
@@ -26,17 +27,18 @@ struct LevelSteps {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::uint32_t depth = 0;           // passes over the word of each age
-    bool checked = false;              // a module that still matches after them is an error
+    bool checked = false;              // a module that matches after the last pass is an error
     std::uint64_t first_pass_draw = 0; // number of the first draw of the first pass
-    bool prunes = false;               // each generation begins with cuts
+    bool prunes = false;               // each generation begins with the cuts of `%` modules
 
+    /// Number of steps; level count() is the last one.
     [[nodiscard]] std::uint64_t count() const {
         return (std::uint64_t{last_age} - first_age + 1) * depth + (last_age - first_age);
     }
     [[nodiscard]] std::uint32_t age_of(std::uint64_t level) const {
         return first_age + static_cast<std::uint32_t>(level / (std::uint64_t{depth} + 1));
     }
-    /// Whether the word of that level is rewritten next, by a generation; else a pass follows.
+    /// Whether the step after `level` is a generation; otherwise it is a pass.
     [[nodiscard]] bool rewrites(std::uint64_t level) const {
         return level % (std::uint64_t{depth} + 1) == depth;
     }
@@ -71,7 +73,7 @@ struct LevelOptions {
 template <typename C, typename R>
 class Levels {
 public:
-    /// False ends the work.
+    /// Receives blocks of the last level; returns false to stop.
     using Sink = std::function<bool(const LevelBlock<C>&)>;
 
     Levels(const LevelSteps& steps, const LevelOptions& options, Sink sink);
@@ -79,15 +81,15 @@ public:
     /// Modules and parameters that a block has room for.
     [[nodiscard]] std::uint64_t room_codes() const { return room_codes_; }
     [[nodiscard]] std::uint64_t room_parameters() const { return room_parameters_; }
-    /// Makes room for a block of the first word and returns it; null pointers if the limit on
-    /// memory is reached.
+    /// Memory of a block.
     struct Block {
         C* codes = nullptr;
         float* parameters = nullptr;
         Origin* origins = nullptr;
     };
+    /// The block of the first level, to be filled; null pointers if the limit on memory is reached.
     [[nodiscard]] Block first_block();
-    /// Sends the first `count` modules of the first block down.
+    /// Sends the `count` modules in the first block down all levels.
     [[nodiscard]] std::optional<Stop> push(std::uint64_t count);
 
     [[nodiscard]] RuntimeError& error() { return error_; }
@@ -111,7 +113,7 @@ private:
     [[nodiscard]] bool emit(Level& level);
     void pass_down(Level& level, Level& below);
     void prune(std::uint64_t index);
-    void look_at(const Level& level, const PassKeys& keys);
+    void set_view(const Level& level, const PassKeys& keys);
     [[nodiscard]] bool fail(RuntimeError error);
 
     LevelSteps steps_;
@@ -122,7 +124,7 @@ private:
     PassKeys keys_;
     std::deque<Chooser<C>> choosers_; // for rewriting and for passes; refer to view_ and keys_
     std::vector<Level> levels_;
-    std::deque<Pruner> pruners_; // by generation, if there are cuts
+    std::deque<Pruner> pruners_; // by generation, if LevelSteps::prunes
     std::vector<R> records_;
     std::uint64_t room_codes_ = 0;
     std::uint64_t room_parameters_ = 0;

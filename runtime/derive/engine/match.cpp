@@ -83,7 +83,7 @@ bool Matcher<C>::matches_contexts(const BytecodeProduction& production, std::uin
 template <typename C>
 std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace near) const {
     const std::vector<Row>& rows = plan_.rows();
-    // most contexts are close
+    // Most contexts are near the module, so walking from it is faster.
     if (index >= near.index && index - near.index < ContextTables::kOffsetStride) {
         for (; near.index < index; ++near.index) {
             near.parameter += rows[word_.codes[near.index]].stored;
@@ -145,7 +145,8 @@ const float* Matcher<C>::formals(const Candidate& candidate, const ModulePlace& 
 }
 
 template <typename C>
-const float* Matcher<C>::formals_again(const Candidate& candidate, const ModulePlace& place) {
+const float* Matcher<C>::formals_after_search(const Candidate& candidate,
+                                              const ModulePlace& place) {
     if (candidate.reads_context) {
         static_cast<void>(
             matches_contexts(plan_.bytecode().productions[candidate.production], place.index));

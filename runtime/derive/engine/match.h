@@ -55,14 +55,15 @@ public:
     /// Whether the modules after the first are those of the predecessor.
     [[nodiscard]] bool matches_predecessor(const BytecodeProduction& production,
                                            std::uint64_t index) const;
-    /// Whether the contexts of `production` match around the predecessor at `index`. Keeps the
-    /// places of the match for formals().
+    /// Whether the contexts of `production` match around the predecessor at `index`. Stores the
+    /// matched modules for formals().
     [[nodiscard]] bool matches_contexts(const BytecodeProduction& production, std::uint64_t index);
     /// All formals of the candidate's production for the module at `place`. Precondition if some
     /// belong to contexts: the last matches_contexts() was for this production's group and place.
     [[nodiscard]] const float* formals(const Candidate& candidate, const ModulePlace& place);
-    /// formals() after another search for the contexts.
-    [[nodiscard]] const float* formals_again(const Candidate& candidate, const ModulePlace& place);
+    /// formals() after a new search for the contexts, for calls without matches_contexts().
+    [[nodiscard]] const float* formals_after_search(const Candidate& candidate,
+                                                    const ModulePlace& place);
 
 private:
     [[nodiscard]] bool matches_left(const BytecodeProduction& production, std::uint64_t index);

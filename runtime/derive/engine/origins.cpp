@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    /// Traces the module at index_, or the modules that a match used up.
+    /// Traces the module at index_, or all modules of the match that begins there.
     void trace_next() {
         const C code = word_.codes[index_];
         const Row& row = rows_[code];
@@ -43,7 +43,7 @@ private:
             const std::uint32_t record = *records_++;
             if (record != 0) {
                 entry = entries_ + row.base + record;
-                used = plan_.used_by(*entry);
+                used = plan_.replaced_modules(*entry);
             }
         }
         if (entry->candidate == kNone) {

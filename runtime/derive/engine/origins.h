@@ -1,6 +1,6 @@
 // The origins of the modules that a pass writes: a second walk over the records of the counting
-// pass, if DeriveOptions::origins asks for them. The modules of a successor have that place as
-// origin; a copied module keeps its origin. Successors of a followed module keep its index.
+// pass, if DeriveOptions::origins is set. The origin of a written module is its place in the
+// successor; a copied module keeps its origin. Successors of a followed module keep its index.
 #pragma once
 
 #include "runtime/derive/engine/active_mask.h"
@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Modules [begin, end) of the word that is read: exactly the modules just rewritten.
+/// Modules [begin, end) of the word that is read, which write_modules() has just rewritten.
 struct OriginRequest {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;

@@ -18,23 +18,25 @@ namespace {
 
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// From this many modules on, counting by all threads is faster than the census, which writes in
-/// order.
-constexpr std::uint64_t kCountedInParallel = 1U << 22;
+/// Modules of the shortest word that all threads count faster than the census, after which one
+/// thread writes in order.
+constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
 constexpr std::uint64_t kMinChunk = 1U << 14;
-/// Shorter words take one thread less time than two need to synchronize. Threads are started a few
-/// generations before, because that takes as long as a word of kWorthStarting modules.
-constexpr std::uint64_t kWorthSharing = 1U << 17;
-constexpr std::uint64_t kWorthStarting = 1U << 13;
+/// Modules of the shortest word that several threads share: one thread rewrites a shorter word in
+/// less time than two need to synchronize.
+constexpr std::uint64_t kMinSharedWord = 1U << 17;
+/// Modules of the word at which threads are started, a few generations before they are needed:
+/// starting them takes as long as rewriting such a word.
+constexpr std::uint64_t kMinWordForThreads = 1U << 13;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// A mask pays if at most one in this many modules is active: for a word whose modules have one
-/// successor each, and for one whose modules are chosen or tested, which costs more.
-constexpr std::uint64_t kActivePartOfFixed = 8;
-constexpr std::uint64_t kActivePartOfDynamic = 2;
+/// A mask is faster if at most one in this many modules is active: for words with Fixed rows only,
+/// and for words with other rows, whose modules cost more.
+constexpr std::uint64_t kModulesPerActiveFixed = 8;
+constexpr std::uint64_t kModulesPerActiveDynamic = 2;
 
 } // namespace
 
@@ -110,11 +112,11 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
         (searches && !contexts_.prepare(plan_, in))) {
         return report_out_of_memory(in, before);
     }
-    cut(word);
+    make_chunks(word);
     mask_.prepare(plan_, contexts());
 
     by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
-                 (workers_.count() == 1 || word.count < kCountedInParallel);
+                 (workers_.count() == 1 || word.count < kMinParallelCount);
     if (by_census_) {
         take_census(word);
     } else {
@@ -141,18 +143,18 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     return std::nullopt;
 }
 
-/// Cuts the word into chunks of the size asked for, into smaller ones if several threads would have
-/// few of them, and into one chunk if the word is too short for a second thread.
+/// Divides the word into chunks of DeriveOptions::chunk_modules, into smaller ones if several
+/// threads would have few of them, and into one chunk if the word is too short for a second thread.
 template <typename C>
-void Passes::cut(const WordView<C>& word) {
+void Passes::make_chunks(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
     if (workers_.count() > 1 && size > kMinChunk) {
-        if (word.count >= kWorthStarting) {
+        if (word.count >= kMinWordForThreads) {
             workers_.start();
         }
         size =
-            word.count < kWorthSharing
-                ? kWorthSharing
+            word.count < kMinSharedWord
+                ? kMinSharedWord
                 : std::clamp(word.count / (workers_.count() * kChunksPerThread), kMinChunk, size);
     }
     chunks_.assign((word.count + size - 1) / size, {});
@@ -162,8 +164,7 @@ void Passes::cut(const WordView<C>& word) {
     }
 }
 
-/// Finds where the parameters of each chunk begin, if the word stores any and several threads read
-/// them.
+/// Finds the first parameter of each chunk, if the word stores any and several threads read them.
 template <typename C>
 void Passes::place_chunks(const WordView<C>& word, bool stores) {
     if (!stores || workers_.count() == 1 || chunks_.size() == 1) {
@@ -185,7 +186,7 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
     }
 }
 
-/// Judged by the first modules of the chunk.
+/// Judges by the share of active modules among the first ones of the chunk.
 template <typename C>
 bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
     if (!mask_.usable()) {
@@ -195,14 +196,15 @@ bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
         bits; // NOLINT: written by fill()
     const std::uint64_t count =
         std::min<std::uint64_t>(chunk.end - chunk.begin.index, ActiveMask::kModules);
-    const std::uint64_t part = plan_.all_fixed() ? kActivePartOfFixed : kActivePartOfDynamic;
+    const std::uint64_t part =
+        plan_.all_fixed() ? kModulesPerActiveFixed : kModulesPerActiveDynamic;
     return mask_.fill(word.codes, word.count, chunk.begin.index, count, bits.data()) <=
            count / part;
 }
 
 template <typename C, typename R>
 std::optional<Stop> Passes::count(const WordView<C>& word, const PassKeys& keys) {
-    // a match of several modules may reach into the next chunk, which then begins after it
+    // A match of several modules may reach into the next chunk, which then begins after the match.
     const bool in_order = workers_.count() == 1 || plan_.predecessor_count() > 1;
     const auto count_chunk = [&](std::uint64_t index) {
         if (cancelled()) {
@@ -264,13 +266,13 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
     next.parameters = parameters;
     Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;
     next.origins = origins;
-    std::uint64_t rewritten = 0; // by census
+    std::uint64_t rewritten = 0; // modules of the word, by the census
     if (by_census_) {
         for (Code code = 0; code < census_.size(); ++code) {
             rewritten += plan_.row(code).copies ? 0 : census_[code];
         }
     }
-    const bool census_masked = mask_.usable() && rewritten <= word.count / kActivePartOfFixed;
+    const bool census_masked = mask_.usable() && rewritten <= word.count / kModulesPerActiveFixed;
     const auto write_chunk = [&](std::uint64_t index) {
         if (cancelled()) {
             return;
@@ -360,11 +362,11 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
             std::uint32_t record = 0;
             if (row.kind != RowKind::Fixed) {
                 const bool counted = chooser.choose(place, row, record);
-                LSYS_CHECK(counted, place.index); // or the pass had ended before
+                LSYS_CHECK(counted, place.index); // count() has already evaluated all conditions
             }
             ++uses[record == 0 ? code : row.base + record];
             const std::uint32_t modules =
-                record == 0 ? 1 : plan_.used_by(plan_.entries()[row.base + record]);
+                record == 0 ? 1 : plan_.replaced_modules(plan_.entries()[row.base + record]);
             for (std::uint32_t i = 0; i < modules; ++i, ++place.index) {
                 place.parameter += plan_.row(word.codes[place.index]).stored;
             }
@@ -374,7 +376,7 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
     std::uint32_t dominant = kNone;
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const Entry& entry = plan_.entries()[i];
-        const std::uint32_t used = plan_.used_by(entry);
+        const std::uint32_t used = plan_.replaced_modules(entry);
         if (entry.candidate == kNone || entry.code_count <= used) {
             continue;
         }
@@ -390,7 +392,7 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
     return dominant;
 }
 
-/// Makes the census unless it is known, and takes the sizes of the next word from it.
+/// Makes the census unless it is known, and computes the sizes of the next word from it.
 template <typename C>
 void Passes::take_census(const WordView<C>& word) {
     if (!census_known_) {
@@ -408,7 +410,7 @@ void Passes::take_census(const WordView<C>& word) {
     }
 }
 
-/// Turns the census into that of the written word, by the growth matrix.
+/// Replaces the census by that of the written word: its product with the growth matrix.
 void Passes::advance_census() {
     std::vector<std::uint64_t> next(census_.size(), 0);
     for (Code code = 0; code < census_.size(); ++code) {

@@ -22,14 +22,14 @@ class Passes {
 public:
     Passes(const Plan& plan, const DeriveOptions& options);
 
-    /// Rewrites `in` into `out`, as the plan is prepared. After a Stop `in` is untouched and
+    /// Rewrites `in` into `out` by the current rows of the plan. After a Stop `in` is unchanged and
     /// error() or limit() has the facts. `other_bytes` counts towards the limit on memory.
     [[nodiscard]] std::optional<Stop>
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
-    /// Whether some module of `word` may be rewritten as the plan is prepared.
+    /// Whether the current rows of the plan may rewrite some module of `word`.
     [[nodiscard]] bool may_rewrite_any(const Word& word) const;
-    /// Announces that the next word given to run() is not the one it wrote last.
-    void forget() { census_known_ = false; }
+    /// To be called if the next word given to run() is not the one it wrote last.
+    void discard_census() { census_known_ = false; }
 
     [[nodiscard]] const RuntimeError& error() const { return error_; }
     [[nodiscard]] const LimitReport& limit() const { return limit_; }
@@ -37,13 +37,13 @@ public:
     [[nodiscard]] const Workers& workers() const { return workers_; }
 
 private:
-    /// A stretch [begin, end) of the word for one thread, and where its successors are written.
+    /// Modules [begin, end) of the word for one thread, and the place of their successors.
     struct Chunk {
         ModulePlace begin;
         std::uint64_t end = 0;
-        std::uint64_t modules = 0; // written
-        std::uint64_t parameters = 0;
-        std::uint64_t out_module = 0;
+        std::uint64_t modules = 0;    // number of modules written
+        std::uint64_t parameters = 0; // number of parameters written
+        std::uint64_t out_module = 0; // index of the first module written
         std::uint64_t out_parameter = 0;
         bool masked = false; // counted and written by its mask
         bool fault = false;
@@ -54,7 +54,7 @@ private:
     [[nodiscard]] std::optional<Stop>
     run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys);
     template <typename C>
-    void cut(const WordView<C>& word);
+    void make_chunks(const WordView<C>& word);
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
     template <typename C>

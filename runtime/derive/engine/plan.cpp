@@ -84,7 +84,7 @@ void Plan::make_codes() {
             codes_.wide_bytes = 32;
         }
     }
-    terms_.resize(max_stored); // for every copied module
+    terms_.resize(max_stored); // identity terms, which all copies share
     for (std::uint32_t i = 0; i < max_stored; ++i) {
         terms_[i].input = i;
     }
@@ -189,8 +189,8 @@ void Plan::make_families() {
     }
 }
 
-/// If every candidate of a family has a left context, a look at the left neighbour settles most
-/// modules; likewise on the right.
+/// Makes the guards. If every candidate of a family has a left context, a lookup of the left
+/// neighbour rules out most modules; likewise on the right.
 void Plan::make_guards() {
     constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();
@@ -293,7 +293,7 @@ Entry Plan::identity_entry(Code code) const {
     return entry;
 }
 
-void Plan::finish(Entry& entry) {
+void Plan::set_special(Entry& entry) {
     entry.special = entry.general || entry.parameter_count > kEntryTerms ||
                     std::uint64_t{entry.code_count} * codes_.width > codes_.wide_bytes;
 }

@@ -1,7 +1,7 @@
-// Plan: a program prepared for rewriting, with every decision made that does not need the module.
-// Made once per run, when the globals are known; refreshed for each generation if something depends
-// on step(), and for each rule if a pass rewrites one rule only. Read by the passes, by many
-// threads at once.
+// Plan: a program prepared for rewriting; every decision that does not depend on the module is made
+// in advance. Made once per run, when the globals are known; updated for each generation if
+// something depends on step(), and for each rule if a pass rewrites one rule only. Read by the
+// passes, by many threads at once.
 //
 // A row says how modules of a code are rewritten: by one entry, by a choice among a fixed set, by
 // the first of some comparisons that holds, or by conditions and contexts. An entry is one way to
@@ -43,7 +43,7 @@ struct alignas(64) Entry {
     std::uint32_t first_place = 0;   // of the successor in Bytecode::template_codes
     bool general = false;            // parameters need evaluate()
     bool reads_own = false;          // terms read the module's parameters
-    bool special = false;            // needs more than one wide store of codes and of terms
+    bool special = false;            // needs more than one wide store of codes or of terms
 };
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
@@ -88,8 +88,8 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 struct Candidate {
     std::uint32_t production = 0;
     std::uint32_t group = 0;
-    std::uint32_t modules = 1;   // used up by a match
-    std::uint32_t own_first = 0; // formal of the module's first parameter
+    std::uint32_t modules = 1;   // replaced by a match
+    std::uint32_t own_first = 0; // index of the formal of the module's first parameter
     std::uint32_t first_comparison = 0;
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;
@@ -97,7 +97,7 @@ struct Candidate {
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
     bool has_context = false;
-    bool gathers = false;       // formals are not the module's parameters alone: collect them
+    bool gathers = false;       // formals must be collected: some are not the module's own
     bool reads_context = false; // some formals belong to contexts
 };
 
@@ -141,10 +141,10 @@ public:
          bool each_generation,
          Stage stage = Stage::Rewrite);
 
-    /// Updates rows and entries to rewrite words of age `generation`. In parallel mode all families
-    /// are active.
+    /// Updates rows and entries to rewrite words of age `generation`. In parallel and leftmost mode
+    /// all families are active.
     void prepare(std::uint32_t generation);
-    /// In all modes but parallel: activates only rule `rule`. Called after prepare().
+    /// In sequential and cyclic mode: activates only rule `rule`. Called after prepare().
     void select_rule(std::uint32_t rule);
 
     [[nodiscard]] const Bytecode& bytecode() const { return bytecode_; }
@@ -189,11 +189,11 @@ public:
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
     [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
     [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
-    /// The max number of modules that a match uses up. It is above 1 in leftmost rewriting, and in
-    /// a pass of one rule, where every match uses up this number.
+    /// The max number of modules that a match replaces. It may exceed 1 in leftmost rewriting, and
+    /// in a pass of one rule, where every match replaces this number.
     [[nodiscard]] std::uint32_t predecessor_count() const { return active_.predecessor_count; }
-    /// Modules used up by a match whose successor is `entry`.
-    [[nodiscard]] std::uint32_t used_by(const Entry& entry) const {
+    /// Modules replaced by a match whose successor is `entry`.
+    [[nodiscard]] std::uint32_t replaced_modules(const Entry& entry) const {
         return entry.candidate == kNone ? 1 : candidates_[entry.candidate].modules;
     }
     /// Distance from a module to the first one that its right guard may check.
@@ -240,8 +240,9 @@ private:
     void set_kind(Code code, RowKind kind);
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
-    void finish(Entry& entry);
-    [[nodiscard]] bool known(const Family& family) const {
+    void set_special(Entry& entry);
+    /// Whether the plan is made for one generation, as far as the family depends on it.
+    [[nodiscard]] bool knows_generation(const Family& family) const {
         return each_generation_ || !family.varies;
     }
 
@@ -277,7 +278,7 @@ private:
     };
     /// Summary of the active rows.
     struct ActiveFamilies {
-        std::uint32_t dynamic_rows = 0; // that are not Fixed
+        std::uint32_t dynamic_rows = 0; // number of rows that are not Fixed
         std::uint32_t predecessor_count = 1;
         std::uint32_t selected_rule = kNone; // kNone: all rules
         bool needs_contexts = false;
@@ -296,7 +297,7 @@ private:
     std::vector<Entry> entries_;
     std::vector<AffineTerm> terms_; // of entries with more than kEntryTerms parameters
     std::vector<Family> families_;
-    std::vector<std::uint32_t> varying_families_; // that depend on the generation
+    std::vector<std::uint32_t> varying_families_; // indexes of families with Family::varies
     std::vector<Candidate> candidates_;
     std::vector<Comparison> comparisons_;
     std::vector<std::uint8_t> guards_;

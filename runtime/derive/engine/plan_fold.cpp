@@ -1,5 +1,5 @@
-// Folding: a module with known arguments gets a template of its own in the pool, whose modules are
-// folded, in place of its production's template and parameters.
+// Folding: a module with known arguments gets a template of its own in the pool, which holds folded
+// modules. It replaces the template and parameters of the production.
 #include "runtime/derive/engine/plan.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ constexpr std::uint32_t kMaxOwnEntries = 256;
 
 } // namespace
 
-/// Lets an entry of a module whose arguments are known write folded modules only, if the program
-/// has them all.
+/// Makes an entry write folded modules only, if the arguments of the module are known and the
+/// program has all folded modules needed. Returns whether it does.
 bool Plan::fold(Code code, Entry& entry) {
     if (!folding_.index || rows_[code].stored != 0 || entry.parameter_count == 0) {
         return false;
@@ -34,7 +34,7 @@ bool Plan::fold(Code code, Entry& entry) {
     entry.parameter_count = 0;
     entry.general = false;
     entry.reads_own = false;
-    finish(entry);
+    set_special(entry);
     return true;
 }
 
@@ -71,7 +71,7 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
     return add_template(codes);
 }
 
-/// Folds the entries of a module that is rewritten in one of several ways.
+/// Folds the entries of a module that one of several productions may rewrite.
 void Plan::fold_records(const Family& family, Code code) {
     Row& row = rows_[code];
     if (!folding_.index || row.stored != 0 || family.count > kMaxOwnEntries) {

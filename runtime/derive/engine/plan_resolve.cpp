@@ -10,14 +10,14 @@ namespace lsys {
 
 namespace {
 
-/// Whether a term can yield `value` for any finite input. It cannot yield -0, whose sign would
-/// depend on the input.
+/// Whether the term 0 * input + value yields `value` for every finite input. It does not for -0:
+/// the sign of the sum would depend on the input.
 bool is_term_constant(float value) {
     return std::isfinite(value) && !(value == 0.0F && std::signbit(value));
 }
 
-/// Max candidates tried in advance for all folded modules of one family; further ones are tried per
-/// module.
+/// Max candidates evaluated in advance for all folded modules of one family; further ones are
+/// evaluated per module during a pass.
 constexpr std::uint64_t kFoldedBudget = std::uint64_t{1} << 16;
 
 } // namespace
@@ -72,7 +72,7 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     entry.general = false;
     entry.reads_own = false;
     if (successor.parameter_count == 0) {
-        finish(entry);
+        set_special(entry);
         return;
     }
     const std::vector<ValueShape> shapes =
@@ -97,7 +97,7 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
             terms_[entry.first_term + i] = term;
         }
     }
-    finish(entry);
+    set_special(entry);
 }
 
 void Plan::shape(Family& family) {
@@ -141,7 +141,8 @@ Plan::condition_for(const Family& family, const Candidate& candidate, const floa
                    ? ConditionKind::Always
                    : ConditionKind::Never;
     }
-    if (candidate.condition == ConditionKind::Expression && !candidate.gathers && known(family)) {
+    if (candidate.condition == ConditionKind::Expression && !candidate.gathers &&
+        knows_generation(family)) {
         const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};
         float value = 0.0F;
         EvalFault fault;
@@ -195,8 +196,8 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.slow = false; // no production can match
 }
 
-/// Makes the tests of a row if single comparisons alone decide: no contexts, no chance, no other
-/// conditions. Returns whether they do.
+/// Makes the tests of a row if single comparisons suffice to choose a production: no contexts, no
+/// draws, no other conditions. Returns whether they do.
 bool Plan::resolve_tests(const Family& family, Code code) {
     constexpr std::size_t kMaxTests = 16;
     Row& row = rows_[code];
@@ -324,13 +325,14 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
     row.copies = false;
     row.code_count = entry.code_count;
     row.parameter_count = entry.parameter_count;
-    finish(entry);
+    set_special(entry);
     entry.special = entry.special || row.slow;
     entries_[code] = entry;
     set_kind(code, RowKind::Fixed);
 }
 
-/// Makes the parameters of a folded module's only entry constants, if possible.
+/// Turns the parameters of `entry`, the only entry of a folded module, into constants. Returns
+/// false if that is not possible.
 bool Plan::bake(const Row& row, Entry& entry) const {
     const BytecodeProduction& production =
         bytecode_.productions[candidates_[entry.candidate].production];

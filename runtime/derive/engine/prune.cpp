@@ -39,7 +39,7 @@ void write_typed(Pruner& pruner, std::span<const C> codes, const Word& word, Wor
 } // namespace
 
 PrunedSize pruned_size(Pruner& pruner, const Word& word) {
-    pruner.begin_again();
+    pruner.restart();
     return word.visit([&](auto codes) {
         if (!pruner.may_prune(codes.data(), codes.size())) {
             return PrunedSize{word.module_count(), word.parameter_count()};
@@ -54,7 +54,7 @@ PrunedSize pruned_size(Pruner& pruner, const Word& word) {
 }
 
 void write_pruned(Pruner& pruner, const Word& word, Word& out) {
-    pruner.begin_again();
+    pruner.restart();
     word.visit([&](auto codes) { write_typed(pruner, codes, word, out); });
 }
 

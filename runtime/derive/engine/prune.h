@@ -1,5 +1,5 @@
-// Cuts: a module of the turtle's operation Cut takes the rest of its branch with it, up to the `]`
-// that closes the branch. A generation begins with them, before anything is matched.
+// Cuts: a module of the turtle's operation Cut removes the rest of its branch, up to the `]` that
+// closes the branch. Cuts are made at the start of a generation, before anything is matched.
 #pragma once
 
 #include "runtime/derive/engine/match.h"
@@ -15,8 +15,8 @@ class Pruner {
 public:
     explicit Pruner(const Bytecode& bytecode);
 
-    /// Whether some module can cut at all.
-    [[nodiscard]] bool any() const { return any_; }
+    /// Whether the program has a module that cuts.
+    [[nodiscard]] bool can_cut() const { return any_; }
 
     /// Calls keep(index, parameter) for each module that stays, in order, with the number of
     /// parameters stored before it in this piece.
@@ -54,7 +54,8 @@ public:
         return false;
     }
     [[nodiscard]] std::uint32_t stored(Code code) const { return kinds_[code].stored; }
-    void begin_again() { depth_ = 0; }
+    /// Starts a new word.
+    void restart() { depth_ = 0; }
 
 private:
     enum class Role : std::uint8_t { Other, Cut, Open, Close };
@@ -63,16 +64,16 @@ private:
         std::uint32_t stored = 0;
     };
     std::vector<Kind> kinds_; // by code
-    std::uint64_t depth_ = 0; // open branches from the one being cut on; 0: nothing is cut
+    std::uint64_t depth_ = 0; // number of open branches, counted from the cut one; 0: no cut
     bool any_ = false;
 };
 
-/// The size of a word after its cuts.
+/// Modules and parameters of a word after its cuts.
 struct PrunedSize {
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
 };
-/// The size of the word itself if there is nothing to cut.
+/// The size of `word` after its cuts; the size of `word` itself if it has none.
 [[nodiscard]] PrunedSize pruned_size(Pruner& pruner, const Word& word);
 /// Writes the remaining modules to `out`. Precondition: `out` has the size of pruned_size().
 void write_pruned(Pruner& pruner, const Word& word, Word& out);

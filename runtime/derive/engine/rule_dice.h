@@ -15,19 +15,19 @@ class RuleDice {
 public:
     RuleDice(const Bytecode& bytecode, std::uint64_t seed);
 
-    /// Makes the draws of a generation.
+    /// Makes the draws of all rules for a generation.
     void roll(std::uint32_t generation);
-    /// The draw as u in [0, 1): the middle of the alternative's interval if all have one weight.
-    /// For a generation other than the last one rolled it repeats all draws before.
+    /// The draw as u in [0, 1): the middle of the interval of the alternative, if all weights are
+    /// equal. For a generation other than the last one rolled, all earlier draws are repeated.
     [[nodiscard]] float draw(std::uint32_t rule, std::uint32_t generation) const;
 
 private:
     [[nodiscard]] float unit(std::uint32_t rule, std::uint32_t number) const;
 
     std::uint32_t seed_;
-    std::vector<std::uint32_t> alternatives_; // by rule
-    GlibcRandom random_;                      // at the start of next_
-    std::uint64_t next_ = 0;                  // generation
+    std::vector<std::uint32_t> alternatives_; // number of productions, by rule
+    GlibcRandom random_;                      // its state at the start of generation next_
+    std::uint64_t next_ = 0;                  // generation after the last one rolled
     std::vector<std::uint32_t> rolled_;       // by rule, in generation next_ - 1
 };
 

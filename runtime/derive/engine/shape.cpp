@@ -9,13 +9,13 @@ namespace lsys {
 
 namespace {
 
-/// A value on the stack of the run on unknown inputs.
+/// A value on the stack of the abstract interpretation.
 struct Term {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;
     AffineTerm affine;
-    bool scaled = false; // it multiplies, so a further factor would round differently
-    bool offset = false; // it adds
+    bool scaled = false; // has a factor; a second factor would round differently
+    bool offset = false; // has an offset
     std::size_t first_comparison = 0;
     std::size_t comparison_count = 0;
 };
@@ -60,7 +60,7 @@ public:
             return constant_term(arithmetic::apply(opcode, x.constant, 0.0F));
         }
         if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
-            Term term = x; // with an offset, a sum of +0 would have to become -0
+            Term term = x; // not with an offset: negating a sum of +0 gives -0, which no term does
             term.affine.scale = -term.affine.scale;
             term.scaled = true;
             return term;
@@ -173,7 +173,7 @@ private:
         return term;
     }
 
-    /// Then dividing and multiplying by the reciprocal are one operation.
+    /// Whether dividing by `x` equals multiplying by 1 / x: for powers of two.
     static bool has_exact_reciprocal(float x) {
         int exponent = 0;
         return std::fabs(std::frexp(x, &exponent)) == 0.5F && std::isnormal(1.0F / x);

@@ -15,7 +15,7 @@ namespace lsys {
 /// input * scale + offset, in two roundings. A plain factor has offset -0, which changes nothing;
 /// a plain sum has scale 1; so one form fits `x`, `x * 1.1`, `x - 1`, `-x` and `2 * x + 1` exactly.
 struct AffineTerm {
-    std::uint32_t input = 0; // which of the module's own parameters
+    std::uint32_t input = 0; // index among the module's own parameters
     float scale = 1.0F;
     float offset = -0.0F;
 };
@@ -31,7 +31,7 @@ struct Comparison {
     static constexpr std::uint32_t kGreater = 4;
 
     AffineTerm affine;
-    float bound = 0.0F; // a number
+    float bound = 0.0F; // not NaN
     std::uint32_t accepted = 0;
 };
 
@@ -55,7 +55,7 @@ struct ShapeKnowledge {
 
 enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };
 
-/// The shape of a value that one Emit or Test takes.
+/// The shape of a value that an Emit or Test instruction takes.
 struct ValueShape {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;               // Constant; may be infinite or not a number
@@ -63,9 +63,9 @@ struct ValueShape {
     std::vector<Comparison> comparisons; // all must hold
 };
 
+inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
 /// The shapes of the values of the expression at `first`, in order; an empty list for expressions
 /// longer than kMaxShapedInstructions.
-inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
 [[nodiscard]] std::vector<ValueShape>
 shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge);
 

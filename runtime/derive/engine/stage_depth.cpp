@@ -8,7 +8,8 @@ namespace lsys {
 
 namespace {
 
-/// For each symbol the symbols that productions of the stage write for it and match again.
+/// For each symbol, the symbols that productions of the stage write for it and that productions of
+/// the stage match.
 std::vector<std::vector<std::uint32_t>> parts_of(const Bytecode& bytecode, TableRange stage) {
     std::vector<std::vector<std::uint32_t>> parts(bytecode.symbols.size());
     std::vector<bool> matched(bytecode.symbols.size(), false);
@@ -36,7 +37,7 @@ std::vector<std::vector<std::uint32_t>> parts_of(const Bytecode& bytecode, Table
     return parts;
 }
 
-/// The number of edges of the longest path; nothing if there is a cycle.
+/// The number of edges of the longest path of the graph `parts`; nothing if it has a cycle.
 std::optional<std::uint32_t> longest_path(const std::vector<std::vector<std::uint32_t>>& parts) {
     std::vector<std::uint32_t> users(parts.size(), 0);
     for (const std::vector<std::uint32_t>& list : parts) {
@@ -75,8 +76,8 @@ StageDepth stage_depth(const Bytecode& bytecode, Stage stage) {
     }
     const std::uint32_t max_passes = stage == Stage::Decompose ? bytecode.settings.decompose_depth
                                                                : bytecode.settings.interpret_depth;
-    const std::optional<std::uint32_t> way = longest_path(parts_of(bytecode, range));
-    const std::uint32_t needed = way ? *way + 1 : max_passes + 1;
+    const std::optional<std::uint32_t> edges = longest_path(parts_of(bytecode, range));
+    const std::uint32_t needed = edges ? *edges + 1 : max_passes + 1;
     return {std::min(needed, max_passes),
             needed > max_passes && bytecode.settings.at_depth == AtDepth::Error};
 }

@@ -7,8 +7,8 @@
 
 namespace lsys {
 
-/// Passes of later stages add these to the numbers of their draws (docs/language.md section 6), and
-/// 4096 more per pass, so that no number is drawn twice.
+/// Draws of later stages have numbers of their own (docs/language.md section 6): kDrawsOfPass per
+/// pass, from the first draw of the stage on.
 inline constexpr std::uint64_t kDrawsOfPass = std::uint64_t{kMaxSequentialDraws} + 1;
 inline constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kFirstInterpretDraw = kFirstDecomposeDraw + (std::uint64_t{1} << 31);
@@ -16,7 +16,7 @@ inline constexpr std::uint64_t kFirstInterpretDraw = kFirstDecomposeDraw + (std:
 /// The passes of Stage::Decompose or Stage::Interpret.
 struct StageDepth {
     std::uint32_t passes = 0; // until nothing can match, or the max number allowed
-    bool checked = false;     // a module that still matches then is an error
+    bool checked = false;     // a module that still matches after these passes is an error
 };
 [[nodiscard]] StageDepth stage_depth(const Bytecode& bytecode, Stage stage);
 

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-RuntimeError describe(const Bytecode& bytecode, const EvalFault& fault) {
+RuntimeError make_error(const Bytecode& bytecode, const EvalFault& fault) {
     RuntimeError error;
     error.kind = fault.kind == Fault::RangeReversed  ? RuntimeErrorKind::RangeReversed
                  : fault.kind == Fault::RangeTooWide ? RuntimeErrorKind::RangeTooWide
@@ -15,7 +15,8 @@ RuntimeError describe(const Bytecode& bytecode, const EvalFault& fault) {
     error.generation = kStartGeneration;
     error.site = site_of(bytecode, fault.instruction);
     error.value = fault.value;
-    error.second = fault.second;
+    error.minimum = fault.minimum;
+    error.maximum = fault.maximum;
     return error;
 }
 
@@ -32,7 +33,7 @@ draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& g
         float value = 0.0F;
         EvalFault fault;
         if (!evaluate(bytecode, global.instruction, frame, &draws, &value, fault)) {
-            RuntimeError error = describe(bytecode, fault);
+            RuntimeError error = make_error(bytecode, fault);
             error.global = i;
             return error;
         }
@@ -65,8 +66,8 @@ std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
     if (evaluate(bytecode, axiom.arguments, frame, &draws, parameters.data(), fault)) {
         return std::nullopt;
     }
-    RuntimeError error = describe(bytecode, fault);
-    std::uint32_t emitted = 0; // before the fault
+    RuntimeError error = make_error(bytecode, fault);
+    std::uint32_t emitted = 0; // parameters evaluated before the fault
     for (const Instruction each :
          InstructionRange(bytecode.instructions, axiom.arguments, fault.instruction)) {
         emitted += each.opcode == Opcode::Emit ? 1 : 0;

@@ -17,10 +17,10 @@ namespace {
 /// Four binary32 values computed together: a vector type of GCC and Clang, on any machine.
 using Float4 = float __attribute__((vector_size(16)));
 
-/// The inputs of the terms of one entry.
+/// The parameters of a module that terms of entries may read.
 enum class TermInputs : std::uint8_t {
     None,  // no parameters are written
-    First, // no module stores more than one
+    First, // the first only: no module stores more than one
     Any,
 };
 
@@ -80,8 +80,8 @@ private:
                                         : run_wide<kInputs, true, 32>();
     }
 
-    /// Writes batches that cannot pass the limits without a check per module. A module near a limit
-    /// or a special one is written exactly.
+    /// Writes in batches that are short enough to need no check of the limits per module. A module
+    /// near a limit, or with a special entry, is written by run_exactly().
     template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
     bool run_wide() {
         while (place_.index < request_.end) {
@@ -121,7 +121,8 @@ private:
         std::memcpy(out, &values, sizeof values);
     }
 
-    /// Writes up to `batch` modules; returns how many: fewer if a special module comes next.
+    /// Writes up to `batch` modules; returns their number: fewer if a module with a special entry
+    /// comes next.
     template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
     std::uint64_t run_batch(std::uint64_t batch) {
         const C* in = word_.codes + place_.index;
@@ -191,8 +192,8 @@ private:
         return true;
     }
 
-    /// Writes the next `size` modules, 64 or the last ones. A run between two active modules is
-    /// moved by one copy of 64 codes.
+    /// Writes the next `size` modules: 64, or fewer at the end. A run between two active modules is
+    /// copied as 64 codes at once.
     template <TermInputs kInputs>
     bool write_block(const ActiveMask& mask, ActiveBits bits, unsigned size) {
         constexpr std::size_t kBlock = ActiveMask::kBlock;
@@ -290,7 +291,7 @@ private:
                 const std::uint32_t record = *records_++;
                 if (record != 0) {
                     entry = entries_ + row.base + record;
-                    modules = plan_.used_by(*entry);
+                    modules = plan_.replaced_modules(*entry);
                 }
             }
             codes_ = std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
@@ -379,7 +380,7 @@ bool evaluate_entry(const Plan& plan,
         return true;
     }
     const PlanInputs& inputs = plan.inputs();
-    const EvalFrame frame{matcher.formals_again(candidate, place), inputs.globals,
+    const EvalFrame frame{matcher.formals_after_search(candidate, place), inputs.globals,
                           static_cast<float>(keys.generation), inputs.steps};
     const bool draws_choice =
         candidate.stochastic && bytecode.settings.choice == ChoiceScope::Module;

@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// A stretch of modules and the room for their successors. Wide stores may spill up to the limits,
-/// never beyond: memory between the stretch's own part and its limits is written later or never.
+/// A range of modules and the room for their successors. Wide stores may write garbage up to the
+/// limits, never beyond: memory between the successors and the limits is written later or never.
 /// write_modules() advances `begin`, `codes`, `parameters` and `origins`.
 template <typename C>
 struct WriteRequest {
@@ -22,12 +22,12 @@ struct WriteRequest {
     float* parameters_limit = nullptr;
     Origin* origins = nullptr;        // one per code; null: none are kept
     const ActiveMask* mask = nullptr; // if set, runs of inactive modules are moved as blocks
-    bool writes_parameters = true;    // false: no module written stores a parameter
+    bool writes_parameters = true;    // false: no written module stores a parameter
 };
 
-/// Writes the successors of a stretch. Returns false if a parameter is not finite or a range is
-/// invalid; find_fault() finds it. `records` were written by count_active() if the request has a
-/// mask, else by count_modules().
+/// Writes the successors of the modules of `request`. Returns false if a parameter is not finite or
+/// a random range is invalid; find_fault() finds the module. `records` were written by
+/// count_active() if the request has a mask, else by count_modules().
 template <typename C, typename R>
 [[nodiscard]] bool write_modules(const Plan& plan,
                                  const PassKeys& keys,
@@ -37,7 +37,7 @@ template <typename C, typename R>
                                  const R* records);
 
 /// Evaluates the parameters of one entry for the module at `place`, in order, with evaluate().
-/// Returns false and sets `fault` if one has no value.
+/// Returns false and sets `fault` if one has no finite value.
 template <typename C>
 [[nodiscard]] bool evaluate_entry(const Plan& plan,
                                   const PassKeys& keys,

@@ -1,12 +1,11 @@
-// Mass properties after Crankshaw 2019, section 6.2, who takes every segment for a cylinder that
-// turns about its end: here it is the truncated cone that is drawn, which is his where the radii
-// are equal. Mass is Segment::mass, which is the volume of that cone by the density unless the
-// author gave it.
+// Mass properties after Crankshaw 2019, section 6.2. There a segment is a cylinder that turns about
+// its end; here it is the truncated cone that is drawn, which is the same if the radii are equal.
+// The mass is Segment::mass: the volume of the cone times the density unless the author gives it.
 //
 // Objects and polygons have no mass in the grammar, but a crown without its leaves bends too
-// little. They count as thin sheets of `surface_mass`: an object of size s as s^2 square metres,
-// half its length from its base; a polygon as its area, at the mean of its corners. The wind meets
-// half of the area, the mean over directions.
+// little. They are thin sheets of `surface_mass`: an object of size s has s^2 square metres, at
+// half its length; a polygon has its area, at the mean of its corners. Half of the area faces the
+// wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
 
 #include <glm/geometric.hpp>
@@ -21,11 +20,10 @@ namespace lsys {
 
 namespace {
 
-constexpr double kExposedShare = 0.5; // of a sheet's area facing the wind
-// 1/s^2: under its own load a tip sinks by 0.005 of the height of the plant, from where pose()
-// raises it.
+constexpr double kExposedShare = 0.5; // part of a sheet's area that faces the wind
+// 1/s^2: under its own load a tip sinks by 0.005 of the height of the plant; pose() raises it.
 constexpr double kGroundSpring = 2e3;
-constexpr double kRounding = 1e-6; // of the plant's height: error of places
+constexpr double kRounding = 1e-6; // rounding error of positions, relative to the plant's height
 
 double magnitude(float value) {
     const auto max_float = static_cast<double>(std::numeric_limits<float>::max());
@@ -51,7 +49,7 @@ glm::dvec3 heading_of(const glm::quat& frame) {
     return glm::normalize(q * (1.0 / std::sqrt(norm))) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// Sums over the segment, objects and polygons of a body: mass times place, area of sheets.
+/// Sums over the segment, objects and polygons of a body: mass times position, area of sheets.
 struct BodySums {
     glm::dvec3 first_moment{0.0};
     double sail = 0.0;
@@ -63,7 +61,7 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
         const std::uint32_t parent = rest.segments[segment].parent;
         return parent < segment ? parent : kNoSegment;
     };
-    // Children of each segment in order: those of s are children[ends[s] - count of s] ...
+    // Children of all segments, parent by parent: those of s end before children[ends[s]].
     std::vector<std::uint32_t> ends(std::size_t{count} + 1, 0);
     for (std::uint32_t s = 0; s < count; ++s) {
         const std::uint32_t parent = parent_of(s);
@@ -117,9 +115,9 @@ void add_segment(const Segment& segment, Body& body, BodySums& load) {
     body.heading = glm::vec3(axis);
     body.mass = magnitude(segment.mass);
     body.spring = magnitude(segment.spring);
-    // across (1 - a a^T) + along a a^T
-    body.inertia = point_inertia(body.mass * (cone.across - cone.along), axis);
-    body.inertia.add_diagonal(body.mass * cone.along);
+    // transverse (1 - a a^T) + axial a a^T
+    body.inertia = point_inertia(body.mass * (cone.transverse - cone.axial), axis);
+    body.inertia.add_diagonal(body.mass * cone.axial);
     load.first_moment = body.mass * cone.centre * axis;
     body.centre = cone.centre * axis;
     body.tip = length * axis;
@@ -144,9 +142,9 @@ void add_sheet(
     load.sail += kExposedShare * area;
 }
 
-/// Tips at rest above the ground may sink to it, less their radius; those in the soil that carry
-/// something above it stay at their depth; nothing holds the others. `carried`: kg beyond each
-/// body, with its own.
+/// Sets the contact of each body with the ground. A tip above the ground at rest may sink until its
+/// radius touches the ground; a tip below it that carries a tip above it is held at its depth;
+/// other tips are free. `carried`: mass of each body and its descendants, kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();
     const auto tip_height = [&](std::size_t b) {
@@ -183,17 +181,17 @@ UnitCone unit_cone(double length, double base_radius, double tip_radius) {
     const double b = tip_radius;
     const double squares = a * a + a * b + b * b;
     if (squares <= 0.0) {
-        return {.centre = length / 2.0, .across = length * length / 3.0, .along = 0.0};
+        return {.centre = length / 2.0, .transverse = length * length / 3.0, .axial = 0.0};
     }
-    // Integrals over the height of radius^2 times 1, height, height^2, and radius^2.
+    // Integrals over the height of radius^2 times 1, height, height^2 and radius^2.
     const double centre = length * (a * a + 2.0 * a * b + 3.0 * b * b) / (4.0 * squares);
     const double height_squared =
         length * length * (a * a + 3.0 * a * b + 6.0 * b * b) / (10.0 * squares);
     const double radius_squared =
         0.6 * (a * a * (a * a + a * b + b * b) + b * b * b * (a + b)) / squares;
     return {.centre = centre,
-            .across = height_squared + 0.25 * radius_squared,
-            .along = 0.5 * radius_squared};
+            .transverse = height_squared + 0.25 * radius_squared,
+            .axial = 0.5 * radius_squared};
 }
 
 Bodies make_bodies(const Skeleton& rest, double surface_mass) {
@@ -227,7 +225,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                        base;
             };
             glm::dvec3 sum(0.0);
-            glm::dvec3 normal(0.0); // Newell: twice the area long
+            glm::dvec3 normal(0.0); // by Newell's method; its length is twice the area
             for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
                 sum += corner(c);
                 normal += glm::cross(corner(c), corner(c + 1));
@@ -237,7 +235,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                       sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
         }
     }
-    std::vector<double> carried(out.bodies.size(), 0.0); // mass beyond a body
+    std::vector<double> carried(out.bodies.size(), 0.0); // mass of a body and its descendants
     for (std::size_t b = out.bodies.size(); b-- > 0;) {
         Body& body = out.bodies[b];
         glm::dvec3 moment = loads[b].first_moment;

@@ -1,5 +1,6 @@
-// A tip that stands above the ground at rest can always be out of it: its base is, and a level
-// segment has both ends at one height. Bases away from the parent's tip are raised by themselves.
+// A tip that is above the ground at rest can always be raised above it: its base is above the
+// ground, and the tip of a level segment is as high as its base. A base that is not at the tip of
+// its parent is raised on its own.
 #include "runtime/physics/impl/ground.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& sh
     if (!(length > 0.0)) {
         return turn;
     }
-    // The direction of a tip that hangs straight down is as good as any other.
+    // For a tip that hangs straight down any level direction will do.
     const double x = level > 1e-9 * length ? arm.x / level : 1.0;
     const double z = level > 1e-9 * length ? arm.z / level : 0.0;
     const double height = std::clamp((arm.y + depth) / length, -1.0, 1.0);

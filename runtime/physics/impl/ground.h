@@ -1,16 +1,17 @@
-// Ground: places on the plane y = 0 of what the springs of the ground (joints.h) leave in it.
+// Ground: raises onto the plane y = 0 the tips that the springs of the ground (joints.cpp) leave
+// below it.
 #pragma once
 
 #include "runtime/physics/impl/motion.h"
 
 namespace lsys {
 
-/// `turn` of a body whose base is displaced by `shift`, raised about a level axis until the tip is
-/// out of the ground, or straight up.
+/// The rotation `turn` of a body whose base is displaced by `shift`, turned upwards about a level
+/// axis until the tip is out of the ground, or until the body stands upright.
 [[nodiscard]] glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& shift);
 
-/// Raises bodies from root to tip. The others keep their rotation; a body that is not displaced
-/// by it is left bit by bit. Linear time.
+/// Raises bodies out of the ground, from root to tip. Other bodies keep their rotation; a body that
+/// is not displaced is unchanged bit by bit. Linear time.
 void rest_on_ground(const Bodies& plant, const Skeleton& rest, std::vector<BodyPose>& poses);
 
 } // namespace lsys

@@ -2,21 +2,21 @@
 // back: the articulated-body algorithm (Featherstone 2008, chapter 7) with ball joints, in absolute
 // angular velocities. Linear in the number of bodies, no recursion.
 //
-// Unknown are the spins w of the bodies; the base of a body moves with its parent, u = u_p + w_p x
-// r. Implicit Euler with the shape kept over the step is the minimum over w of
+// The unknowns are the spins w of the bodies; the base of a body moves with its parent, u = u_p +
+// w_p x r. Implicit Euler, with the shape kept during the step, is the minimum over w of
 //   sum of 1/2 (w, u) M (w, u) - (w, u) . (momentum + h force)         bodies
 //        + 1/2 (h c + h^2 k) |w - w_p|^2 + h k d . (w - w_p)           joints: damper, spring
 //        + 1/2 h^2 G |w|^2                                             weight and wind
-// where d is the joint's rotation vector. G is |g| |sum m r| over what the body carries, with each
-// child's whole load at the child's base, and so much again for the wind: the second derivative of
-// the weight's energy in absolute rotations has no coupling between bodies and is nowhere greater.
-// The second derivative of the spring's energy along a rotation is nowhere greater than k. So the
-// minimum lies downhill, however long the step. Forces::exactness replaces these bounds by the true
-// second derivatives.
+// where d is the joint's rotation vector. G is |g| |sum m r| over the body and its children, with
+// each child's whole load at the child's base, plus the same term for the force of the wind: the
+// second derivative of the weight's energy in absolute rotations has no coupling between bodies and
+// is nowhere greater than G. The second derivative of the spring's energy along a rotation is
+// nowhere greater than k. So the minimum has a lower energy, however long the step is.
+// Forces::exactness replaces these bounds by the true second derivatives.
 //
-// The ground is a spring 1/2 K depth^2 at the tips below it, with their force on all that carries
-// them; its second derivatives are bounded and made exact in the same way. With
-// Forces::own_load bases stand still and children are left out, so each joint is solved alone.
+// The ground is a spring 1/2 K depth^2 at each tip below it, whose force acts on all ancestors of
+// the tip; its second derivatives are bounded and made exact in the same way. With Forces::own_load
+// bases stand still and children are left out, so each joint is solved alone.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMinInertia = 1e-13;         // of the trace: bound of rounding
-constexpr double kMaxTurn = std::numbers::pi; // in a step: faster motion cannot be represented
+constexpr double kMinInertia = 1e-13;         // relative to the trace: a bound of rounding errors
+constexpr double kMaxTurn = std::numbers::pi; // per step: a larger rotation has no unique vector
 
 /// Quadratic forms of a body and of its joint.
 struct BodyForms {
@@ -40,8 +40,8 @@ struct BodyForms {
     glm::dvec3 push{0.0};
 };
 
-/// Adds `factor` times the second derivative, by rotations of `arm`, of the energy -arm . force of
-/// a force at its end. See Forces::exactness.
+/// Adds `factor` times the second derivative of the energy -arm . force of a force at the end of
+/// `arm`, by rotations of `arm`. See Forces::exactness.
 void add_stiffness(const glm::dvec3& arm,
                    const glm::dvec3& force,
                    double factor,
@@ -63,7 +63,7 @@ void add_stiffness(const glm::dvec3& arm,
 }
 
 /// Adds the contact of the tip, if it is in the ground or reaches it within the step: a spring
-/// along Y, whose force is that at the end of the step.
+/// along Y with its force at the end of the step.
 void add_contact(const Body& body,
                  const BodyMotion& motion,
                  const BodyPose& pose,
@@ -98,7 +98,7 @@ void add_contact(const Body& body,
     }
 }
 
-/// The forms of a body that neither moves nor feels anything but its own rotation.
+/// The forms of a body for Forces::own_load: its base stands still, and it carries nothing.
 BodyForms own_load_forms(const Body& body,
                          const BodyMotion& motion,
                          const glm::dquat& turn,
@@ -160,13 +160,13 @@ BodyForms own_forms(const Body& body,
     return own;
 }
 
-/// Adds the form of a child, whose base is at `offset` from its parent's, to its parent.
+/// Adds the form of a child to its parent. `offset`: from the base of the parent to the child's.
 void add_child(const Reduced& child,
                const glm::dvec3& offset,
                const Forces& forces,
                BodyForms& own) {
-    // M = spin_velocity + [r] velocity_velocity, rows; then
-    // spin_spin + M^T-like terms of u = u_p + w_p x r, see the head of this file.
+    // Substitutes u = u_p + w_p x r (see the top of this file). M = spin_velocity + [r]
+    // velocity_velocity, by rows.
     const Rows n = rows_of(child.velocity_velocity);
     const std::array<glm::dvec3, 3>& b = child.spin_velocity.row;
     const std::array<glm::dvec3, 3> m = {b[0] - offset.z * n.row[1] + offset.y * n.row[2],
@@ -212,11 +212,14 @@ void eliminate(const BodyForms& own,
     joint.add_diagonal(h * forces.damping + hooke);
     Rows twist; // the joint's coupling is joint + twist
     if (forces.exactness > 0.0) {
-        // Half the square of exp(v) exp(bend) has the second derivative x cot x, x = |bend| / 2,
-        // across the bend; and exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
+        // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
+        // directions normal to the bend, with x = |bend| / 2; and
+        // exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
         const double half = 0.5 * glm::length(bend);
-        const double across = half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
-        const double more = half > 1e-3 ? (1.0 - across) / (4.0 * half * half) : 1.0 / 12.0;
+        const double normal_stiffness =
+            half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
+        const double more =
+            half > 1e-3 ? (1.0 - normal_stiffness) / (4.0 * half * half) : 1.0 / 12.0;
         joint += scaled(point_inertia(-more, bend), forces.exactness * hooke);
         twist = cross_rows(0.5 * forces.exactness * hooke * bend);
     }
@@ -227,7 +230,7 @@ void eliminate(const BodyForms& own,
         inertia.add_diagonal(more);
         sum.add_diagonal(more);
     }
-    if (!(sum.trace() > 0.0)) { // no inertia, spring or force: it moves with its parent
+    if (!(sum.trace() > 0.0)) { // no inertia, spring or force: the body moves with its parent
         joint.add_diagonal(1.0);
         sum.add_diagonal(1.0);
     }
@@ -237,8 +240,8 @@ void eliminate(const BodyForms& own,
     const Rows from_velocity = product(inverse_sum, own.spin_velocity);
     Rows from_parent = product(inverse_sum, rows_of(joint));
 
-    // joint - joint (inertia + joint)^-1 joint = joint (inertia + joint)^-1 inertia: nothing
-    // cancels
+    // joint - joint (inertia + joint)^-1 joint = joint (inertia + joint)^-1 inertia: the right side
+    // has no cancellation.
     reduced.spin_spin = symmetric_product(from_parent, rows_of(inertia));
     const glm::dvec3 bent = inverse_sum * torque;
     reduced.spin = inertia * bent;

@@ -33,8 +33,8 @@ void move_body(PlantBodies& plant,
                Energies& sum) {
     const Body& body = plant.rest.bodies[b];
     BodyMotion& motion = plant.motion[b];
-    const glm::dvec3 way = duration * plant.solution[b].spin;
-    const glm::dquat turn = glm::normalize(rotation_of(way) * plant.poses[b].turn);
+    const glm::dvec3 rotation = duration * plant.solution[b].spin;
+    const glm::dquat turn = glm::normalize(rotation_of(rotation) * plant.poses[b].turn);
     glm::dvec3 shift(0.0);
     const glm::dvec3 spin = speed * plant.solution[b].spin;
     motion.spin = spin;
@@ -57,21 +57,21 @@ void move_body(PlantBodies& plant,
     const glm::dvec3 centre = turn * body.centre;
     const glm::dvec3 arm_velocity = glm::cross(spin, centre);
     const glm::dvec3 own_spin = glm::conjugate(turn) * spin;
-    double motion_term = glm::dot(own_spin, body.inertia * own_spin);
-    glm::dvec3 way_down = centre - body.centre;
+    double kinetic_term = glm::dot(own_spin, body.inertia * own_spin);
+    glm::dvec3 displacement = centre - body.centre;
     if (!forces.own_load) {
-        motion_term += body.mass * glm::dot(motion.velocity, motion.velocity + 2.0 * arm_velocity);
-        way_down += shift;
+        kinetic_term += body.mass * glm::dot(motion.velocity, motion.velocity + 2.0 * arm_velocity);
+        displacement += shift;
     }
-    sum.motion += 0.5 * motion_term;
+    sum.kinetic += 0.5 * kinetic_term;
     double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
     if (forces.ground && body.ground_spring > 0.0) {
         const double depth = std::max(ground_depth(body, plant.next_poses[b]), 0.0);
         stretched += 0.5 * body.ground_spring * depth * depth;
     }
-    const double lifted = -body.mass * glm::dot(forces.gravity, way_down);
-    sum.position += stretched + lifted;
-    sum.terms += stretched + std::abs(lifted);
+    const double lifted = -body.mass * glm::dot(forces.gravity, displacement);
+    sum.potential += stretched + lifted;
+    sum.potential_magnitude += stretched + std::abs(lifted);
     if (forces.windy) {
         const glm::dvec3 velocity = motion.velocity + arm_velocity;
         const BodyPose& before = plant.poses[b];
@@ -79,7 +79,7 @@ void move_body(PlantBodies& plant,
         sum.work +=
             wind_drag(body, turn, velocity, forces) * glm::dot(forces.wind - velocity, moved);
     }
-    sum.turn = std::max(sum.turn, glm::length(way));
+    sum.turn = std::max(sum.turn, glm::length(rotation));
 }
 
 } // namespace
@@ -97,9 +97,9 @@ Energies move_bodies(
                            });
     Energies total;
     for (const Energies& sum : sums) {
-        total.motion += sum.motion;
-        total.position += sum.position;
-        total.terms += sum.terms;
+        total.kinetic += sum.kinetic;
+        total.potential += sum.potential;
+        total.potential_magnitude += sum.potential_magnitude;
         total.work += sum.work;
         total.turn = std::max(total.turn, sum.turn);
     }

@@ -1,4 +1,4 @@
-// Motion: places and velocities of the bodies of a plant, and the forces on them in a step.
+// Motion: positions and velocities of the bodies of a plant, and the forces on them in a step.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -19,12 +19,12 @@ struct Forces {
     glm::dvec3 gravity{0.0}; // m/s^2
     double damping = 0.0;    // N m s/rad
     glm::dvec3 wind{0.0};    // m/s
-    double drag = 0.0;       // half the air's density times the drag coefficient
+    double drag = 0.0;       // half the density of air times the drag coefficient
     bool windy = false;
     bool ground = false;
-    bool own_load = false; // bodies do not feel what they carry
-    /// Stiffness of weight, wind and springs: 0: the greatest of all directions; 1: the true one,
-    /// negative in some directions; between: interpolated.
+    bool own_load = false; // a joint bears its own body only, not the descendants
+    /// Second derivatives of weight, wind and springs. 0: the greatest of all directions; 1: the
+    /// true ones, negative in some directions; between: interpolated.
     double exactness = 0.0;
 };
 
@@ -39,10 +39,10 @@ struct BodyMotion {
     glm::dvec3 bend{0.0};     // of its joint: rotation vector from rest, relative to the parent
     glm::dvec3 spin{0.0};     // rad/s
     glm::dvec3 velocity{0.0}; // of the base, m/s
-    glm::dvec3 pull{0.0};     // acceleration of the base if no spin changes, m/s^2
+    glm::dvec3 pull{0.0};     // centripetal acceleration of the base, m/s^2
 };
 
-/// Angular velocities at the end of the step are offset + from_parent * (the parent's) -
+/// The angular velocity at the end of the step: offset + from_parent * (that of the parent) -
 /// from_velocity * (velocity of the base).
 struct JointSolution {
     glm::dvec3 offset{0.0};
@@ -51,15 +51,15 @@ struct JointSolution {
     glm::dvec3 spin{0.0}; // the result
 };
 
-/// A body and all beyond it, as felt by its parent: a quadratic form of the parent's
-/// spin and of the velocity of the body's base, and a linear form.
+/// A body and its descendants, as they act on the parent: a quadratic and a linear form of the
+/// parent's spin and of the velocity of the body's base.
 struct Reduced {
     Symmetric spin_spin;
     Rows spin_velocity;
     Symmetric velocity_velocity;
     glm::dvec3 spin{0.0};
     glm::dvec3 velocity{0.0};
-    glm::dvec3 push{0.0}; // N, of wind and ground, on the body and all beyond it
+    glm::dvec3 push{0.0}; // N, force of wind and ground on the body and its descendants
 };
 
 struct PlantBodies {
@@ -84,25 +84,25 @@ struct PlantBodies {
     return -(body.clearance + pose.shift.y + (pose.turn * body.tip - body.tip).y);
 }
 
-/// Solution::spin of all bodies: the velocities at the end of an implicit step, if the plant kept
-/// its shape. Spoils Motion's velocity.
+/// Computes JointSolution::spin of all bodies: the angular velocities at the end of an implicit
+/// step in which the plant keeps its shape. Overwrites BodyMotion::velocity.
 void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 
 struct Energies {
-    double motion = 0.0;
-    double position = 0.0; // springs, weight and ground; 0 at rest
-    double terms = 0.0;    // sum of the magnitudes of the terms of `position`
-    double work = 0.0;     // by the wind
-    double turn = 0.0;     // rad, max
+    double kinetic = 0.0;
+    double potential = 0.0;           // springs, weight and ground; 0 at rest
+    double potential_magnitude = 0.0; // sum of the magnitudes of the terms of `potential`
+    double work = 0.0;                // work of the wind
+    double turn = 0.0;                // rad, max rotation of a body
 };
-/// Turns each body by `duration` seconds of the solved spins, into next_poses, and fills Motion for
-/// that place and `speed` times these spins.
+/// Turns each body by the solved spin times `duration` seconds, into next_poses, and computes
+/// BodyMotion for these poses and the spins times `speed`.
 [[nodiscard]] Energies move_bodies(
     PlantBodies& plant, const Forces& forces, double duration, double speed, Workers& workers);
 /// Multiplies all velocities by `factor`.
 void scale_velocities(PlantBodies& plant, double factor, Workers& workers);
 
-/// Factor of accelerations v^2 / r, which falls to 0 where a body turns too far in a step for them.
+/// Factor of centrifugal accelerations; it falls towards 0 for rotations too large for a step.
 [[nodiscard]] inline double centrifugal_factor(const glm::dvec3& spin, double step) {
     return 1.0 / (1.0 + step * step * glm::dot(spin, spin));
 }

@@ -1,5 +1,5 @@
 // Rotations of the physics in double precision: unit quaternions and rotation vectors (axis times
-// angle in radians). A vector of zeros is exactly the identity, both ways.
+// angle in radians). Conversions take a zero vector to exactly the identity, and back.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -13,7 +13,7 @@ namespace lsys {
 /// The rotation by |v| about v.
 [[nodiscard]] inline glm::dquat rotation_of(const glm::dvec3& v) {
     const double half_squared = 0.25 * glm::dot(v, v);
-    if (half_squared < 0.01) { // series of cos(x) and sin(x) / x; the rest is below 2^-53
+    if (half_squared < 0.01) { // series of cos(x) and sin(x) / x; omitted terms are below 2^-53
         const double x = half_squared;
         const double cosine =
             1.0 -

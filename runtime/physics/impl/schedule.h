@@ -28,7 +28,7 @@ public:
         }
     }
     /// Calls `work` for all bodies, children before parents: within a piece the bodies may depend
-    /// on those behind them.
+    /// on those after them.
     template <typename Work>
     void inward(Workers& workers, const Work& work) const {
         for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
@@ -37,15 +37,15 @@ public:
     }
 
 private:
-    /// A wide depth, whose bodies are independent of each other, or a stretch of narrow ones.
+    /// One wide depth, whose bodies are independent of each other, or several narrow depths.
     struct Run {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
         std::uint32_t first_piece = 0;
         std::uint32_t piece_count = 1;
     };
-    static constexpr std::uint32_t kWide = 256;     // bodies worth waking threads for
-    static constexpr std::uint32_t kPieceSize = 64; // bodies: some 20 microseconds
+    static constexpr std::uint32_t kWide = 256;     // min bodies of a depth for several threads
+    static constexpr std::uint32_t kPieceSize = 64; // bodies of a piece: some 20 microseconds
 
     template <typename Work>
     static void do_run(Workers& workers, const Run& run, const Work& work) {

@@ -95,10 +95,10 @@ struct Symmetric {
     return mean + 2.0 * spread * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
 }
 
-/// The inverse of a positive definite matrix by L D L^T. A pivot that rounding has made too small
-/// is raised, so that the result is always positive definite. `a` has a positive trace.
+/// The inverse of a positive definite matrix by L D L^T. A pivot that is too small by rounding is
+/// raised, so that the result is always positive definite. Precondition: the trace is positive.
 [[nodiscard]] inline Symmetric inverse(const Symmetric& a) {
-    constexpr double kMinPivot = 1e-15; // of the trace
+    constexpr double kMinPivot = 1e-15; // relative to the trace
     const double scale = 1.0 / a.trace();
     const Symmetric s = scaled(a, scale);
     const double d0 = std::max(s.xx, kMinPivot);
@@ -108,7 +108,7 @@ struct Symmetric {
     const double e21 = s.yz - l20 * s.xy;
     const double l21 = e21 / d1;
     const double d2 = std::max(s.zz - l20 * s.xz - l21 * e21, kMinPivot);
-    const double m20 = l10 * l21 - l20; // of the inverse of L
+    const double m20 = l10 * l21 - l20; // element of the inverse of L
     const double i0 = scale / d0;
     const double i1 = scale / d1;
     const double i2 = scale / d2;

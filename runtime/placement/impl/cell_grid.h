@@ -32,7 +32,7 @@ public:
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;
     }
-    /// Distance in m from the origin within which cells have a number, less `cells` cells.
+    /// Distance in m from the origin within which cells have a number, minus `cells` cells.
     [[nodiscard]] double reach(std::int64_t cells) const {
         return side_ * static_cast<double>(half_ - cells);
     }
@@ -46,7 +46,7 @@ public:
 private:
     double side_;
     std::uint32_t place_bits_;
-    std::int64_t half_; // columns on each side of 0
+    std::int64_t half_; // number of columns on each side of 0
 };
 
 /// A rectangle of cells from `first` on.

@@ -14,12 +14,12 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMinSide = 0.25;     // m, of a region: several steps of binary32 anywhere
+constexpr double kMinSide = 0.25;     // m, of a region: several ulps of any binary32 coordinate
 constexpr double kMinSpacing = 0.001; // m
 /// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
-/// Trees of a Poisson disk sample in a square of the spacing: random sequential adsorption covers
-/// 0.547 of the plane (Tanemura 1979) with discs of half the spacing.
+/// Upper estimate of the trees of a Poisson disk sample per squared spacing: random sequential
+/// adsorption covers 0.547 of the plane (Tanemura 1979) with discs of half the spacing.
 constexpr double kDiskTrees = 0.70;
 
 struct Bound {
@@ -34,16 +34,16 @@ bool within(const Bound& bound) {
 }
 
 Result<void> check_growth(std::size_t number, const SpeciesGrowth& growth) {
-    const auto wide = [](float value) { return static_cast<double>(value); };
+    const auto to_double = [](float value) { return static_cast<double>(value); };
     const std::array<Bound, 8> bounds{
-        Bound{"greatest radius", wide(growth.max_radius), 0.01, 1000.0},
-        Bound{"growth rate", wide(growth.rate), 1.0e-4, wide(growth.max_radius)},
-        Bound{"tolerance of shade", wide(growth.tolerance), 0.0, 1.0},
-        Bound{"spread of vigour", wide(growth.vigour_spread), 0.0, 0.9},
+        Bound{"greatest radius", to_double(growth.max_radius), 0.01, 1000.0},
+        Bound{"growth rate", to_double(growth.rate), 1.0e-4, to_double(growth.max_radius)},
+        Bound{"tolerance of shade", to_double(growth.tolerance), 0.0, 1.0},
+        Bound{"spread of vigour", to_double(growth.vigour_spread), 0.0, 0.9},
         Bound{"lifespan", static_cast<double>(growth.lifespan), 1.0, kMaxYears},
         Bound{"maturity", static_cast<double>(growth.maturity), 1.0, 2.0 * kMaxYears},
-        Bound{"number of seeds", wide(growth.seeds), 0.0, kMaxSeeds - 2},
-        Bound{"distance of seeds", wide(growth.seed_distance), 0.0, 1.0e5},
+        Bound{"number of seeds", to_double(growth.seeds), 0.0, kMaxSeeds - 2},
+        Bound{"distance of seeds", to_double(growth.seed_distance), 0.0, 1.0e5},
     };
     for (const Bound& bound : bounds) {
         if (!within(bound)) {

@@ -1,7 +1,7 @@
-// Circles of very different sizes: each plant is listed in every square of a grid that its circle's
-// bounding box touches, so circles that meet share a square. The squares are as large as the ground
-// for one plant or as the mean box, whichever is larger: there are at most as many squares as
-// plants, and on average a few entries a plant.
+// A grid for circles of very different sizes: each plant is listed in every square that the
+// bounding box of its circle touches, so circles that meet share a square. The area of a square is
+// the ground per plant or the mean box, whichever is larger: there are at most as many squares as
+// plants, and on average a few entries per plant.
 #include "runtime/placement/impl/crowding.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ private:
     double side_ = 1.0;
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
-    LargeVector<std::uint64_t> starts_; // of entries by square; one more at the end
+    LargeVector<std::uint64_t> starts_; // first entry of each square; one more at the end
     LargeVector<std::uint32_t> entries_;
 };
 
@@ -53,7 +53,7 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     }
     const double square_area =
         std::max(region.area(), boxes) / std::max(1.0, static_cast<double>(plants.size()));
-    // at most as many squares as plants, also on a long and narrow ground
+    // At most as many squares as plants, also on long and narrow ground.
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;
@@ -74,7 +74,7 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     std::uint64_t sum = 0;
     for (std::uint64_t& start : starts_) {
         sum += start;
-        start = sum; // the end; filled from there down
+        start = sum; // the end of the square's entries, which are filled backwards
     }
     entries_.resize(sum);
     for (std::size_t i = 0; i < plants.size(); ++i) {

@@ -1,7 +1,7 @@
 // DensityCells: a density map on an unbounded grid. A cell is 4 by 4 squares with a place each; a
-// place has a tree if its rank is below the grey there. The 16 ranks of a cell are one of each
-// sixteenth, in a drawn order, so that 16 places of one grey hold nearly the same number of trees
-// everywhere (stratified sampling), which independent ranks would not.
+// place has a tree if its rank is below the grey at the place. The 16 ranks of a cell are one from
+// each sixteenth of [0, 1), in random order, so that 16 places of equal grey have nearly the same
+// number of trees in every cell (stratified sampling), unlike independent ranks.
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kSquares = 4; // along each side of a cell
 
 using Order = std::array<std::uint8_t, kPlaces>;
 
-/// A drawn order of 0 ... 15 (Knuth, TAOCP volume 2, algorithm 3.4.2 P).
+/// A random order of 0 ... 15 (Knuth, TAOCP volume 2, algorithm 3.4.2 P).
 Order draw_order(std::uint64_t key, std::uint32_t cell) {
     Order order;
     for (std::uint32_t i = 0; i < kPlaces; ++i) {

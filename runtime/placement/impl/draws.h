@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, v
 inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death
 /// Blocks at a cell's number.
 inline constexpr std::uint32_t kCellBlock = 8; // to kCellBlock + 3: a count, or an order of 16
-/// Blocks at a step of PoissonDisk: the point to continue from; then one per attempt.
+/// Blocks at a step of PoissonDisk: one for the active point, then one per two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;
 /// Blocks at a plant's number, one per seed and year.
 inline constexpr std::uint32_t kSeedBlock = 0x80000000u;
@@ -41,7 +41,7 @@ placement_draws(std::uint64_t key, std::uint64_t position, std::uint32_t block) 
 }
 
 /// A coordinate in [lowest, lowest + side), also after rounding to binary32. Precondition: `side`
-/// is several steps of binary32.
+/// is several ulps of binary32.
 [[nodiscard]] inline float coordinate_within(double lowest, double side, std::uint32_t word) {
     const auto at = static_cast<float>(lowest + side * unit(word));
     if (static_cast<double>(at) < lowest) {

@@ -1,10 +1,11 @@
 // DensityMap: a density map turned into places by error diffusion (Floyd and Steinberg 1976, "An
 // adaptive algorithm for spatial greyscale"), as Deussen et al. 1998, "Realistic modeling and
-// rendering of plant ecosystems", section 4.2, place plants. The region is cut into squares in
-// which white means one tree. Each square is given the mean of the map over it plus the error of
-// its neighbours; half a tree or more becomes one, at a drawn place in the square. The threshold is
-// drawn around a half and rows run alternately forward and back (Ulichney 1988, "Dithering with
-// blue noise"), which breaks up the patterns of plain error diffusion and changes no sum.
+// rendering of plant ecosystems", section 4.2, place plants. The region is divided into squares in
+// which white means one tree. The value of a square is the mean of the map over it plus the error
+// of its neighbours; half a tree or more becomes one, at a random place in the square. The
+// threshold is random around a half and rows run alternately forward and back (Ulichney 1988,
+// "Dithering with blue noise"), which breaks up the patterns of plain error diffusion and changes
+// no sum.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"
 #include "runtime/placement/impl/methods.h"
@@ -43,7 +44,7 @@ Squares squares_of(const Region& region, double density) {
 LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Squares& squares) {
     const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
     LargeVector<std::uint32_t> chosen;
-    // a square of margin on each side takes the error beyond the border
+    // A margin square on each side holds the error that is passed beyond the border.
     std::vector<double> error(squares.columns + 2);
     std::vector<double> next_error(squares.columns + 2);
     for (std::uint32_t row = 0; row < squares.rows; ++row) {
@@ -61,7 +62,7 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
             const std::uint32_t number = row * squares.columns + column;
             const double wanted = trees + error[here];
             double left = wanted;
-            if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // else no threshold is as low
+            if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // else below every threshold
                 const double threshold =
                     0.5 + kThresholdSpan *
                               (unit(placement_draws(options.key, number, kPlaceBlock)[3]) - 0.5);

@@ -1,14 +1,15 @@
 // PoissonCells: a Poisson disk sample of the whole plane, any region of which can be made alone.
-// Each cell of an unbounded grid holds 16 candidates with drawn ranks. In a round, candidates whose
-// rivals of lower rank within the spacing are all gone are taken, and their rivals go (Luby 1986,
-// "A simple parallel algorithm for the maximal independent set problem"; after enough rounds this
-// gives the same as taking candidates in order of rank). Only kRounds rounds are made, so that a
-// candidate depends on no other farther than 2 kRounds - 1 spacings; undecided ones then stay
-// without a tree: after 6 rounds 2 of 316,000 trees were missing, after 7 none.
+// Each cell of an unbounded grid holds 16 candidates with random ranks. Candidates closer than the
+// spacing are rivals. A round accepts the candidates whose rivals of lower rank have all been
+// rejected, and rejects their rivals (Luby 1986, "A simple parallel algorithm for the maximal
+// independent set problem"; after enough rounds the result is that of accepting candidates in order
+// of rank). There are only kRounds rounds, so that a candidate depends on no other farther than
+// 2 kRounds - 1 spacings; candidates that are then undecided get no tree: after 6 rounds 2 of
+// 316,000 trees were missing, after 7 none.
 //
 // The rounds are not made one after the other: with candidates in order of rank, the round in which
-// each is taken or goes follows from those before it (Blelloch, Fineman, Shun 2012, "Greedy
-// sequential maximal independent set and matching are parallel on average").
+// one is accepted or rejected follows from the candidates before it (Blelloch, Fineman, Shun 2012,
+// "Greedy sequential maximal independent set and matching are parallel on average").
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
@@ -26,19 +27,19 @@ namespace {
 constexpr std::uint32_t kPlaceBits = 4;
 constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
-constexpr std::int64_t kHalo = 2 * kRounds - 1; // cells around a block that it depends on
+constexpr std::int64_t kHalo = 2 * kRounds - 1; // width in cells of the ring a block depends on
 constexpr std::int64_t kBlock = 64;             // cells along each side of a block
 /// Cells are wider than the spacing by the max rounding error of two candidates within 2^13 cells
 /// of the origin, so rivals are in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
-constexpr std::uint8_t kUndecided = 0xFF; // a round that never comes
+constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: neither accepted nor rejected
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
-// Quarter cells to each side that may hold a rival within the spacing.
+// Distance in quarter cells within which a rival may be.
 constexpr std::int64_t kNeighbourQuarters = 2;
 
-/// A candidate that is taken, and its round.
-struct Taken {
+/// A candidate that is accepted, and its round.
+struct Accepted {
     float x = kNowhere;
     float z = kNowhere;
     std::uint32_t round = kUndecided;
@@ -52,9 +53,9 @@ public:
 
     /// Decides on all candidates of `cells`.
     void decide(const CellRange& cells);
-    /// Whether a candidate is taken. Candidates count from the first cell on, by rows.
-    [[nodiscard]] bool is_taken(std::uint32_t candidate) const {
-        return taken_[candidate] != kUndecided;
+    /// Whether a candidate is accepted. Candidates count from the first cell on, by rows.
+    [[nodiscard]] bool is_accepted(std::uint32_t candidate) const {
+        return accepted_in_[candidate] != kUndecided;
     }
     [[nodiscard]] glm::vec2 place(std::uint32_t candidate) const { return places_[candidate]; }
 
@@ -68,12 +69,12 @@ private:
         const double dz = static_cast<double>(places_[a].y) - static_cast<double>(places_[b].y);
         return dx * dx + dz * dz < squared_;
     }
-    /// Index in taken_at_ of the quarter that `candidate` lies in.
+    /// Index in accepted_at_ of the quarter that `candidate` lies in.
     [[nodiscard]] std::size_t quarter_of(std::uint32_t candidate) const {
         const std::int64_t cell = candidate / kCandidates;
         const std::int64_t column = 2 * (cell % cells_.columns) + (quarters_[candidate] & 1);
         const std::int64_t row = 2 * (cell / cells_.columns) + (quarters_[candidate] >> 1);
-        return static_cast<std::size_t>((row + kNeighbourQuarters) * quarters_a_row_ + column +
+        return static_cast<std::size_t>((row + kNeighbourQuarters) * quarters_per_row_ + column +
                                         kNeighbourQuarters);
     }
 
@@ -83,15 +84,15 @@ private:
     CellRange cells_;
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
-    std::vector<std::uint8_t> quarters_; // of its cell: the higher half in x is 1, in z 2
+    std::vector<std::uint8_t> quarters_; // of the cell: bit 0: upper half in x; bit 1: in z
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
-    std::vector<std::uint32_t> order_before_;
-    std::vector<std::uint8_t> taken_; // the round in which a candidate is taken
-    std::vector<std::uint8_t> gone_;  // the round in which it is rejected
+    std::vector<std::uint32_t> previous_order_;
+    std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
+    std::vector<std::uint8_t> rejected_in_; // the round in which it is rejected
     /// The cells' quarters, by rows, kNeighbourQuarters more on each side. A quarter's diagonal is
-    /// shorter than the spacing, so at most one candidate is taken in it.
-    std::vector<Taken> taken_at_;
-    std::int64_t quarters_a_row_ = 0;
+    /// shorter than the spacing, so at most one candidate is accepted in it.
+    std::vector<Accepted> accepted_at_;
+    std::int64_t quarters_per_row_ = 0;
 };
 
 void PoissonBlock::draw_candidates() {
@@ -131,14 +132,14 @@ void PoissonBlock::sort_by_rank() {
             start = sum;
             sum += count;
         }
-        order_.swap(order_before_);
-        for (const std::uint32_t candidate : order_before_) {
+        order_.swap(previous_order_);
+        for (const std::uint32_t candidate : previous_order_) {
             order_[starts[(ranks_[candidate] >> shift) % kDigits]++] = candidate;
         }
     }
 }
 
-/// The first round in which all rivals of lower rank are gone; kUndecided if one never is.
+/// The first round in which all rivals of lower rank are rejected; kUndecided if one never is.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;
     const std::int64_t column = cell % cells_.columns;
@@ -153,8 +154,8 @@ std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
         for (std::uint32_t other = begin; other < end; ++other) {
             const bool lower = ranks_[other] < ranks_[candidate] ||
                                (ranks_[other] == ranks_[candidate] && other < candidate);
-            if (lower && gone_[other] > last && are_rivals(candidate, other)) {
-                last = gone_[other]; // kUndecided is the max
+            if (lower && rejected_in_[other] > last && are_rivals(candidate, other)) {
+                last = rejected_in_[other]; // kUndecided is the max
             }
         }
     }
@@ -165,25 +166,25 @@ void PoissonBlock::decide_one(std::uint32_t candidate) {
     const std::size_t quarter = quarter_of(candidate);
     const auto x = static_cast<double>(places_[candidate].x);
     const auto z = static_cast<double>(places_[candidate].y);
-    std::uint32_t gone = kUndecided;
-    const auto row_size = static_cast<std::size_t>(quarters_a_row_);
-    const Taken* row =
-        taken_at_.data() + quarter - kNeighbourQuarters * row_size - kNeighbourQuarters;
+    std::uint32_t rejected = kUndecided;
+    const auto row_size = static_cast<std::size_t>(quarters_per_row_);
+    const Accepted* row =
+        accepted_at_.data() + quarter - kNeighbourQuarters * row_size - kNeighbourQuarters;
     for (std::int64_t i = 0; i <= 2 * kNeighbourQuarters; ++i, row += row_size) {
         for (std::int64_t j = 0; j <= 2 * kNeighbourQuarters; ++j) {
             const double dx = static_cast<double>(row[j].x) - x;
             const double dz = static_cast<double>(row[j].z) - z;
-            gone = std::min(gone, dx * dx + dz * dz < squared_ ? row[j].round : kUndecided);
+            rejected = std::min(rejected, dx * dx + dz * dz < squared_ ? row[j].round : kUndecided);
         }
     }
-    gone_[candidate] = static_cast<std::uint8_t>(gone);
-    if (gone != kUndecided) {
+    rejected_in_[candidate] = static_cast<std::uint8_t>(rejected);
+    if (rejected != kUndecided) {
         return;
     }
-    const std::uint8_t taken = round_without_rivals(candidate);
-    taken_[candidate] = taken;
-    if (taken != kUndecided) {
-        taken_at_[quarter] = {places_[candidate].x, places_[candidate].y, taken};
+    const std::uint8_t accepted = round_without_rivals(candidate);
+    accepted_in_[candidate] = accepted;
+    if (accepted != kUndecided) {
+        accepted_at_[quarter] = {places_[candidate].x, places_[candidate].y, accepted};
     }
 }
 
@@ -194,13 +195,14 @@ void PoissonBlock::decide(const CellRange& cells) {
     places_.resize(count);
     ranks_.resize(count);
     order_.resize(count);
-    order_before_.resize(count);
+    previous_order_.resize(count);
     quarters_.resize(count);
-    taken_.assign(count, kUndecided);
-    gone_.assign(count, kUndecided);
-    quarters_a_row_ = 2 * (cells.columns + kNeighbourQuarters);
-    taken_at_.assign(
-        static_cast<std::size_t>(quarters_a_row_ * 2 * (cells.rows + kNeighbourQuarters)), Taken{});
+    accepted_in_.assign(count, kUndecided);
+    rejected_in_.assign(count, kUndecided);
+    quarters_per_row_ = 2 * (cells.columns + kNeighbourQuarters);
+    accepted_at_.assign(
+        static_cast<std::size_t>(quarters_per_row_ * 2 * (cells.rows + kNeighbourQuarters)),
+        Accepted{});
     draw_candidates();
     sort_by_rank();
     for (const std::uint32_t candidate : order_) {
@@ -218,12 +220,12 @@ Result<void> place_poisson_cells(const PlacementJob& job, Placement& placement) 
         return range.error();
     }
     const CellRange& cells = range.value();
-    const std::int64_t blocks_a_row = (cells.columns + kBlock - 1) / kBlock;
+    const std::int64_t blocks_per_row = (cells.columns + kBlock - 1) / kBlock;
     const std::int64_t block_rows = (cells.rows + kBlock - 1) / kBlock;
     const auto make_block = [&](std::uint64_t number, TreeChunk& chunk) {
         const auto index = static_cast<std::int64_t>(number);
-        const std::int64_t left = index % blocks_a_row * kBlock;
-        const std::int64_t top = index / blocks_a_row * kBlock;
+        const std::int64_t left = index % blocks_per_row * kBlock;
+        const std::int64_t top = index / blocks_per_row * kBlock;
         const std::int64_t columns = std::min(kBlock, cells.columns - left);
         const std::int64_t rows = std::min(kBlock, cells.rows - top);
         const Cell first{cells.first.column + left, cells.first.row + top};
@@ -237,7 +239,7 @@ Result<void> place_poisson_cells(const PlacementJob& job, Placement& placement) 
                 const std::uint32_t tree = grid.first_number({first.column + x, first.row + z});
                 for (std::uint32_t i = 0; i < kCandidates; ++i) {
                     const glm::vec2 place = block.place(candidate + i);
-                    if (block.is_taken(candidate + i) &&
+                    if (block.is_accepted(candidate + i) &&
                         options.region.contains(place.x, place.y)) {
                         job.maker.make(tree + i, place.x, place.y, chunk);
                     }
@@ -245,7 +247,7 @@ Result<void> place_poisson_cells(const PlacementJob& job, Placement& placement) 
             }
         }
     };
-    collect_trees(job.workers, static_cast<std::uint64_t>(blocks_a_row * block_rows), make_block,
+    collect_trees(job.workers, static_cast<std::uint64_t>(blocks_per_row * block_rows), make_block,
                   placement);
     return {};
 }

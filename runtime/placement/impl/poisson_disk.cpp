@@ -1,8 +1,8 @@
-// PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). A list of
-// active points; around one of them, drawn, some 30 points are tried in the ring from r to 2r; one
-// that is at least r from all others joins, and a point whose ring gave none leaves the list. Cells
-// of side r / sqrt(2) hold at most one point each. The algorithm is serial; only species and
-// heights are found by all threads.
+// PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). Around a random
+// point of a list of active points, some 30 points are tried in the ring from r to 2r; the first
+// that is at least r from all others is added to the list, and an active point without a success
+// leaves it. Cells of side r / sqrt(2) hold at most one point each. The algorithm is serial; only
+// species and heights are computed by all threads.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
 
@@ -19,10 +19,11 @@ namespace lsys {
 
 namespace {
 
-/// Points tried, two per block of draws, in the square around the ring, which avoids sines. 0.589
-/// of them are in the ring: 30.6 on average, for the paper's k = 30.
+/// Blocks of draws per active point, of two attempts each. Attempts are in the square around the
+/// ring, which avoids sines; 0.589 of them are in the ring: 30.6 on average, for the paper's k =
+/// 30.
 constexpr std::uint32_t kBlocks = 26;
-constexpr std::int64_t kReach = 2; // cells around one that the spacing reaches into
+constexpr std::int64_t kReach = 2; // distance in cells within which points may be too close
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 constexpr std::uint64_t kPiece = 1024;
 
@@ -35,7 +36,7 @@ class DiskSampler {
 public:
     explicit DiskSampler(const PlacementOptions& options)
         : options_(options), spacing_(options.spacing),
-          side_(options.spacing / std::sqrt(2.0) * (1.0 - 0x1p-10)), // rounding stays within
+          side_(options.spacing / std::sqrt(2.0) * (1.0 - 0x1p-10)), // with room for rounding
           columns_(static_cast<std::int64_t>(options.region.width / side_) + 1 + 2 * kReach),
           rows_(static_cast<std::int64_t>(options.region.depth / side_) + 1 + 2 * kReach),
           points_at_(static_cast<std::size_t>(columns_ * rows_), kNoPoint) {
@@ -69,8 +70,8 @@ private:
     double side_;
     std::int64_t columns_;
     std::int64_t rows_;
-    LargeVector<std::uint32_t> points_at_; // by cell; kReach empty cells around all
-    std::vector<Offset> neighbourhood_;    // a cell's neighbourhood, itself included
+    LargeVector<std::uint32_t> points_at_; // by cell, with a margin of kReach empty cells
+    std::vector<Offset> neighbourhood_;    // offsets of a cell's neighbours and of the cell itself
     LargeVector<glm::vec2> points_;
     LargeVector<std::uint32_t> active_;
 };

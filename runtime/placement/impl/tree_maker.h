@@ -1,4 +1,4 @@
-// TreeMaker: makes a tree from a place and a number: its species, direction and scale.
+// TreeMaker: makes the tree of a place and a number: species, yaw and scale.
 #pragma once
 
 #include "runtime/base/random.h"

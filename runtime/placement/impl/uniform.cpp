@@ -1,5 +1,5 @@
-// Uniform: place i is draws 0 and 1 at position i. A place that no species can live at stays
-// without a tree, so numbers do not depend on the terrain.
+// Uniform: place i has draws 0 and 1 at position i as coordinates. A place where no species can
+// live has no tree, so numbers do not depend on the terrain.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
 

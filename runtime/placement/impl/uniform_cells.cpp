@@ -1,6 +1,7 @@
 // UniformCells: a Poisson process of constant density, cell by cell (Devroye 1986, "Non-uniform
-// random variate generation", chapter VI.1). Cells are as large as 16 places on average need, so
-// one table of the Poisson distribution serves every density and no machine's exp() shows.
+// random variate generation", chapter VI.1). Cells are so large that they have 16 places on
+// average. So one table of the Poisson distribution serves every density, and no result depends on
+// exp() of the machine.
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
@@ -14,25 +15,25 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kPlaceBits = 6;
-constexpr std::uint32_t kMaxPlaces = 1U << kPlaceBits; // more come once in 10^18 cells
+constexpr std::uint32_t kMaxPlaces = 1U << kPlaceBits; // more would occur once in 10^18 cells
 constexpr double kMeanPlaces = 16.0;
-constexpr double kNoPlaceChance = 1.1253517471925912e-7; // exp(-16)
+constexpr double kNoPlaceProbability = 1.1253517471925912e-7; // exp(-16)
 
-/// Chances of at most 0, 1, ... places, times 2^32.
+/// Cumulative probabilities of 0, 1, ... places, times 2^32.
 constexpr auto kThresholds = [] {
     std::array<std::uint64_t, kMaxPlaces> thresholds{};
-    double chance = kNoPlaceChance;
+    double probability = kNoPlaceProbability;
     double sum = 0.0;
     for (std::uint32_t places = 0; places < kMaxPlaces; ++places) {
-        sum += chance;
+        sum += probability;
         thresholds[places] = static_cast<std::uint64_t>(sum * 0x1p32);
-        chance *= kMeanPlaces / (places + 1);
+        probability *= kMeanPlaces / (places + 1);
     }
     thresholds.back() = std::uint64_t{1} << 32U;
     return thresholds;
 }();
 
-std::uint32_t count_of(std::uint32_t word) {
+std::uint32_t poisson_count(std::uint32_t word) {
     const auto* const found =
         std::upper_bound(kThresholds.begin(), kThresholds.end() - 1, std::uint64_t{word});
     return static_cast<std::uint32_t>(found - kThresholds.begin());
@@ -54,7 +55,7 @@ Result<void> place_uniform_cells(const PlacementJob& job, Placement& placement) 
             cell.column = cells.first.column + i;
             const std::uint32_t first = grid.first_number(cell);
             const std::uint32_t count =
-                count_of(placement_draws(options.key, first, kCellBlock)[0]);
+                poisson_count(placement_draws(options.key, first, kCellBlock)[0]);
             for (std::uint32_t tree = first; tree < first + count; ++tree) {
                 const PhiloxBlock words = placement_draws(options.key, tree, kPlaceBlock);
                 const auto x = static_cast<float>(grid.x_of(cell) + grid.side() * unit(words[0]));

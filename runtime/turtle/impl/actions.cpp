@@ -20,7 +20,7 @@ constexpr bool fits_walk(TurtleOperation operation) {
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), fits_walk),
               "a row of turtle_operations.def contradicts itself");
 
-/// The quick action of the operation; of a turn only where its angle is constant.
+/// The quick action of the operation; None for a turn whose angle is not constant.
 QuickAction quick_action(const Action& action, bool angle_is_constant) {
     const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
     return turns(action.operation) && !turn_is_constant ? QuickAction::None
@@ -43,7 +43,7 @@ Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
 } // namespace
 
 HalfAngle half_angle(double degrees) {
-    // Whole turns drop out, and right angles are exact.
+    // Whole turns are removed, and right angles are exact.
     const double turn = std::remainder(degrees, 720.0);
     if (std::abs(turn) == 180.0) {
         return {0.0, turn > 0.0 ? 1.0 : -1.0};
@@ -97,10 +97,10 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         action.quick = quick_action(action, angle_is_constant);
         if (action.quick == QuickAction::Forward && action.given > 1 &&
             bytecode.settings.traits.forward_has_width) {
-            action.quick = QuickAction::None; // the width is a parameter
+            action.quick = QuickAction::None; // forward_with_width() reads the width
         }
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
-            action.quick = QuickAction::None; // the watcher sees its end
+            action.quick = QuickAction::None; // restore() calls the watcher
         }
         table.by_code.push_back(action);
     }

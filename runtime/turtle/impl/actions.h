@@ -1,4 +1,4 @@
-// Actions of the turtle: what each code of a word does, with all constants worked out once.
+// Actions of the turtle: the operation of each code of a word, with all constants computed once.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Arguments of a module that the turtle reads.
+/// Max arguments of a module that the turtle reads.
 inline constexpr std::uint32_t kTurtleArguments = 4;
 
 /// Cosine and sine of half an angle, for rotations by quaternions.
@@ -24,15 +24,15 @@ struct HalfAngle {
 struct Action {
     QuickAction quick = QuickAction::None;
     TurtleOperation operation = TurtleOperation::Nothing;
-    std::uint8_t given = 0;                          // arguments, kTurtleArguments at most
-    bool advances = false;                           // objects: by their length
-    std::uint32_t stored = 0;                        // parameters in the word, all of them
-    std::array<float, kTurtleArguments> arguments{}; // if none is stored
-    HalfAngle turn;                                  // rotations by a constant angle, signed
-    float unit_length = 1.0F;                        // objects
-    float default_size = 1.0F;                       // objects without a parameter
-    std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
-    char character = '\0';                           // the name, where it is one character
+    std::uint8_t given = 0;                          // arguments, at most kTurtleArguments
+    bool advances = false;                           // an object moves the turtle by its length
+    std::uint32_t stored = 0;                        // number of parameters in the word
+    std::array<float, kTurtleArguments> arguments{}; // constants, if the word stores none
+    HalfAngle turn;                                  // signed, of a rotation by a constant angle
+    float unit_length = 1.0F;                        // length of an object of size 1
+    float default_size = 1.0F;                       // size of an object without a parameter
+    std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files
+    char character = '\0';                           // the name, if it is one character
 };
 
 struct ActionTable {

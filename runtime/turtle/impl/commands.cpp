@@ -20,8 +20,8 @@ bool Turtle::State::is_finite_pose() {
     return fault(TurtleFaultKind::NotFinite);
 }
 
-/// A segment of `length` from here on. `spring` in N m / rad and `mass` in kg, or null for those
-/// that the settings and the shape give.
+/// Draws a segment of `length` from the current pose. `spring` in N m / rad and `mass` in kg; null:
+/// computed from the settings and the shape.
 bool Turtle::State::draw(
     double length, float base_width, float tip_width, const float* spring, const float* mass) {
     if (has_tropism) {
@@ -48,10 +48,10 @@ bool Turtle::State::draw(
     return true;
 }
 
-/// F and H: a whole or half of the length, and the physics' spring and mass.
+/// F and H: `part` of the length, with spring and mass for the physics.
 bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
     if (traits.forward_has_width) {
-        return wide_forward(action, arguments, part);
+        return forward_with_width(action, arguments, part);
     }
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float width = traits.width_is_relative ? 2.0F * std::abs(length) * now.width : now.width;
@@ -239,7 +239,7 @@ void Turtle::State::scale_angle(float factor) {
 
 bool Turtle::State::execute(const Action& action, const float* arguments) {
     const Settings& settings = bytecode.settings;
-    // The angle of a turn that is not constant: from the word, or the setting as it is now.
+    // The angle of a turn that is not constant: from the word, or the current angle.
     const auto turn = [&]() -> HalfAngle {
         return action.given == 0 ? now.turn : half_angle(static_cast<double>(arguments[0]));
     };
@@ -412,7 +412,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     return true;
 }
 
-/// After a `%`, or in a branch that is passed over, until its `]`.
+/// Handles a module that is not drawn: after a `%` or in a skipped branch, until its `]`.
 bool Turtle::State::skip(const Action& action) {
     const bool opens = action.operation == TurtleOperation::Save ||
                        action.operation == TurtleOperation::SaveBranch;

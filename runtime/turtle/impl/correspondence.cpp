@@ -9,10 +9,10 @@ namespace lsys {
 
 namespace {
 
-/// Items by the module of the earlier word that they come from, in the order of drawing.
+/// Lists of items by their module of the earlier word, in the order of drawing.
 class ByModule {
 public:
-    /// module_of(i): of item i; the greatest is `modules` - 1.
+    /// module_of(i): the module of item i, at most `modules` - 1.
     template <typename ModuleOf>
     ByModule(std::size_t items, std::size_t modules, const ModuleOf& module_of)
         : first_(modules + 1, 0), items_(items) {
@@ -42,7 +42,7 @@ struct Followed {
     const Skeleton& after;
     std::uint32_t generation;
     std::span<const Origin> ancestors;
-    std::size_t modules; // of the earlier word that draw or have a successor that does
+    std::size_t modules; // of the earlier word, up to the last one that is paired
 
     [[nodiscard]] ByModule old_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules, [&](std::size_t i) { return origins[i].place; }};
@@ -57,7 +57,7 @@ struct Followed {
     }
 };
 
-/// The segments outside of inner brackets, as far as one follows the other on one path.
+/// The segments outside of inner brackets, up to the first that does not continue the one before.
 std::vector<std::uint32_t> axis_of(std::span<const std::uint32_t> items, const Skeleton& skeleton) {
     std::vector<std::uint32_t> axis;
     if (items.empty()) {
@@ -94,7 +94,7 @@ bool are_alike(std::span<const std::uint32_t> old_items,
                });
 }
 
-/// Divides one segment among those of an axis.
+/// Divides an old segment into pieces for the segments of an axis.
 void divide(std::uint32_t old_item,
             std::span<const std::uint32_t> axis,
             const Skeleton& after,

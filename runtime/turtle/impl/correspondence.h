@@ -1,4 +1,4 @@
-// Correspondence of what two consecutive generations draw: growth.h has the rules.
+// Correspondence between the drawings of two consecutive generations; growth.h has the rules.
 #pragma once
 
 #include "runtime/derive/origin.h"
@@ -17,8 +17,8 @@ struct SegmentPiece {
     float high = 1.0F;
 };
 
-/// For each item of the later drawing the one of the earlier that it continues; kNone,
-/// kNoSegment: none.
+/// For each item of the later drawing, the item of the earlier drawing that it continues; kNone or
+/// kNoSegment for a new item.
 struct Correspondence {
     std::vector<SegmentPiece> pieces; // by segment; pieces of one segment follow each other
     std::vector<std::uint32_t> objects;

@@ -3,8 +3,8 @@
 
 namespace lsys {
 
-/// Forward with the parameters of Houdini: length, width, sections (which do not show), sides.
-bool Turtle::State::wide_forward(const Action& action, const float* arguments, float part) {
+/// Forward with the parameters of Houdini: length, width, sections (not visible), sides.
+bool Turtle::State::forward_with_width(const Action& action, const float* arguments, float part) {
     constexpr std::uint8_t kSides = 3; // index of the argument
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float width = action.given > 1 ? arguments[1] : now.width;
@@ -33,7 +33,7 @@ void Turtle::State::turn_by(const Action& action, const float* arguments) {
     yaw(now.pose, angle(2));
 }
 
-/// The first heading; the second stays.
+/// Turns the first heading; the second one keeps its direction.
 void Turtle::State::turn_left(double degrees) {
     yaw(now.pose, half_angle(degrees));
     now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
@@ -49,7 +49,7 @@ void Turtle::State::half_turn_snapped() {
     turn_left(is_mirrored ? degrees : -degrees);
 }
 
-/// Half a roll changes left and right, for the second heading too.
+/// Half a roll exchanges left and right, also of the second heading.
 void Turtle::State::mirror() {
     roll(now.pose, {0.0, 1.0});
     now.second_heading = -now.second_heading;
@@ -75,7 +75,7 @@ bool Turtle::State::secondary_forward(const Action& action, const float* argumen
     return is_finite;
 }
 
-/// The ground is passed over.
+/// Adds to the index of the colour, modulo kColours; skips 0, the background.
 void Turtle::State::add_colour(float number, double sign) {
     double colour = std::fmod(
         static_cast<double>(now.colour) + sign * std::trunc(static_cast<double>(number)), kColours);

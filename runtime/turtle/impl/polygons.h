@@ -1,5 +1,5 @@
-// Polygons that were begun and not yet ended. One may be begun within another, whose corners wait
-// below its own.
+// Open polygons: begun and not yet ended. A polygon may be begun within another; the corners of all
+// open ones are on one stack.
 #pragma once
 
 #include "runtime/derive/origin.h"
@@ -13,8 +13,8 @@
 namespace lsys {
 
 struct OpenPolygon {
-    std::size_t first_vertex = 0; // in the positions of `.`
-    std::size_t first_on_path = 0;
+    std::size_t first_vertex = 0;  // index in OpenPolygons::vertices_
+    std::size_t first_on_path = 0; // index in OpenPolygons::path_
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     Origin origin; // origin of its `{`
 };
@@ -27,7 +27,7 @@ public:
     void open(const glm::quat& frame, const Origin& origin) {
         open_.push_back({vertices_.size(), path_.size(), frame, origin});
     }
-    /// A `.`.
+    /// Adds the vertex of a `.`.
     void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }
     /// Adds the start or end of a step to the path of the open polygon, if there is one.
     void path(const Pose& pose) {
@@ -35,8 +35,8 @@ public:
             add_to_path(position_of(pose));
         }
     }
-    /// Corners of the polygon begun last: its vertices, or else the ends of its steps. Valid until
-    /// the next change.
+    /// Corners of the polygon begun last: its vertices, or without any the ends of its steps. Valid
+    /// until the next change.
     [[nodiscard]] std::span<const glm::vec3> corners();
     void close() {
         vertices_.resize(open_.back().first_vertex);
@@ -53,7 +53,7 @@ private:
 
     std::vector<OpenPolygon> open_;
     std::vector<glm::vec3> vertices_;
-    std::vector<glm::vec3> path_; // no point twice in a row
+    std::vector<glm::vec3> path_; // ends of steps, without repetitions
 };
 
 inline std::span<const glm::vec3> OpenPolygons::corners() {
@@ -62,7 +62,7 @@ inline std::span<const glm::vec3> OpenPolygons::corners() {
         return std::span(vertices_).subspan(polygon.first_vertex);
     }
     std::span<const glm::vec3> path = std::span(path_).subspan(polygon.first_on_path);
-    if (path.size() > 2) { // closed by the author, as far as rounding lets it
+    if (path.size() > 2) { // drop the last point if it equals the first up to rounding
         constexpr float kClosed = 1e-5F;
         const float gap = glm::distance(path.front(), path.back());
         if (gap <= kClosed * glm::distance(path[0], path[1])) {

@@ -14,11 +14,11 @@ namespace {
 /// Sine of the angle to the vertical below which a heading counts as vertical.
 constexpr double kVertical = 1e-9;
 
-glm::dquat turned(const Pose& p) {
+glm::dquat normalised_frame(const Pose& p) {
     return glm::normalize(glm::dquat(p.qw, p.qx, p.qy, p.qz));
 }
 
-void turn_to(Pose& p, const glm::dquat& frame) {
+void set_frame(Pose& p, const glm::dquat& frame) {
     p.qw = frame.w;
     p.qx = frame.x;
     p.qy = frame.y;
@@ -28,7 +28,7 @@ void turn_to(Pose& p, const glm::dquat& frame) {
 } // namespace
 
 void roll_upright(Pose& pose) {
-    const glm::dquat frame = turned(pose);
+    const glm::dquat frame = normalised_frame(pose);
     const glm::dvec3 heading = frame * glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 level = glm::cross(heading, glm::dvec3(0.0, 1.0, 0.0));
     const double length = glm::length(level);
@@ -36,11 +36,11 @@ void roll_upright(Pose& pose) {
         return;
     }
     const glm::dvec3 right = level / length;
-    turn_to(pose, glm::quat_cast(glm::dmat3(right, heading, glm::cross(right, heading))));
+    set_frame(pose, glm::quat_cast(glm::dmat3(right, heading, glm::cross(right, heading))));
 }
 
 void bend(Pose& pose, const std::array<float, 4>& tropism) {
-    const glm::dquat frame = turned(pose);
+    const glm::dquat frame = normalised_frame(pose);
     const glm::dvec3 heading = frame * glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 towards(tropism[0], tropism[1], tropism[2]);
     const glm::dvec3 axis = glm::cross(heading, towards);
@@ -49,25 +49,25 @@ void bend(Pose& pose, const std::array<float, 4>& tropism) {
         return;
     }
     const double angle = static_cast<double>(tropism[3]) * length;
-    turn_to(pose, glm::angleAxis(angle, axis / length) * frame);
+    set_frame(pose, glm::angleAxis(angle, axis / length) * frame);
 }
 
 void aim(Pose& pose, const std::array<float, 3>& point) {
-    const glm::dvec3 way =
+    const glm::dvec3 direction =
         glm::dvec3(point[0], point[1], point[2]) - glm::dvec3(pose.x, pose.y, pose.z);
-    const double distance = glm::length(way);
+    const double distance = glm::length(direction);
     if (!(distance > 0.0)) {
         return;
     }
-    const glm::dquat frame = turned(pose);
+    const glm::dquat frame = normalised_frame(pose);
     const glm::dvec3 heading = frame * glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 axis = glm::cross(heading, way / distance);
+    const glm::dvec3 axis = glm::cross(heading, direction / distance);
     const double sine = glm::length(axis);
-    const double cosine = glm::dot(heading, way / distance);
+    const double cosine = glm::dot(heading, direction / distance);
     if (sine > kVertical) {
-        turn_to(pose, glm::angleAxis(std::atan2(sine, cosine), axis / sine) * frame);
+        set_frame(pose, glm::angleAxis(std::atan2(sine, cosine), axis / sine) * frame);
     } else if (cosine < 0.0) { // half a turn about the right axis
-        turn_to(pose, frame * glm::dquat(0.0, 1.0, 0.0, 0.0));
+        set_frame(pose, frame * glm::dquat(0.0, 1.0, 0.0, 0.0));
     }
 }
 

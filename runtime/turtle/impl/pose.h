@@ -1,6 +1,6 @@
-// Position and frame of the turtle, in double precision. The frame is the quaternion that
-// takes right (+X), heading (+Y) and up (+Z) of the start to the turtle's own axes; a turn about an
-// own axis multiplies it from the right.
+// Position and frame of the turtle, in double precision. The frame is the quaternion that takes
+// right (+X), heading (+Y) and up (+Z) of the start to the turtle's own axes; a turn about one of
+// these axes multiplies it from the right.
 #pragma once
 
 #include "runtime/turtle/impl/actions.h"
@@ -27,7 +27,7 @@ struct Pose {
     return {turn.cosine, -turn.sine};
 }
 
-/// About the up axis, right towards heading.
+/// Turns about the up axis, right towards heading.
 inline void yaw(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qz * t.sine;
@@ -35,7 +35,7 @@ inline void yaw(Pose& p, HalfAngle t) {
     p.qy = q.qy * t.cosine - q.qx * t.sine;
     p.qz = q.qz * t.cosine + q.qw * t.sine;
 }
-/// About the right axis, heading towards up.
+/// Turns about the right axis, heading towards up.
 inline void pitch(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qx * t.sine;
@@ -43,7 +43,7 @@ inline void pitch(Pose& p, HalfAngle t) {
     p.qy = q.qy * t.cosine + q.qz * t.sine;
     p.qz = q.qz * t.cosine - q.qy * t.sine;
 }
-/// About the heading, up towards right.
+/// Turns about the heading, up towards right.
 inline void roll(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qy * t.sine;
@@ -58,14 +58,14 @@ inline void advance(Pose& p, double length) {
     p.z += length * 2.0 * (p.qy * p.qz + p.qw * p.qx);
 }
 
-/// Rolls until the right axis is horizontal: R = H x Y / |H x Y|. Nothing where the heading is
+/// Rolls until the right axis is horizontal: R = H x Y / |H x Y|. No effect if the heading is
 /// vertical (ABOP 1.7, `$`).
 void roll_upright(Pose& pose);
 
 /// Turns the heading by e |H x T| radians towards T (ABOP 2.3); `tropism` is T and e.
 void bend(Pose& pose, const std::array<float, 4>& tropism);
 
-/// Turns the heading towards a point by the shortest rotation; none at that point.
+/// Turns the heading towards a point by the shortest rotation; no effect at the point itself.
 void aim(Pose& pose, const std::array<float, 3>& point);
 
 [[nodiscard]] inline glm::vec3 position_of(const Pose& p) {

@@ -23,27 +23,27 @@ inline constexpr std::size_t kModulesBetweenChecks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
-/// Colours of Fractint: 256, of which 0 is the ground.
+/// Number of colours of Fractint; 0 is the background.
 inline constexpr double kColours = 256.0;
 
-/// Sides of a segment in the program L3D: by the radius as a part of the length.
+/// Sides of a segment in the program L3D, by the ratio of radius to length.
 [[nodiscard]] inline std::uint8_t l3d_sides(float thickness) {
     const auto value = static_cast<double>(thickness);
     return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
 }
 
-/// The part of the state that `[` saves beside the pose.
+/// The part of the state that `[` saves with the pose.
 struct Brush {
-    float width = 0.0F;          // m, diameter; or radius / length (width_is_relative)
-    float taper = 1.0F;          // tip radius / base radius
-    float step = 0.0F;           // m
-    float angle = 0.0F;          // degrees
-    HalfAngle turn;              // the same as `angle`
-    double second_heading = 0.0; // degrees from the first heading to the left
-    std::uint32_t segment = kNoSegment;
+    float width = 0.0F;                 // m, diameter; or radius / length (width_is_relative)
+    float taper = 1.0F;                 // tip radius / base radius
+    float step = 0.0F;                  // m
+    float angle = 0.0F;                 // degrees
+    HalfAngle turn;                     // half of `angle`
+    double second_heading = 0.0;        // degrees from the first heading to the left
+    std::uint32_t segment = kNoSegment; // the last one drawn on the path
     std::uint16_t colour = 0;
     std::uint8_t sides = 0;
-    bool moved = false; // since the segment was drawn
+    bool moved = false; // whether the turtle has moved since `segment` was drawn
 };
 
 /// The last command of a word that is text, executed once the text of its parameter is complete.
@@ -112,7 +112,7 @@ struct Turtle::State {
     void run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
     bool take_character(const Action& action, Code character, const float* arguments);
     bool execute_pending();
-    bool take_origin(const Origin& origin);
+    bool add_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
@@ -125,7 +125,7 @@ struct Turtle::State {
                          float tip_width,
                          float spring,
                          float mass);
-    void keep_shape(double length, float base_width, float tip_width);
+    void cache_shape(double length, float base_width, float tip_width);
     float mass_of(double length, float base_width, float tip_width);
     float spring_of(double length, float base_width, float tip_width);
     bool place(const Action& action, const float* arguments);
@@ -144,13 +144,13 @@ struct Turtle::State {
     void turn_left(double degrees);
     void half_turn_snapped();
     void mirror();
-    bool wide_forward(const Action& action, const float* arguments, float part);
+    bool forward_with_width(const Action& action, const float* arguments, float part);
     void turn_by(const Action& action, const float* arguments);
     bool secondary_forward(const Action& action, const float* arguments);
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind);
-    /// Notes `count` faults of the end of a word, which no module of it has.
+    /// Notes `count` faults at the end of a word, which belong to no module.
     void note_end(TurtleFaultKind kind, std::uint64_t count) {
         end.faults[static_cast<std::size_t>(kind)].count += count;
     }
@@ -162,7 +162,7 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
-    /// Runs work(); returns false after stopping the drawing for want of memory.
+    /// Runs work(); if it runs out of memory, ends the drawing and returns false.
     template <typename Work>
     bool within_memory(const Work& work) {
         const auto run = [&] {
@@ -171,7 +171,7 @@ struct Turtle::State {
         };
         return catch_out_of_memory(run, [this] { return stop(Stop::OutOfMemory); });
     }
-    /// Makes room in `items` for one more; returns false after stopping the drawing.
+    /// Makes room in `items` for one more; otherwise ends the drawing and returns false.
     template <typename Items>
     bool has_room(Items& items);
     bool is_finite_pose();
@@ -186,14 +186,14 @@ struct Turtle::State {
     Skeleton skeleton;
     TurtleState now;
     std::vector<TurtleState> stack;
-    std::vector<std::size_t> watched; // sizes of the stack within the branches a watcher sees
+    std::vector<std::size_t> watched; // sizes of the stack within the branches that are watched
     OpenPolygons polygons;
     DrawingEnd end;
-    std::uint64_t position = 0; // number of the module at hand
-    Code code = 0;              // its code
-    Origin origin;              // its origin, where origins are known
+    std::uint64_t position = 0; // index of the current module
+    Code code = 0;              // code of the current module
+    Origin origin;              // origin of the current module, if the word has origins
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
-    std::uint64_t cut = 0;      // open brackets within a part that is cut off, and 1
+    std::uint64_t cut = 0;      // in a part that is not drawn: 1 + number of open brackets; else 0
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes of a narrower word, widened
@@ -201,13 +201,13 @@ struct Turtle::State {
     bool keeps_origins = false; // only for words that are texts
     TurtleTraits traits;
     bool has_tropism = false;
-    bool has_second_heading = false; // some module moves along it
-    // The mass of the last segment, kept for equal ones.
-    double kept_length = -1.0;
-    float kept_base = -1.0F;
-    float kept_tip = -1.0F;
-    float kept_mass = 0.0F;
-    float kept_spring = 0.0F;
+    bool has_second_heading = false; // a module of the program moves along it
+    // Mass and spring of the last shape, cached for equal ones.
+    double cached_length = -1.0;
+    float cached_base = -1.0F;
+    float cached_tip = -1.0F;
+    float cached_mass = 0.0F;
+    float cached_spring = 0.0F;
 };
 
 template <typename Items>
@@ -228,25 +228,25 @@ bool Turtle::State::has_room(Items& items) {
     return within_memory([&] { items.reserve(room); });
 }
 
-/// Computes mass and spring of a segment, which are the same for most of its neighbours.
-inline void Turtle::State::keep_shape(double length, float base_width, float tip_width) {
-    if (length == kept_length && base_width == kept_base && tip_width == kept_tip) {
+/// Computes mass and spring of a segment, or keeps those of the last shape if it is equal.
+inline void Turtle::State::cache_shape(double length, float base_width, float tip_width) {
+    if (length == cached_length && base_width == cached_base && tip_width == cached_tip) {
         return;
     }
-    kept_length = length;
-    kept_base = base_width;
-    kept_tip = tip_width;
+    cached_length = length;
+    cached_base = base_width;
+    cached_tip = tip_width;
     const double a = 0.5 * static_cast<double>(base_width);
     const double b = 0.5 * static_cast<double>(tip_width);
     const Settings& settings = bytecode.settings;
-    kept_mass = mass_of_cone(length, a, b, static_cast<double>(settings.density));
-    kept_spring = spring_of_beam(length, a, b, static_cast<double>(settings.elasticity));
+    cached_mass = mass_of_cone(length, a, b, static_cast<double>(settings.density));
+    cached_spring = spring_of_beam(length, a, b, static_cast<double>(settings.elasticity));
 }
 
-/// Volume of a truncated cone times the density.
+/// Mass of a segment without a given one: volume of a truncated cone times the density.
 inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
-    keep_shape(length, base_width, tip_width);
-    return kept_mass;
+    cache_shape(length, base_width, tip_width);
+    return cached_mass;
 }
 
 /// Spring constant of a segment without a given one.
@@ -254,11 +254,11 @@ inline float Turtle::State::spring_of(double length, float base_width, float tip
     if (bytecode.settings.has_spring) {
         return bytecode.settings.spring;
     }
-    keep_shape(length, base_width, tip_width);
-    return kept_spring;
+    cache_shape(length, base_width, tip_width);
+    return cached_spring;
 }
 
-/// The next segment of the path, for which there is room.
+/// Appends the next segment of the path. Precondition: has_room(skeleton.segments).
 [[gnu::always_inline]] inline Segment& Turtle::State::put_segment(
     const Pose& base, float length, float base_width, float tip_width, float spring, float mass) {
     const auto index = static_cast<std::uint32_t>(skeleton.segments.size());

@@ -1,5 +1,5 @@
-// Words that are texts (L3D): a `(` right behind a command begins the text of its parameter, up to
-// the first `)`. So a command is executed when the module behind it, or that parenthesis, is read.
+// Words that are texts (L3D): a `(` directly after a command begins the text of its parameter, up
+// to the first `)`. So a command is executed when the next module, or that `)`, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
 #include "runtime/turtle/impl/state.h"

@@ -5,7 +5,7 @@
 
 namespace lsys {
 
-/// The number that `text` begins with, after blanks and a sign; 0: none.
+/// The number at the start of `text`, after blanks and a sign; 0 if there is none.
 [[nodiscard]] float leading_number(std::string_view text);
 
 } // namespace lsys

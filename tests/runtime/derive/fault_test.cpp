@@ -111,8 +111,8 @@ TEST_CASE("ranges that cannot be drawn from") {
         const RuntimeError error = error_every_way(builder.build(), 1, 0);
         CHECK(error.kind == RuntimeErrorKind::RangeReversed);
         CHECK(error.position == 2);
-        CHECK(error.value == 1.0F);
-        CHECK(error.second == 0.0F);
+        CHECK(error.minimum == 1.0F);
+        CHECK(error.maximum == 0.0F);
     }
     SECTION("too wide") {
         builder.axiom("A(3e38)").production("p : A(x) : * : F({-x, x})");
