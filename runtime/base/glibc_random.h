@@ -25,7 +25,7 @@ private:
     std::uint32_t next_word();
 
     std::array<std::uint32_t, kWords> words_{}; // ring buffer of the last words
-    std::size_t at_ = kDistance; // index of the word that next_word() replaces
+    std::size_t at_ = kDistance;                // index of the word that next_word() replaces
 };
 
 } // namespace lsys
