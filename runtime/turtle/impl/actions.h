@@ -32,6 +32,7 @@ struct Action {
     float unit_length = 1.0F;                        // objects
     float default_size = 1.0F;                       // objects without a parameter
     std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files
+    std::uint32_t picture = kNoPicture;              // of polygons, in Skeleton::mesh_files
     char character = '\0';                           // the name, where it is one character
 };
 
