@@ -99,16 +99,36 @@ ExitStatus make_meshes(Run& run) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    if (run.scene.terrain.kind != TerrainKind::Flat || run.command.files.size() == 1) {
+    if (run.scene.terrain.kind != TerrainKind::Flat || run.command.files.size() == 1 ||
+        run.grown.ground.colour != nullptr) {
         TerrainMeshOptions ground;
         ground.columns = kGroundCells;
         ground.rows = kGroundCells;
         ground.threads = run.command.run.threads;
+        ground.pictures = run.grown.ground;
+        // A baked mesh has tangents only where all its parts have some.
+        ground.tangents = run.grown.ground.normals != nullptr || run.target.kind == Kind::Mesh;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);
         if (!made) {
             return report_error(made.error(), run.console);
         }
         run.ground = std::move(made.value());
+    }
+    return ExitStatus::Ok;
+}
+
+/// Adds pictures in the folder of `path`.
+ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
+                        const std::string& path,
+                        OutputSet& outputs) {
+    for (const PictureFile& picture : pictures) {
+        const std::string beside =
+            (std::filesystem::path(path).parent_path() / picture.name).string();
+        const ExitStatus added = outputs.add(
+            beside, [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
+        if (added != ExitStatus::Ok) {
+            return added;
+        }
     }
     return ExitStatus::Ok;
 }
@@ -129,15 +149,9 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
         if (status != ExitStatus::Ok) {
             return status;
         }
-        for (const PictureFile& picture : pictures) {
-            const std::string beside =
-                (std::filesystem::path(path).parent_path() / picture.name).string();
-            const auto put = [&](const ByteSink& sink) {
-                return write_picture_file(picture, sink);
-            };
-            if (const ExitStatus added = outputs.add(beside, put); added != ExitStatus::Ok) {
-                return added;
-            }
+        if (const ExitStatus added = add_pictures(pictures, path, outputs);
+            added != ExitStatus::Ok) {
+            return added;
         }
     }
     const ForestForm form = run.command.expand ? ForestForm::Expanded : ForestForm::Instanced;
@@ -161,9 +175,30 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.grammar = std::filesystem::path(path).stem().string();
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;
-    info.textures = traits_of(run.target.format).pictures == ExportPictures::Inside;
+    info.threads = options.threads;
+    const FormatTraits& format = traits_of(run.target.format);
+    OutputSet outputs(run.console); // the files beside it first
+    if (path == "-") {
+        info.textures = format.pictures == ExportPictures::Inside;
+    } else {
+        info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+        std::vector<PictureFile> pictures;
+        status = run.console.take(make_picture_files(mesh, run.target.format, info), pictures);
+        if (status == ExitStatus::Ok) {
+            status = add_pictures(pictures, path, outputs);
+        }
+        if (status == ExitStatus::Ok && format.has_mtl) {
+            const std::filesystem::path library =
+                std::filesystem::path(path).replace_extension(".mtl");
+            info.mtl_name = library.filename().string();
+            status = outputs.add(library.string(),
+                                 [&](const ByteSink& sink) { return write_mtl(mesh, info, sink); });
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+    }
     const Skeleton none;
-    OutputSet outputs(run.console);
     status = outputs.add(path, [&](const ByteSink& sink) {
         return export_mesh(mesh, none, run.target.format, info, sink);
     });

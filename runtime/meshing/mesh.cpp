@@ -10,6 +10,8 @@
 #include "runtime/meshing/impl/ring_segments.h"
 #include "runtime/meshing/impl/tubes.h"
 
+#include <utility>
+
 namespace lsys {
 
 namespace {
@@ -19,6 +21,11 @@ std::optional<Stop> build(const Skeleton& skeleton,
                           const MeshOptions& options,
                           Mesh& mesh) {
     MeshBuilder builder(options, mesh);
+    std::vector<FilePictures> pictures;
+    for (const UserMesh& user_mesh : user_meshes) {
+        pictures.push_back({user_mesh.picture, user_mesh.relief});
+    }
+    builder.set_pictures(std::move(pictures));
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // other objects
@@ -38,7 +45,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
         append_boxes(skeleton, options, builder);
         break;
     }
-    append_polygons(skeleton, options, builder);
+    append_polygons(skeleton, user_meshes, options, builder);
     append_objects(skeleton, user_meshes, options, builder);
     return builder.finish();
 }

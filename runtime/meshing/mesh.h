@@ -33,6 +33,7 @@ struct Material {
     bool cut_out = false;  // texels below half opacity are discarded
     bool textured = false; // by `picture`, or else by material_texture(kind)
     std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
+    std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
 };
 
 /// Triangles of one material: indices[first_index, first_index + index_count).
@@ -102,6 +103,7 @@ struct ObjName {
 };
 
 /// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
+/// Of a picture for polygons, `#object { "leaf.png"`, only the picture is set.
 struct UserMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -110,6 +112,7 @@ struct UserMesh {
     std::vector<ObjName> libraries; // its files of materials (mtllib)
     std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
     std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
+    std::shared_ptr<const Texture> relief;          // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // tried in search of the picture
     [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture

@@ -58,6 +58,61 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
     return texture;
 }
 
+Texture normals_of(const Texture& picture, float bump) {
+    const std::size_t count = picture.texels.size() / 4;
+    std::array<std::uint64_t, 3> sums{};
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            sums[c] += picture.texels[4 * i + c];
+        }
+    }
+    const auto is_near = [&](std::size_t channel, std::uint64_t low, std::uint64_t high) {
+        return sums[channel] >= low * count && sums[channel] <= high * count;
+    };
+    if (is_near(0, 96, 160) && is_near(1, 96, 160) && is_near(2, 192, 255)) {
+        return picture;
+    }
+    constexpr float kHeight = 0.02F; // of white, in widths of the picture
+    // Rise of a whole step of grey over a texel.
+    const float scale = bump * kHeight * static_cast<float>(picture.width) / (3.0F * 255.0F);
+    const auto height = [&](std::uint32_t x, std::uint32_t y) {
+        const std::uint8_t* const texel =
+            picture.texels.data() + std::size_t{4} * (std::size_t{y} * picture.width + x);
+        return static_cast<float>(unsigned{texel[0]} + texel[1] + texel[2]);
+    };
+    const auto byte_of = [](float value) {
+        return static_cast<std::uint8_t>(std::lround(127.5F + 127.5F * value));
+    };
+    Texture normals{picture.width, picture.height, {}};
+    normals.texels.resize(picture.texels.size());
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
+        const std::uint32_t above = (y == 0 ? picture.height : y) - 1;
+        const std::uint32_t below = y + 1 == picture.height ? 0 : y + 1;
+        for (std::uint32_t x = 0; x < picture.width; ++x) {
+            const std::uint32_t left = (x == 0 ? picture.width : x) - 1;
+            const std::uint32_t right = x + 1 == picture.width ? 0 : x + 1;
+            const float rise_x = 0.5F * scale * (height(right, y) - height(left, y));
+            const float rise_y = 0.5F * scale * (height(x, above) - height(x, below));
+            const float length = std::sqrt(rise_x * rise_x + rise_y * rise_y + 1.0F);
+            std::uint8_t* const to =
+                normals.texels.data() + std::size_t{4} * (std::size_t{y} * picture.width + x);
+            to[0] = byte_of(-rise_x / length);
+            to[1] = byte_of(-rise_y / length);
+            to[2] = byte_of(1.0F / length);
+            to[3] = 255;
+        }
+    }
+    return normals;
+}
+
+Texture with_opacity(Texture colour, const Texture& opacity) {
+    const std::size_t channel = has_holes(opacity) ? 3 : 0;
+    for (std::size_t i = 0; i < colour.texels.size(); i += 4) {
+        colour.texels[i + 3] = opacity.texels[i + channel];
+    }
+    return colour;
+}
+
 bool has_holes(const Texture& texture) {
     for (std::size_t i = 3; i < texture.texels.size(); i += 4) {
         if (texture.texels[i] < 128) {

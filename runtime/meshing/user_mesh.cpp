@@ -490,6 +490,32 @@ std::uint64_t UserMesh::byte_count() const {
     return bytes;
 }
 
+namespace {
+
+/// The name that a line of a map sets; null for other lines.
+ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
+    if (keyword == "map_Kd") {
+        return &material.file;
+    }
+    if (keyword == "map_d") {
+        return &material.opacity;
+    }
+    const bool is_relief =
+        keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" || keyword == "norm";
+    return is_relief ? &material.relief : nullptr;
+}
+
+/// The number that a word is; 1 for other words.
+float number_of(std::string_view word) {
+    float number = 1.0F;
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return failure == std::errc() && end == word.data() + word.size() && std::isfinite(number)
+               ? number
+               : 1.0F;
+}
+
+} // namespace
+
 std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mtl,
                                                              std::span<const ObjName> wanted) {
     std::unordered_set<std::string_view> names;
@@ -523,11 +549,18 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
         if (kind == "newmtl") {
             const std::string_view name = mtl.substr(begin, last - begin);
             material = names.contains(name) ? &materials[std::string(name)] : nullptr;
-        } else if (kind == "map_Kd" && material != nullptr) {
+        } else if (material == nullptr) {
+            // of no interest
+        } else if (ObjName* const file = map_of(kind, *material); file != nullptr) {
             // Options stand before the name: a word, then its numbers or one more word.
             while (begin < last && mtl[begin] == '-') {
-                material->has_options = true;
                 const std::string_view option = next_word();
+                if (option == "-bm" && file == &material->relief) {
+                    material->bump = number_of(next_word());
+                    skip_blanks();
+                    continue;
+                }
+                material->has_options = true;
                 const bool of_numbers =
                     option == "-o" || option == "-s" || option == "-t" || option == "-mm";
                 std::size_t kept = begin;
@@ -543,7 +576,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
                 skip_blanks();
             }
             const std::size_t name = std::min(begin, last);
-            material->file = {std::string(mtl.substr(name, last - name)), name};
+            *file = {std::string(mtl.substr(name, last - name)), name};
         }
         at = end + 1;
     }

@@ -19,10 +19,13 @@ namespace lsys {
 /// coordinates of a file without any are empty. At most `max_bytes` are used beside `text`.
 [[nodiscard]] Result<UserMesh> read_obj(std::string_view text, std::uint64_t max_bytes);
 
-/// Picture of a material in a file of materials (MTL).
+/// Pictures of a material in a file of materials (MTL); no name: no picture.
 struct MaterialPicture {
-    bool has_options = false; // before the name
-    ObjName file;             // of map_Kd; no name: no picture
+    bool has_options = false; // before a name, but for -bm
+    ObjName file;             // of map_Kd
+    ObjName opacity;          // of map_d
+    ObjName relief;           // of map_Bump, bump or norm
+    float bump = 1.0F;        // factor of the heights of map_Bump, by -bm
 };
 /// Pictures of the materials `wanted`, found by name.
 [[nodiscard]] std::unordered_map<std::string, MaterialPicture>

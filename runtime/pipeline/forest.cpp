@@ -120,6 +120,65 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
     return Terrain::height_map(terrain.region, std::move(map.value()), terrain.height_map);
 }
 
+/// A picture of the ground named in a scene of `folder`.
+Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file,
+                                                           const std::string& folder,
+                                                           const Step& step,
+                                                           FileBudget& budget) {
+    constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
+    const std::string path = path_in(folder, file.path);
+    const Result<std::string> bytes = step.read(path, {kMaxPictureBytes, budget.left});
+    if (!bytes) {
+        return bytes.error();
+    }
+    Result<Texture> picture = read_picture(bytes.value(), budget.left - bytes.value().size());
+    if (!picture) {
+        return Error{fmt::format("cannot use `{}`: {}", path, picture.error().message),
+                     picture.error().kind};
+    }
+    return std::make_shared<const Texture>(std::move(picture.value()));
+}
+
+/// Reads the pictures of the ground, or takes those of `known`.
+Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
+                                             const KnownForest& known,
+                                             const Project& project,
+                                             FileBudget& budget) {
+    Step step(project);
+    const SceneTerrain& terrain = loaded.scene.terrain;
+    GroundPictures ground{
+        nullptr, nullptr, terrain.tile_x, terrain.tile_z, terrain.tile_width, terrain.tile_depth};
+    const bool is_known = known.scene != nullptr &&
+                          known.scene->terrain.colour.path == terrain.colour.path &&
+                          known.scene->terrain.normals.path == terrain.normals.path;
+    if (is_known) {
+        ground.colour = known.grown->ground.colour;
+        ground.normals = known.grown->ground.normals;
+    }
+    struct Wanted {
+        const SceneFile& file;
+        std::shared_ptr<const Texture>& picture;
+    };
+    for (const Wanted& wanted :
+         {Wanted{terrain.colour, ground.colour}, Wanted{terrain.normals, ground.normals}}) {
+        if (wanted.file.path.empty()) {
+            continue;
+        }
+        if (!is_known) {
+            auto read = read_ground_picture(wanted.file, loaded.folder, step, budget);
+            if (!read) {
+                return fail_at(
+                    wanted.file.span,
+                    Error{fmt::format("ground: {}", read.error().message), read.error().kind},
+                    loaded, step);
+            }
+            wanted.picture = std::move(read.value());
+        }
+        budget.take(wanted.picture->texels.size());
+    }
+    return step.done(std::move(ground));
+}
+
 /// The heroes of one species with one number of generations, and its meshes.
 struct GrownStage {
     ForestStage stage;
@@ -320,6 +379,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
         }
         grown.density_map = std::move(map.value());
     }
+    if (!step.take(make_ground_pictures(loaded, known, project, budget), grown.ground)) {
+        return step.end();
+    }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
     std::set<const Texture*> known_pictures; // counted in the budget
@@ -350,6 +412,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
                 const bool is_new =
                     mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;
                 budget.take(mesh.byte_count() + (is_new ? mesh.picture->texels.size() : 0));
+                if (mesh.relief != nullptr && known_pictures.insert(mesh.relief.get()).second) {
+                    budget.take(mesh.relief->texels.size());
+                }
             }
             continue;
         }

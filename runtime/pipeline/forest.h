@@ -34,6 +34,7 @@ struct GrownForest {
     std::vector<std::vector<UserMesh>> user_meshes; // by species
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
+    GroundPictures ground; // of the surface
     PlacementReport placed;
     /// Per species: its index in the known forest whose heroes are reused; none: heroes were grown.
     std::vector<std::optional<std::size_t>> known;
@@ -42,8 +43,8 @@ struct GrownForest {
     double place_seconds = 0.0;
 };
 
-/// A forest that was grown before. Species that ask for the same heroes take them from it, even if
-/// their files have changed since.
+/// A forest that was grown before. Species that ask for the same heroes take them from it, and the
+/// ground its pictures, even if their files have changed since.
 struct KnownForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;

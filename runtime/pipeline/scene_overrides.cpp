@@ -1,5 +1,7 @@
 #include "runtime/pipeline/scene_overrides.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +17,31 @@ void take(const std::optional<Value>& option, Target& target) {
     if (option) {
         target = static_cast<Target>(*option);
     }
+}
+
+Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain) {
+    const auto absolute = [](const std::string& path) {
+        return SceneFile{std::filesystem::absolute(path).string(), {}};
+    };
+    if (!overrides.ground_picture.empty()) {
+        terrain.colour = absolute(overrides.ground_picture);
+        terrain.normals = {}; // of another picture
+    }
+    const char* const picture = "the ground has no picture; --ground-picture names one";
+    if (!overrides.ground_normals.empty()) {
+        if (terrain.colour.path.empty()) {
+            return Error{fmt::format("--ground-normals: {}", picture)};
+        }
+        terrain.normals = absolute(overrides.ground_normals);
+    }
+    if (overrides.ground_tile) {
+        if (terrain.colour.path.empty()) {
+            return Error{fmt::format("--ground-tile: {}", picture)};
+        }
+        terrain.tile_width = *overrides.ground_tile;
+        terrain.tile_depth = *overrides.ground_tile;
+    }
+    return {};
 }
 
 } // namespace
@@ -78,6 +105,9 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     take(overrides.hill_height, scene.terrain.noise.height);
     take(overrides.hill_spacing, scene.terrain.noise.feature);
     take(overrides.hill_seed, scene.terrain.noise.seed);
+    if (Result<void> done = apply_ground(overrides, scene.terrain); !done) {
+        return done;
+    }
     PlacementOptions& placement = scene.placement;
     take(overrides.key, placement.key);
     take(overrides.method, placement.method);

@@ -57,6 +57,9 @@ struct SceneOverrides {
     std::optional<double> hill_height;  // m
     std::optional<double> hill_spacing; // m
     std::optional<std::uint64_t> hill_seed;
+    std::string ground_picture;        // absolute, or relative to the working folder
+    std::string ground_normals;        // likewise
+    std::optional<double> ground_tile; // m, side of the pictures of the ground
     /// Per species name; overrides the values for all species. Names missing in the scene are
     /// ignored.
     std::map<std::string, SpeciesOverrides> species;
@@ -68,7 +71,8 @@ struct SceneOverrides {
 };
 
 /// Replaces values of `scene`. Overrides of several sources are applied one after the other, the
-/// strongest last. Error: a tile of a placement without tiles.
+/// strongest last. Errors: a tile of a placement without tiles; normals or a tile of the ground
+/// without a picture of it.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Sets `method` and those of its values that the method of `scene` does not read, for about as

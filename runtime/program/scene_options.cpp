@@ -107,6 +107,24 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
         ->group(group);
 }
 
+void add_ground(CLI::App& app, SceneOverrides& overrides) {
+    const char* const group = "Ground";
+    app.add_option("--ground-picture", overrides.ground_picture,
+                   "PNG of the surface of the ground, laid side by side")
+        ->type_name("FILE")
+        ->group(group);
+    app.add_option("--ground-normals", overrides.ground_normals,
+                   "PNG of its relief: normals as in glTF")
+        ->type_name("FILE")
+        ->group(group);
+    add_parsed(
+        app, "--ground-tile", overrides.ground_tile,
+        [](const std::string& text) { return parse_number(text, 0.01F, 2e6F); },
+        "Side of the ground that a picture covers (default 4)")
+        ->type_name("METRES")
+        ->group(group);
+}
+
 } // namespace
 
 void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size) {
@@ -116,6 +134,7 @@ void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* s
         ->type_name("K")
         ->group("Placement");
     add_placement(app, overrides, size);
+    add_ground(app, overrides);
     add_cache(app, overrides);
 }
 

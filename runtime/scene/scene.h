@@ -46,6 +46,13 @@ struct SceneTerrain {
     std::uint32_t map_columns = 0; // of raw samples; 0: the map is a PNG
     std::uint32_t map_rows = 0;
     HeightMapOptions height_map;
+    SceneFile colour;        // picture of the surface; empty: grass and earth
+    SceneFile normals;       // its relief; only with `colour`
+    double tile_width = 4.0; // m, of the pictures along X
+    double tile_depth = 4.0; // m, along Z
+    /// m, a corner of a tile: `origin` of the file, also where another region is grown.
+    double tile_x = 0.0;
+    double tile_z = 0.0;
     SourceSpan span; // of `[terrain]`; kNoFile if missing
 };
 

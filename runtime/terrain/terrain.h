@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -92,17 +93,29 @@ private:
 
 inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9 GB of mesh
 
+/// Pictures of the surface of the ground, as tiles side by side. Columns run along X, rows along Z.
+struct GroundPictures {
+    std::shared_ptr<const Texture> colour;  // null: no pictures
+    std::shared_ptr<const Texture> normals; // as bark_normals(); may be null
+    double origin_x = 0.0;                  // m, a corner of a tile
+    double origin_z = 0.0;
+    double width = 4.0; // m, of a tile along X
+    double depth = 4.0; // m, of a tile along Z
+};
+
 /// Options of a mesh of the ground: cells along X and Z.
 struct TerrainMeshOptions {
     std::uint32_t columns = 256;
     std::uint32_t rows = 256;
     double texture_size = 0.0; // m of ground per texture; 0: one texture for all
     std::uint32_t threads = 0; // 0: as many as the machine has
+    GroundPictures pictures;   // with a colour: `texture_size` is not read
+    bool tangents = false;     // along X
 };
 
 /// Meshes the terrain's region with two triangles per cell. Vertices have height() and normal() of
 /// their x and z; u runs along X and v along Z. The same for any number of threads. Errors: no
-/// cells, or more than kMaxTerrainCells.
+/// cells, more than kMaxTerrainCells, or tiles without area.
 [[nodiscard]] Result<Mesh> make_terrain_mesh(const Terrain& terrain,
                                              const TerrainMeshOptions& options);
 

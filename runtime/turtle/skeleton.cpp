@@ -48,8 +48,11 @@ void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& t
 
 void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
     const Polygon& p = skeleton.polygons[index];
-    fmt::format_to(std::back_inserter(text), "polygon {} parent {} order {} colour {}:", index,
-                   parent_text(p.parent), p.order, p.colour);
+    fmt::format_to(std::back_inserter(text), "polygon {} parent {} order {} colour {}{}:", index,
+                   parent_text(p.parent), p.order, p.colour,
+                   p.picture == kNoPicture
+                       ? std::string()
+                       : fmt::format(" picture \"{}\"", skeleton.mesh_files[p.picture]));
     for (std::uint32_t c = 0; c < p.corner_count; ++c) {
         fmt::format_to(std::back_inserter(text), " {}",
                        vector_text(skeleton.corners[p.first_corner + c]));

@@ -48,6 +48,8 @@ struct PlacedObject {
     std::uint16_t colour = 0;
 };
 
+inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
+
 /// Corners first_corner ... in Skeleton::corners, at least three.
 struct Polygon {
     std::uint32_t first_corner = 0;
@@ -56,6 +58,7 @@ struct Polygon {
     std::uint32_t parent = kNoSegment;
     std::uint16_t order = 0;
     std::uint16_t colour = 0;
+    std::uint32_t picture = kNoPicture; // in Skeleton::mesh_files
 };
 
 struct Skeleton {
@@ -63,7 +66,7 @@ struct Skeleton {
     LargeVector<PlacedObject> objects;
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
-    std::vector<std::string> mesh_files; // as written in the grammar
+    std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
     // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
     // had origins.

@@ -39,6 +39,7 @@ Outcome<void> make_model(const ViewOptions& options,
             grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known)) {
         return end_mesh_of_heroes(*stop, step);
     }
+    document.model.ground = grown.ground;
     return step.done();
 }
 

@@ -86,7 +86,7 @@ public:
             }
             has_forest_shaders_ = true;
         }
-        forest_.show(std::move(model));
+        forest_.show(std::move(model), textures_);
         shadow_.invalidate();
         is_forest_ = true;
         return {};

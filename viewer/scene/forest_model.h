@@ -53,6 +53,7 @@ struct TreeForm {
 struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
+    GroundPictures ground; // of the terrain
     std::vector<TreeForm> forms;
     std::vector<std::uint32_t> first_form; // by species; its stages follow
 

@@ -8,7 +8,7 @@ layout(binding = 2) uniform sampler2D leaf_texture;
 in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
-flat in uint kind; // bits: 1 textured, 2 translucent
+flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -28,7 +28,23 @@ vec2 projected(vec3 normal) {
 #else
 in vec3 shadow_position;
 in vec2 fog;
+in vec3 from_eye; // m
 out vec4 colour;
+layout(binding = 5) uniform sampler2D relief_texture; // normals as in glTF
+// The normal of a bump. Axes of the texture come from differences between pixels, as vertices have
+// no tangents (Schueler 2006, "Normal Mapping without Precomputed Tangents", ShaderX 5).
+// `normal`: of the side that is seen.
+vec3 bumped(vec3 normal) {
+    vec3 across = cross(dFdy(from_eye), normal);
+    vec3 along = cross(normal, dFdx(from_eye));
+    vec2 right = dFdx(uv), up = dFdy(uv);
+    vec3 u = across * right.x + along * up.x;
+    vec3 v = across * right.y + along * up.y;
+    float size = max(dot(u, u), dot(v, v));
+    vec3 bump = texture(relief_texture, uv).xyz * 2.0 - 1.0;
+    vec3 turned = size > 0.0 ? (u * bump.x - v * bump.y) * inversesqrt(size) : vec3(0.0);
+    return normalize(turned + normal * bump.z);
+}
 #endif
 void main() {
 #ifdef BLENDS
@@ -51,6 +67,11 @@ void main() {
     if (!gl_FrontFacing) {
         normal = -normal;
     }
+#ifndef BAKE
+    if ((kind & 4u) != 0u) {
+        normal = bumped(normal);
+    }
+#endif
     if (is_translucent) {
         normal = leaf_normal(normal, crown_position);
     }

@@ -33,6 +33,7 @@ out vec3 world_position;
 #elif !defined(LIT_AT_CORNERS)
 out vec3 shadow_position;
 out vec2 fog;
+out vec3 from_eye;
 #endif
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
@@ -78,6 +79,7 @@ void main() {
 #elif !defined(LIT_AT_CORNERS)
     shadow_position = shadow_map_position(world, frame.to_sun.xyz);
     fog = fog_to(world);
+    from_eye = world - frame.eye_time.xyz;
 #endif
     gl_Position = frame.view_projection * vec4(world, 1.0);
 }

@@ -1,10 +1,33 @@
 #include "light.glsl"
+#ifdef PICTURE
+layout(binding = 3) uniform sampler2D colours;
+layout(binding = 4) uniform sampler2D relief; // normals as in glTF
+layout(location = 16) uniform vec4 tiles;     // a corner of a tile; its sides; m
+layout(location = 17) uniform vec3 mean;      // of the colours
+layout(location = 18) uniform int has_relief;
+#else
 layout(binding = 2) uniform sampler2D noise; // tileable
+#endif
 in vec3 world_position;
 in vec3 world_normal;
 in vec3 shadow_position;
 in vec3 fog; // fog_to(); distance, m
 out vec4 colour;
+#ifdef PICTURE
+void main() {
+    vec3 up = normalize(world_normal);
+    vec2 uv = (world_position.xz - tiles.xy) / tiles.zw;
+    vec3 normal = up;
+    // Rows of tiles would be seen far away.
+    float far = smoothstep(25.0, 100.0, fog.z * inversesqrt(tiles.z * tiles.w));
+    vec3 albedo = mix(texture(colours, uv).rgb, mean, far);
+    if (has_relief != 0) {
+        vec3 bump = texture(relief, uv).xyz * 2.0 - 1.0;
+        vec3 along = normalize(vec3(up.y, -up.x, 0.0)); // x of the picture
+        normal = normalize(along * bump.x + cross(up, along) * bump.y + up * bump.z);
+        normal = normalize(mix(normal, up, far));
+    }
+#else
 // Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
@@ -25,6 +48,7 @@ void main() {
     vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), small_noise.g);
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, small_noise.g - 0.5));
+#endif
     float lit = sunlight_at(shadow_position, 1.0);
     colour = tone_mapped(apply_fog(shade(albedo, normal, world_position, lit, 0.0), fog.xy));
 }

@@ -10,6 +10,20 @@
 
 namespace lsys {
 
+namespace {
+
+/// Whether the file is a picture by its name; `{` shows one on polygons.
+bool is_picture(std::string_view file) {
+    constexpr std::string_view kExtension = ".png";
+    return file.size() > kExtension.size() &&
+           std::equal(kExtension.begin(), kExtension.end(), file.end() - kExtension.size(),
+                      [](char wanted, char c) {
+                          return wanted == (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+                      });
+}
+
+} // namespace
+
 void DeclarationResolver::bad(SourceSpan span, std::string message) {
     resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
 }
@@ -58,6 +72,12 @@ void DeclarationResolver::object(const ObjectNode& node) {
             continue;
         }
         if (is_structural(resolution_.program.settings.turtle, name)) {
+            if (name == "{" && binding && is_picture(binding->mesh_file)) {
+                ObjectBinding picture = *binding;
+                picture.object = TurtleOperation::PolygonBegin;
+                bind(module, std::move(picture));
+                continue;
+            }
             bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
         } else if (binding) {
             bind(module, *binding);

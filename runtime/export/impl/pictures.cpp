@@ -9,14 +9,20 @@
 #include <array>
 #include <cmath>
 #include <new>
+#include <string_view>
 
 namespace lsys {
 
 namespace {
 
-bool shows_texture(const Mesh& mesh, const Material& material) {
-    return material.textured && (material.picture != nullptr || has_texture(material.kind)) &&
-           is_complete(mesh, mesh.texture_coordinates);
+bool shows_texture(const Material& material) {
+    return material.textured && (material.picture != nullptr || has_texture(material.kind));
+}
+
+/// Normals of a file, or those of bark.
+bool shows_relief(const Material& material) {
+    return material.relief != nullptr ||
+           (shows_texture(material) && material.kind == MaterialKind::Bark);
 }
 
 bool is_in_use(const Mesh& mesh, std::size_t material) {
@@ -34,13 +40,22 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     if (found != list.end()) {
         return static_cast<std::size_t>(found - list.begin());
     }
+    // Names of files keep their extension.
+    constexpr std::string_view kExtension = ".png";
+    const bool is_file = wanted.name.ends_with(kExtension);
+    const auto stem_of = [&](const std::string& name) {
+        return is_file ? name.substr(0, name.size() - kExtension.size()) : name;
+    };
     std::vector<std::string> names;
     names.reserve(list.size());
     for (const Picture& picture : list) {
-        names.push_back(picture.name);
+        names.push_back(stem_of(picture.name));
     }
     list.push_back(wanted);
-    list.back().name = unique_name(names, wanted.name);
+    list.back().name = unique_name(names, stem_of(wanted.name));
+    if (is_file) {
+        list.back().name += kExtension;
+    }
     return list.size() - 1;
 }
 
@@ -64,9 +79,9 @@ void tint(Texture& texture, const glm::vec3& colour) {
 }
 
 Texture paint(const Picture& picture) {
-    Texture texture = picture.kind == PictureKind::Relief ? bark_normals()
-                      : picture.file != nullptr           ? *picture.file
-                                                          : material_texture(picture.material);
+    Texture texture = picture.file != nullptr               ? *picture.file
+                      : picture.kind == PictureKind::Relief ? bark_normals()
+                                                            : material_texture(picture.material);
     if (picture.kind == PictureKind::Opacity) {
         for (std::size_t i = 0; i < texture.texels.size(); i += 4) {
             std::fill_n(texture.texels.begin() + static_cast<std::ptrdiff_t>(i), 3,
@@ -79,7 +94,7 @@ Texture paint(const Picture& picture) {
 }
 
 std::string encode_picture(const Picture& picture) {
-    const bool is_unchanged = picture.file != nullptr && picture.kind == PictureKind::Colour &&
+    const bool is_unchanged = picture.file != nullptr && picture.kind != PictureKind::Opacity &&
                               picture.tint == glm::vec3(1.0F);
     if (is_unchanged) { // without a copy: the file may be large
         return encode_png(*picture.file);
@@ -100,30 +115,35 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
     const auto name = [&](const std::string& what) {
         return inside ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
     };
+    const bool has_tangents = is_complete(mesh, mesh.tangents);
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         const Material& material = mesh.materials[i];
-        if (!shows_texture(mesh, material) || !is_in_use(mesh, i)) {
+        if (!is_complete(mesh, mesh.texture_coordinates) || !is_in_use(mesh, i)) {
             continue;
         }
-        const bool bark = material.kind == MaterialKind::Bark;
         Picture wanted;
         wanted.material = material.kind;
         wanted.file = material.picture;
+        const bool bark = material.kind == MaterialKind::Bark;
         const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
         MaterialPictures& shown = pictures.of_materials[i];
-        wanted.tint = inside ? glm::vec3(1.0F) : glm::vec3(material.colour);
-        wanted.name = name(inside ? what : material.name);
-        shown.colour = number_of(pictures.list, wanted);
-        wanted.tint = glm::vec3(1.0F);
-        if (kind == ExportPictures::FilesWithOpacity && material.cut_out) {
-            wanted.kind = PictureKind::Opacity;
-            wanted.name = name(what + " opacity");
-            shown.opacity = number_of(pictures.list, wanted);
+        if (shows_texture(material)) {
+            wanted.tint = inside ? glm::vec3(1.0F) : glm::vec3(material.colour);
+            wanted.name = name(inside ? what : material.name);
+            shown.colour = number_of(pictures.list, wanted);
+            wanted.tint = glm::vec3(1.0F);
+            if (kind == ExportPictures::FilesWithOpacity && material.cut_out) {
+                wanted.kind = PictureKind::Opacity;
+                wanted.name = name(what + " opacity");
+                shown.opacity = number_of(pictures.list, wanted);
+            }
         }
-        if (bark && (kind == ExportPictures::FilesWithRelief ||
-                     (inside && is_complete(mesh, mesh.tangents)))) {
+        if (shows_relief(material) &&
+            (kind == ExportPictures::FilesWithRelief || (inside && has_tangents))) {
             wanted.kind = PictureKind::Relief;
-            wanted.name = name("bark normals");
+            wanted.file = material.relief;
+            wanted.name =
+                name(wanted.file != nullptr ? material.name + " normals" : "bark normals");
             shown.relief = number_of(pictures.list, wanted);
         }
     }

@@ -74,8 +74,8 @@ Material make_material(const MaterialKey& key) {
         material.name = fmt::format("picture {}", key.picture);
     }
     material.kind = key.kind;
-    material.colour =
-        glm::vec4(key.picture != 0 ? glm::vec3(1.0F) : palette_colour(key.palette), 1.0F);
+    material.colour = glm::vec4(
+        key.picture != 0 && key.textured ? glm::vec3(1.0F) : palette_colour(key.palette), 1.0F);
     material.two_sided = key.two_sided;
     material.cut_out = key.cut_out;
     material.textured = key.textured;
@@ -255,7 +255,9 @@ std::optional<Stop> MeshBuilder::finish() {
                                .index_count = count});
         mesh_.materials.push_back(make_material(part.material));
         if (part.material.picture != 0) {
-            mesh_.materials.back().picture = pictures_[part.material.picture - 1U];
+            const FilePictures& pictures = pictures_[part.material.picture - 1U];
+            mesh_.materials.back().picture = pictures.colour;
+            mesh_.materials.back().relief = pictures.relief;
         }
     }
     parts_.clear();

@@ -21,13 +21,19 @@ struct MaterialKey {
     bool two_sided = false;
     bool cut_out = false;
     bool textured = false;
-    std::uint16_t picture = 0; // number in set_pictures(), from 1; 0: the texture of its kind
+    std::uint16_t picture = 0; // number in set_pictures(), from 1; 0: no picture of a file
     friend bool operator==(const MaterialKey&, const MaterialKey&) = default;
     friend bool operator<(const MaterialKey& a, const MaterialKey& b) {
         return std::tie(a.kind, a.palette, a.two_sided, a.cut_out, a.textured, a.picture) <
                std::tie(b.kind, b.palette, b.two_sided, b.cut_out, b.textured, b.picture);
     }
 };
+/// Pictures of a file; each may be null.
+struct FilePictures {
+    std::shared_ptr<const Texture> colour;
+    std::shared_ptr<const Texture> relief;
+};
+
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
 [[nodiscard]] MaterialKey wood_material(std::uint16_t palette);
 [[nodiscard]] Material make_material(const MaterialKey& key);
@@ -75,9 +81,7 @@ public:
 
     [[nodiscard]] const MeshOptions& options() const { return options_; }
     /// Sets the pictures of files, by MaterialKey::picture.
-    void set_pictures(std::vector<std::shared_ptr<const Texture>> pictures) {
-        pictures_ = std::move(pictures);
-    }
+    void set_pictures(std::vector<FilePictures> pictures) { pictures_ = std::move(pictures); }
     /// Nothing until a limit is exceeded; else the Stop that make_mesh() returns.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
@@ -121,7 +125,7 @@ private:
     std::optional<Stop> stop_;
     std::uint64_t vertices_ = 0;
     std::uint64_t triangle_bytes_ = 0;
-    std::vector<std::shared_ptr<const Texture>> pictures_;
+    std::vector<FilePictures> pictures_;
     std::vector<Part> parts_; // first those of place_parts() and reserve_parts()
     std::size_t first_parts_ = 0;
 };

@@ -27,6 +27,10 @@ std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
     return std::uint64_t{static_cast<std::uint8_t>(object.kind)} << 48 | file << 16 | object.colour;
 }
 
+bool shows_pictures(const UserMesh& mesh) {
+    return (mesh.picture != nullptr || mesh.relief != nullptr) && !mesh.texture_coordinates.empty();
+}
+
 /// Writes one part of a shape for many objects.
 struct Instances {
     const Skeleton& skeleton;
@@ -129,11 +133,6 @@ void append_objects(const Skeleton& skeleton,
         return is_drawn(skeleton.objects[i]) ? key_of(skeleton.objects[i], user_meshes.size())
                                              : kNoGroup;
     });
-    std::vector<std::shared_ptr<const Texture>> pictures;
-    for (const UserMesh& mesh : user_meshes) {
-        pictures.push_back(mesh.picture);
-    }
-    builder.set_pictures(std::move(pictures));
     Workers workers(options.threads);
     Shape shape;
     std::uint64_t shape_key = kNoGroup;
@@ -147,7 +146,8 @@ void append_objects(const Skeleton& skeleton,
                         ? make_shape(user_meshes[object.mesh_file])
                         : make_shape(object.kind, options.level);
             for (ShapePart& part : shape.parts) {
-                if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
+                if (object.kind == TurtleOperation::MeshFile &&
+                    shows_pictures(user_meshes[object.mesh_file])) {
                     part.material.picture = static_cast<std::uint16_t>(object.mesh_file + 1);
                 }
             }

@@ -3,6 +3,7 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/groups.h"
 #include "runtime/meshing/impl/triangulate.h"
+#include "runtime/meshing/texture.h"
 
 #include <glm/geometric.hpp>
 
@@ -182,6 +183,16 @@ void write(const Job& job, const Piece& piece, std::uint16_t palette, const Mesh
     }
 }
 
+constexpr unsigned kPictureShift = 16;
+
+/// Number of the picture, from 1, and the colour, in the order of parts.
+std::uint64_t key_of(const Polygon& polygon, const std::vector<UserMesh>& user_meshes) {
+    if (polygon.picture < user_meshes.size() && user_meshes[polygon.picture].picture != nullptr) {
+        return std::uint64_t{polygon.picture + 1U} << kPictureShift | 1U; // leaf green
+    }
+    return std::max<std::uint64_t>(polygon.colour, 1); // 0 means leaf green
+}
+
 std::vector<Piece> cut_into_pieces(const Job& job, const Group& group) {
     std::vector<Piece> pieces;
     std::uint64_t corners = kCornersPerPiece;
@@ -198,10 +209,12 @@ std::vector<Piece> cut_into_pieces(const Job& job, const Group& group) {
 
 } // namespace
 
-void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
-    // Palette index 0 means leaf green, which is 1.
+void append_polygons(const Skeleton& skeleton,
+                     const std::vector<UserMesh>& user_meshes,
+                     const MeshOptions& options,
+                     MeshBuilder& builder) {
     const Groups groups = group_items(skeleton.polygons.size(), [&](std::uint64_t i) {
-        return std::max<std::uint64_t>(skeleton.polygons[i].colour, 1);
+        return key_of(skeleton.polygons[i], user_meshes);
     });
     const Job job{.skeleton = skeleton, .items = groups.items};
     Workers workers(options.threads);
@@ -217,9 +230,14 @@ void append_polygons(const Skeleton& skeleton, const MeshOptions& options, MeshB
             indices += piece.triangles.size();
         }
         const auto palette = static_cast<std::uint16_t>(group.key);
+        const auto picture = static_cast<std::uint16_t>(group.key >> kPictureShift);
         const MaterialKey material{.kind = palette == 1 ? MaterialKind::Leaf : MaterialKind::Plain,
                                    .palette = palette,
-                                   .two_sided = true};
+                                   .two_sided = true,
+                                   .cut_out = picture != 0 &&
+                                              has_holes(*user_meshes[picture - 1U].picture),
+                                   .textured = picture != 0,
+                                   .picture = picture};
         MeshBlock block;
         if (!builder.reserve(builder.part(material), vertices, indices, block)) {
             return;

@@ -34,6 +34,40 @@ struct Library {
     FileId file = kNoFile; // added for its first diagnostic
 };
 
+/// Reads a picture; `max_bytes`: of the file and its texels.
+Result<Texture>
+read_picture_file(const std::string& path, std::uint64_t max_bytes, const Project& project) {
+    const Result<std::string> bytes =
+        project.host.read_named_file(path, {kMaxPictureBytes, max_bytes});
+    if (!bytes) {
+        return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                     bytes.error().kind};
+    }
+    Result<Texture> picture = read_picture(bytes.value(), max_bytes - bytes.value().size());
+    if (!picture) {
+        return Error{fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message),
+                     picture.error().kind};
+    }
+    return picture;
+}
+
+bool is_picture(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return extension.size() == 4 && (extension == ".png" || extension == ".PNG");
+}
+
+/// The picture upright on the turtle's heading, 1 high, seen from the side of its up vector.
+UserMesh card_of(const Texture& picture) {
+    const float half =
+        0.5F * static_cast<float>(picture.width) / static_cast<float>(picture.height);
+    UserMesh card;
+    card.positions = {{-half, 0, 0}, {half, 0, 0}, {half, 1, 0}, {-half, 1, 0}};
+    card.normals.assign(4, {0, 0, 1});
+    card.texture_coordinates = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    card.indices = {0, 1, 2, 0, 2, 3};
+    return card;
+}
+
 /// Finds and reads the picture of the mesh in the file `path`, whose contents are `text`.
 class PictureSearch {
 public:
@@ -146,9 +180,9 @@ private:
                 continue;
             }
             const MaterialPicture& picture = found->second;
-            return {picture.file.name.empty() ? std::string()
-                                              : beside(library.path, picture.file.name),
-                    &library, &picture};
+            const ObjName& first = picture.file.name.empty() ? picture.relief : picture.file;
+            return {first.name.empty() ? std::string() : beside(library.path, first.name), &library,
+                    &picture};
         }
         if (libraries_.size() == mesh_.libraries.size() &&
             !std::exchange(reported_unknown_, true)) {
@@ -159,50 +193,88 @@ private:
     }
 
     void read(const FoundPicture& found, const Project& project) {
-        const std::string& path = found.path;
-        const auto add_note = [&](std::string message) {
-            Library& library = *found.library;
-            warn(library.path, library.text, library.file, found.picture->file, std::move(message));
-        };
-        std::shared_ptr<const Texture> picture = budget_.pictures[path];
+        Library& library = *found.library;
+        const MaterialPicture& names = *found.picture;
+        const ObjName& first = names.file.name.empty() ? names.relief : names.file;
+        std::shared_ptr<const Texture> colour = load(library, names.file, project);
+        std::shared_ptr<const Texture> relief = load(library, names.relief, project);
+        if (colour == nullptr && relief == nullptr) {
+            return;
+        }
+        if (names.has_options) {
+            warn(library.path, library.text, library.file, first,
+                 "options before the name of a picture are left out");
+        }
+        if (mesh_.texture_coordinates.empty()) {
+            warn(library.path, library.text, library.file, first,
+                 fmt::format("`{}` has no texture coordinates to show this picture by",
+                             shown_path(path_)));
+            return;
+        }
+        if (colour != nullptr && !names.opacity.name.empty() &&
+            names.opacity.name != names.file.name) {
+            colour = add_opacity(library, names, colour, project);
+        }
+        mesh_.picture = std::move(colour);
+        if (relief != nullptr) {
+            mesh_.relief = derived(
+                fmt::format("{}\nrelief {}", beside(library.path, names.relief.name), names.bump),
+                [&] { return normals_of(*relief, names.bump); });
+        }
+    }
+
+    std::shared_ptr<const Texture> add_opacity(Library& library,
+                                               const MaterialPicture& names,
+                                               const std::shared_ptr<const Texture>& colour,
+                                               const Project& project) {
+        const std::shared_ptr<const Texture> opacity = load(library, names.opacity, project);
+        if (opacity == nullptr) {
+            return colour;
+        }
+        if (opacity->width != colour->width || opacity->height != colour->height) {
+            warn(library.path, library.text, library.file, names.opacity,
+                 fmt::format("an opacity of {} by {} pixels for a picture of {} by {} is left out",
+                             opacity->width, opacity->height, colour->width, colour->height));
+            return colour;
+        }
+        return derived(fmt::format("{}\nopacity {}", beside(library.path, names.file.name),
+                                   beside(library.path, names.opacity.name)),
+                       [&] { return with_opacity(*colour, *opacity); });
+    }
+
+    /// A picture that is made of others, once. No path contains the line break of its key.
+    template <typename Make>
+    std::shared_ptr<const Texture> derived(const std::string& key, const Make& make) {
+        std::shared_ptr<const Texture>& picture = budget_.pictures[key];
+        if (picture == nullptr) {
+            picture = std::make_shared<const Texture>(make());
+            budget_.take(picture->texels.size());
+        }
+        return picture;
+    }
+
+    /// Null without a name, and after a warning.
+    std::shared_ptr<const Texture>
+    load(Library& library, const ObjName& name, const Project& project) {
+        if (name.name.empty()) {
+            return nullptr;
+        }
+        const std::string path = beside(library.path, name.name);
+        std::shared_ptr<const Texture>& picture = budget_.pictures[path];
         if (picture == nullptr) {
             Result<Texture> decoded = decode(path, project);
             if (!decoded) {
-                Library& library = *found.library;
-                report(library.path, library.text, library.file, found.picture->file,
-                       decoded.error());
-                return;
+                report(library.path, library.text, library.file, name, decoded.error());
+                return nullptr;
             }
             budget_.take(decoded.value().texels.size());
             picture = std::make_shared<const Texture>(std::move(decoded.value()));
-            budget_.pictures[path] = picture;
         }
-        if (found.picture->has_options) {
-            add_note("options before the name of a picture are left out");
-        }
-        if (mesh_.texture_coordinates.empty()) {
-            add_note(fmt::format("`{}` has no texture coordinates to show this picture by",
-                                 shown_path(path_)));
-            return;
-        }
-        mesh_.picture = std::move(picture);
+        return picture;
     }
 
     Result<Texture> decode(const std::string& path, const Project& project) const {
-        const Result<std::string> bytes =
-            project.host.read_named_file(path, {kMaxPictureBytes, left()});
-        if (!bytes) {
-            return Error{
-                fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
-                bytes.error().kind};
-        }
-        Result<Texture> picture = read_picture(bytes.value(), left() - bytes.value().size());
-        if (!picture) {
-            return Error{
-                fmt::format("cannot use `{}`: {}", shown_path(path), picture.error().message),
-                picture.error().kind};
-        }
-        return picture;
+        return read_picture_file(path, left(), project);
     }
 
     const std::string& path_;
@@ -227,10 +299,29 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
     const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        if (symbol.turtle != TurtleOperation::MeshFile) {
+        const bool is_of_polygons =
+            symbol.turtle == TurtleOperation::PolygonBegin && !symbol.mesh_file.empty();
+        if (symbol.turtle != TurtleOperation::MeshFile && !is_of_polygons) {
             continue;
         }
         const std::string path = (folder / symbol.mesh_file).string();
+        if (is_of_polygons || is_picture(path)) {
+            std::shared_ptr<const Texture>& picture = budget.pictures[path];
+            if (picture == nullptr) {
+                Result<Texture> read = read_picture_file(path, budget.left, project);
+                if (!read) {
+                    return step.fail(read.error());
+                }
+                budget.take(read.value().texels.size());
+                picture = std::make_shared<const Texture>(std::move(read.value()));
+            }
+            UserMesh& mesh =
+                files.meshes.emplace_back(is_of_polygons ? UserMesh{} : card_of(*picture));
+            mesh.picture = picture;
+            budget.take(mesh.byte_count());
+            files.lengths.resize(bytecode.symbols.size(), 1.0F);
+            continue;
+        }
         const Result<std::string> text = step.read_named(path, {~std::uint64_t{0}, budget.left});
         if (!text) {
             return step.fail(text.error());

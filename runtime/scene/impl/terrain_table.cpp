@@ -94,6 +94,28 @@ void read_map(TableReader& reader, SceneTerrain& terrain) {
         reader.choice("filter", kFilters).value_or(static_cast<std::size_t>(map.filter)));
 }
 
+void read_pictures(TableReader& reader, SceneTerrain& terrain) {
+    if (auto file = reader.file("colour")) {
+        terrain.colour = std::move(*file);
+    }
+    if (auto file = reader.file("normals")) {
+        terrain.normals = std::move(*file);
+    }
+    constexpr double kMinTile = 0.01;
+    const auto tile = reader.pair("tile", {kMinTile, 2.0 * kMaxCoordinate, false, "m"}, true);
+    if (!reader.has("colour")) {
+        for (const std::string_view key : {"normals", "tile"}) {
+            reader.report_conflicting_key(key, "the ground has no `colour`", {});
+        }
+    }
+    if (tile) {
+        terrain.tile_width = (*tile)[0];
+        terrain.tile_depth = (*tile)[1];
+    }
+    terrain.tile_x = terrain.region.x;
+    terrain.tile_z = terrain.region.z;
+}
+
 } // namespace
 
 void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics) {
@@ -128,6 +150,7 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
         terrain.base = reader.number("base", kAltitude).value_or(0.0);
         terrain.noise.base = terrain.base;
     }
+    read_pictures(reader, terrain);
     reader.finish();
 }
 

@@ -3,6 +3,7 @@
 #include "runtime/terrain/terrain.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -14,6 +15,18 @@ namespace {
 
 float coordinate(double lowest, double side, std::uint32_t index, std::uint32_t cells) {
     return static_cast<float>(lowest + side * (static_cast<double>(index) / cells));
+}
+
+/// Part of a tile between its corner and a place.
+double part_of_tile(double place, double origin, double side) {
+    const double tiles = (place - origin) / side;
+    return tiles - std::floor(tiles);
+}
+
+/// The direction of +X on a surface.
+glm::vec3 tangent_of(const glm::vec3& normal) {
+    // normal.y is above 0: the ground is a function of X and Z.
+    return glm::normalize(glm::vec3(normal.y, -normal.x, 0.0F));
 }
 
 } // namespace
@@ -33,15 +46,29 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
         return Error{fmt::format("a texture of the ground of {} m; it must be 0 or more",
                                  options.texture_size)};
     }
+    const GroundPictures& pictures = options.pictures;
+    if (pictures.colour != nullptr && !(pictures.width > 0.0 && pictures.depth > 0.0)) {
+        return Error{fmt::format("tiles of the ground of {} by {} m; they must be above 0",
+                                 pictures.width, pictures.depth)};
+    }
     const Region& region = terrain.region();
-    const double texture_width = options.texture_size > 0.0 ? options.texture_size : region.width;
-    const double texture_depth = options.texture_size > 0.0 ? options.texture_size : region.depth;
+    const bool tiled = pictures.colour != nullptr;
+    const double texture_width = tiled                        ? pictures.width
+                                 : options.texture_size > 0.0 ? options.texture_size
+                                                              : region.width;
+    const double texture_depth = tiled                        ? pictures.depth
+                                 : options.texture_size > 0.0 ? options.texture_size
+                                                              : region.depth;
+    // Whole tiles are left out: small numbers are exact.
+    const double first_u = tiled ? part_of_tile(region.x, pictures.origin_x, pictures.width) : 0.0;
+    const double first_v = tiled ? part_of_tile(region.z, pictures.origin_z, pictures.depth) : 0.0;
 
     Mesh mesh;
     const std::uint64_t vertices = (columns + 1) * (rows + 1);
     mesh.positions.resize(vertices);
     mesh.normals.resize(vertices);
     mesh.texture_coordinates.resize(vertices);
+    mesh.tangents.resize(options.tangents ? vertices : 0);
     LargeVector<std::uint32_t> indices;
     indices.resize(6 * columns * rows);
 
@@ -57,8 +84,11 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             mesh.positions[vertex] = {x, terrain.height(x, z), z};
             mesh.normals[vertex] = terrain.normal(x, z);
             mesh.texture_coordinates[vertex] = {
-                static_cast<float>(part_x * region.width / texture_width),
-                static_cast<float>(part_z * region.depth / texture_depth)};
+                static_cast<float>(first_u + part_x * region.width / texture_width),
+                static_cast<float>(first_v + part_z * region.depth / texture_depth)};
+            if (options.tangents) {
+                mesh.tangents[vertex] = glm::vec4(tangent_of(mesh.normals[vertex]), 1.0F);
+            }
         }
         if (row == rows) {
             return;
@@ -82,7 +112,10 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     mesh.indices = std::move(indices);
     Material ground;
     ground.name = "ground";
-    ground.colour = {0.12F, 0.10F, 0.05F, 1.0F};
+    ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.12F, 0.10F, 0.05F, 1.0F);
+    ground.textured = tiled;
+    ground.picture = pictures.colour;
+    ground.relief = tiled ? pictures.normals : nullptr;
     mesh.materials.push_back(ground);
     mesh.parts.push_back({0, 0, mesh.indices.size()});
     return mesh;

@@ -75,6 +75,10 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
             table.mesh_files.push_back(symbol.mesh_file);
         }
+        if (symbol.turtle == TurtleOperation::PolygonBegin && !symbol.mesh_file.empty()) {
+            action.picture = static_cast<std::uint32_t>(table.mesh_files.size());
+            table.mesh_files.push_back(symbol.mesh_file);
+        }
         table.reads_text = table.reads_text || symbol.turtle == TurtleOperation::ParameterBegin;
         of_symbol.push_back(action);
     }

@@ -32,6 +32,7 @@ struct Action {
     float unit_length = 1.0F;                        // length of an object of size 1
     float default_size = 1.0F;                       // size of an object without a parameter
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files
+    std::uint32_t picture = kNoPicture;              // index in Skeleton::mesh_files, of a polygon
     char character = '\0';                           // the name, if it is one character
 };
 

@@ -194,6 +194,7 @@ void Turtle::State::close_polygon() {
         polygon.parent = now.segment;
         polygon.order = order();
         polygon.colour = now.colour;
+        polygon.picture = open.picture;
         within_memory([&] {
             skeleton.corners.insert(skeleton.corners.end(), corners.begin(), corners.end());
             skeleton.polygons.push_back(polygon);
@@ -382,7 +383,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Restore:
         return restore();
     case TurtleOperation::PolygonBegin:
-        polygons.open(frame_of(now.pose), origin);
+        polygons.open(frame_of(now.pose), origin, action.picture);
         return true;
     case TurtleOperation::PolygonVertex:
         if (!polygons.any()) {

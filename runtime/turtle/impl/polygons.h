@@ -17,6 +17,7 @@ struct OpenPolygon {
     std::size_t first_on_path = 0; // index in OpenPolygons::path_
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     Origin origin; // origin of its `{`
+    std::uint32_t picture = kNoPicture;
 };
 
 class OpenPolygons {
@@ -24,8 +25,8 @@ public:
     [[nodiscard]] bool any() const { return !open_.empty(); }
     /// Precondition of all below: any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
-    void open(const glm::quat& frame, const Origin& origin) {
-        open_.push_back({vertices_.size(), path_.size(), frame, origin});
+    void open(const glm::quat& frame, const Origin& origin, std::uint32_t picture) {
+        open_.push_back({vertices_.size(), path_.size(), frame, origin, picture});
     }
     /// Adds the vertex of a `.`.
     void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }

@@ -127,6 +127,22 @@ TEST_CASE("modules get their meaning from the profile and from #object") {
     CHECK(operation("#object A \"leaf.obj\";", "A") == MeshFile);
 }
 
+TEST_CASE("a picture bound to `{` is one of its polygons") {
+    const test::Compiled c = compile_text("#object { \"a leaf.PNG\";\n#w : { . . . };\n");
+    CAPTURE(c.said());
+    REQUIRE(c.outcome.program);
+    const Program& program = *c.outcome.program;
+    const auto& symbol = program.symbol(program.modules[program.axiom.first_module].symbol);
+    CHECK(symbol.turtle == TurtleOperation::PolygonBegin);
+    CHECK(symbol.mesh_file == "a leaf.PNG");
+    for (const char* const other :
+         {"{ \"leaf.obj\"", "} \"leaf.png\"", "[ \"leaf.png\"", ". \"leaf.png\""}) {
+        CAPTURE(other);
+        CHECK(compile_text(std::string("#object ") + other + ";\n#w : F;\n").errors() ==
+              Said{"bad-declaration 1:9"});
+    }
+}
+
 TEST_CASE("declarations say what they are about") {
     const auto errors = [](const std::string& text) {
         return compile_text(text + "\n#w : F;\n").errors();

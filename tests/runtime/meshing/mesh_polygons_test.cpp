@@ -110,7 +110,7 @@ Skeleton skeleton_of(const std::vector<glm::vec3>& corners) {
 Mesh meshed(const Skeleton& skeleton, const MeshOptions& options = {}) {
     Mesh mesh;
     MeshBuilder builder(options, mesh);
-    append_polygons(skeleton, options, builder);
+    append_polygons(skeleton, {}, options, builder);
     REQUIRE(builder.finish() == std::nullopt);
     test::check_mesh(mesh, options);
     return mesh;
@@ -315,7 +315,7 @@ TEST_CASE("polygons over the limit leave the mesh empty") {
     options.max_bytes = 100;
     Mesh mesh;
     MeshBuilder builder(options, mesh);
-    append_polygons(skeleton_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), options, builder);
+    append_polygons(skeleton_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), {}, options, builder);
     CHECK(builder.finish() == Stop::Limit);
     CHECK(mesh.positions.empty());
 }

@@ -71,6 +71,30 @@ TEST_CASE("a tile needs a placement with tiles") {
     CHECK(scene.terrain.region == scene.placement.region);
 }
 
+TEST_CASE("a picture of the ground replaces that of the scene, and its normals") {
+    Scene scene = two_species();
+    SceneOverrides overrides;
+    overrides.ground_tile = 2.5;
+    CHECK_FALSE(apply(overrides, scene)); // of which picture?
+    overrides = {};
+    overrides.ground_normals = "n.png";
+    CHECK_FALSE(apply(overrides, scene));
+    scene.terrain.colour.path = "old.png";
+    scene.terrain.normals.path = "old-n.png";
+    overrides = {};
+    overrides.ground_picture = "/new.png";
+    overrides.ground_tile = 2.5;
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.terrain.colour.path == "/new.png");
+    CHECK(scene.terrain.normals.path.empty());
+    CHECK(scene.terrain.tile_width == 2.5);
+    CHECK(scene.terrain.tile_depth == 2.5);
+    overrides.ground_normals = "/n.png";
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.terrain.normals.path == "/n.png");
+    CHECK_FALSE(overrides.changes_placement());
+}
+
 TEST_CASE("overrides tell whether trees may stand elsewhere") {
     SceneOverrides overrides;
     CHECK_FALSE(overrides.changes_placement());

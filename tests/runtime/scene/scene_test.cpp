@@ -224,6 +224,25 @@ TEST_CASE("a map is a PNG, or raw samples of a stated size") {
     CHECK(scene.placement.map_region->width == 100.0);
 }
 
+TEST_CASE("the ground shows a picture, with a relief and as large as asked for") {
+    Scene scene = scene_of(with_species("[terrain]\norigin = [7, -3]\ncolour = \"a.png\""));
+    CHECK(scene.terrain.colour.path == "a.png");
+    CHECK(scene.terrain.normals.path.empty());
+    CHECK(scene.terrain.tile_width == 4.0);
+    CHECK(scene.terrain.tile_depth == 4.0);
+    CHECK(scene.terrain.tile_x == 7.0);
+    CHECK(scene.terrain.tile_z == -3.0);
+    scene = scene_of(with_species("[terrain]\ncolour = \"a.png\"\nnormals = \"b.png\"\n"
+                                  "tile = [2.5, 8]"));
+    CHECK(scene.terrain.normals.path == "b.png");
+    CHECK(scene.terrain.tile_width == 2.5);
+    CHECK(scene.terrain.tile_depth == 8.0);
+    CHECK(parsed(with_species("[terrain]\nnormals = \"b.png\"\ntile = 2"))
+              .messages.find("the ground has no `colour`") != std::string::npos);
+    CHECK(parsed(with_species("[terrain]\ncolour = \"a.png\"\ntile = 0"))
+              .messages.find("3:8-9: `tile`") == 0);
+}
+
 TEST_CASE("every method has its keys and takes no others") {
     const std::vector<std::pair<std::string, std::vector<std::string>>> methods{
         {"uniform", {"count = 2"}},
@@ -264,7 +283,8 @@ TEST_CASE("places are those of the text behind tabs, wide characters and a byte 
     CHECK(parsed(with_species("terrain = { \"\xC3\xA9\xC3\xA9\" = 1, kind = 2 }")).messages ==
           "1:13-17: `[terrain]` has no key `\xC3\xA9\xC3\xA9` [unknown-scene-key]\n"
           "  help: the keys are `kind`, `origin`, `size`, `octaves`, `lacunarity`, `gain`, "
-          "`feature`, `height`, `seed`, `map`, `map_size`, `lowest`, `highest`, `filter`, `base`\n"
+          "`feature`, `height`, `seed`, `map`, `map_size`, `lowest`, `highest`, `filter`, `base`, "
+          "`colour`, `normals`, `tile`\n"
           "1:30-31: `kind` must be a text [bad-scene-value]\n"
           "  label: this is a whole number\n");
 }

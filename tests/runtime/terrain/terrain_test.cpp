@@ -1,11 +1,14 @@
+#include "runtime/meshing/texture.h"
 #include "runtime/terrain/terrain.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -199,6 +202,47 @@ TEST_CASE("every vertex of the ground's mesh lies at the height of its place") {
     CHECK(same.indices == mesh.indices);
 }
 
+TEST_CASE("pictures of the ground lie as tiles from their origin on") {
+    const Terrain terrain = Terrain::noise(kGround, NoiseOptions{}).value();
+    TerrainMeshOptions options;
+    options.columns = 16;
+    options.rows = 12;
+    options.tangents = true;
+    options.pictures.colour =
+        std::make_shared<const lsys::Texture>(lsys::Texture{1, 1, {10, 20, 30, 255}});
+    options.pictures.normals = options.pictures.colour;
+    options.pictures.origin_x = 3.0;
+    options.pictures.origin_z = -1.0;
+    options.pictures.width = 8.0;
+    options.pictures.depth = 5.0;
+    const Mesh mesh = make_terrain_mesh(terrain, options).value();
+    const glm::vec2 first = mesh.texture_coordinates.front();
+    CHECK((first.x >= 0.0F && first.x < 1.0F));
+    CHECK((first.y >= 0.0F && first.y < 1.0F));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3 at = mesh.positions[i];
+        const glm::vec2 uv = mesh.texture_coordinates[i];
+        // Tiles from the origin, but for whole ones.
+        const float tiles_x = uv.x - (at.x - 3.0F) / 8.0F;
+        const float tiles_z = uv.y - (at.z + 1.0F) / 5.0F;
+        REQUIRE(tiles_x == Approx(std::round(tiles_x)).margin(1e-4));
+        REQUIRE(tiles_z == Approx(std::round(tiles_z)).margin(1e-4));
+        const glm::vec4 tangent = mesh.tangents[i];
+        const glm::vec3 along(tangent);
+        REQUIRE(glm::dot(along, mesh.normals[i]) == Approx(0.0).margin(1e-5));
+        REQUIRE(glm::dot(along, along) == Approx(1.0));
+        REQUIRE(along.x > 0.0F);
+        REQUIRE(along.z == 0.0F);
+        REQUIRE(tangent.w == 1.0F);
+    }
+    CHECK(mesh.materials[0].picture == options.pictures.colour);
+    CHECK(mesh.materials[0].relief == options.pictures.normals);
+    CHECK(mesh.materials[0].textured);
+    CHECK(mesh.materials[0].colour == glm::vec4(1.0F));
+    options.pictures.depth = 0.0;
+    CHECK_FALSE(make_terrain_mesh(terrain, options));
+}
+
 TEST_CASE("terrains that cannot be say why") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
@@ -227,7 +271,7 @@ TEST_CASE("terrains that cannot be say why") {
     options.feature = 0.0;
     CHECK_FALSE(Terrain::noise(kGround, options));
     const Terrain terrain = Terrain::flat(kGround).value();
-    CHECK_FALSE(make_terrain_mesh(terrain, {0, 5, 0.0, 1}));
-    CHECK_FALSE(make_terrain_mesh(terrain, {65'536, 65'536, 0.0, 1}));
-    CHECK_FALSE(make_terrain_mesh(terrain, {5, 5, nan, 1}));
+    CHECK_FALSE(make_terrain_mesh(terrain, {0, 5, 0.0, 1, {}, false}));
+    CHECK_FALSE(make_terrain_mesh(terrain, {65'536, 65'536, 0.0, 1, {}, false}));
+    CHECK_FALSE(make_terrain_mesh(terrain, {5, 5, nan, 1, {}, false}));
 }

@@ -1,4 +1,5 @@
 // The view of a forest without a window: swap of forests, painting, the scene file.
+#include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
@@ -433,6 +434,38 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
     CHECK(forest.painting().tree_count() == 71);
     forest.save();
     CHECK(read_text(files.scene).find("\"bush\", 1, 1, 0, 1") == std::string::npos);
+}
+
+TEST_CASE("the ground follows its picture, and keeps it while only the scene's values change") {
+    const WoodFolder files(wood(50));
+    const auto paint = [&](std::uint8_t red, std::uint8_t blue) {
+        write_text(files.folder / "ground.png",
+                   encode_png(Texture{2, 1, {red, 0, blue, 255, red, 9, blue, 255}}));
+    };
+    paint(200, 0);
+    std::string text = wood(50);
+    text.insert(text.find("size = 60"), "colour = \"ground.png\"\ntile = 3\n");
+    write_text(files.scene, text);
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.look_at(30.0F, 30.0F);
+    const std::vector<std::uint8_t> before = viewed.picture();
+    const std::shared_ptr<const Texture> shown = viewed.forest().document()->grown.ground.colour;
+    REQUIRE(shown != nullptr);
+    viewed.forest().settings.edits.count = 0;
+    REQUIRE(viewed.until_trees(0));
+    CHECK(viewed.forest().document()->grown.ground.colour == shown);
+    viewed.forest().settings.edits.count.reset();
+    REQUIRE(viewed.until_trees(50));
+    const std::uint64_t swaps = viewed.forest().stats().swaps;
+    wait_for_watch();
+    paint(0, 200);
+    REQUIRE(viewed.until_swaps(swaps + 1));
+    viewed.look_at(30.0F, 30.0F);
+    const std::vector<std::uint8_t> after = viewed.picture();
+    const std::size_t corner = 0;
+    CHECK(before[corner] > before[corner + 2]);
+    CHECK(after[corner] < after[corner + 2]);
 }
 
 TEST_CASE("slow pictures are coarser while something moves, and whole when all rests") {

@@ -172,7 +172,8 @@ TEST_CASE("the device has the heights of the terrain") {
     REQUIRE(context);
     Device device;
     TerrainPass pass(device);
-    pass.show(terrain, 3000.0F);
+    const lsys::view::MaterialTextures textures(device);
+    pass.show(terrain, {}, 3000.0F, textures);
     pass.prepare(make_frustum(ground_cameras()[0], 1280, 720));
     pass.prepare(make_frustum(ground_cameras()[1], 1280, 720));
     for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {

@@ -10,7 +10,10 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 namespace lsys::view {
 
@@ -34,11 +37,12 @@ static_assert(sizeof(Vertex) == 16);
 
 struct MaterialRecord {
     glm::vec3 colour{};
-    std::uint32_t kind = 0; // kTextured, kTranslucent
+    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy
 };
 static_assert(sizeof(MaterialRecord) == 16);
 constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
 constexpr std::uint32_t kTranslucent = 2;
+constexpr std::uint32_t kBumpy = 4;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -84,19 +88,8 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     return {snorm8(e.x), snorm8(e.y)};
 }
 
-/// Whether a built-in texture is drawn; pictures from files are reduced to their mean colour.
-bool is_textured(const Material& material) {
-    return material.textured && material.picture == nullptr;
-}
-
-BranchClass class_of(const Material& material) {
-    if (material.cut_out && is_textured(material)) {
-        return BranchClass::CutOut;
-    }
-    if (!material.two_sided) {
-        return BranchClass::OneSided;
-    }
-    return is_textured(material) ? BranchClass::TwoSided : BranchClass::Plain;
+bool has_pictures(const Material& material) {
+    return material.picture != nullptr || material.relief != nullptr;
 }
 
 /// Appends the records of materials, equal ones once; returns their indices.
@@ -106,13 +99,13 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     for (const Material& material : materials) {
         MaterialRecord record;
         record.colour = glm::vec3(material.colour);
-        if (material.picture != nullptr) {
-            record.colour *= mean_colour(*material.picture);
-        }
         // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
         const bool is_translucent = material.two_sided || material.kind == MaterialKind::Leaf ||
                                     material.kind == MaterialKind::Flower;
-        record.kind = (is_textured(material) ? kTextured : 0) | (is_translucent ? kTranslucent : 0);
+        const bool is_bumpy = material.relief != nullptr ||
+                              (material.textured && material.kind == MaterialKind::Bark);
+        record.kind = (material.textured ? kTextured : 0) | (is_translucent ? kTranslucent : 0) |
+                      (is_bumpy ? kBumpy : 0);
         const auto same =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;
@@ -125,25 +118,21 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     return numbers;
 }
 
-/// Index in DrawBuffers::commands.
-constexpr std::size_t command_index(std::size_t kind, bool blends) {
-    return kind + (blends ? kBranchClasses : 0);
-}
+// Texture units of branch.frag.glsl and leaf.frag.glsl.
+constexpr GLuint kBarkTexture = 1;
+constexpr GLuint kLeafTexture = 2;
+constexpr GLuint kReliefTexture = 5;
 
 } // namespace
 
 ForestBuffers::DrawBuffers ForestBuffers::make_draw_buffers(Device& device) {
-    DrawBuffers drawn{Buffer(device), Buffer(device), Buffer(device), {}};
-    for (Commands& commands : drawn.commands) {
-        commands.buffer = Buffer(device);
-    }
-    return drawn;
+    return {Buffer(device), Buffer(device), Buffer(device), {}};
 }
 
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), materials_(device),
       forms_(device), clusters_(device), forest_(make_draw_buffers(device)),
-      impostor_(make_draw_buffers(device)) {
+      impostor_(make_draw_buffers(device)), device_(&device) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -162,7 +151,70 @@ void ForestBuffers::use(BufferSet set) {
     current_ = set == BufferSet::Forest ? &forest_ : &impostor_;
 }
 
-void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
+std::size_t ForestBuffers::class_of(const Material& material) const {
+    if (has_pictures(material)) {
+        const auto found =
+            std::find_if(pictures_.begin(), pictures_.end(), [&](const BranchPicture& picture) {
+                return picture.colour_file == material.picture &&
+                       picture.relief_file == material.relief;
+            });
+        return kBranchClasses + static_cast<std::size_t>(found - pictures_.begin());
+    }
+    if (material.cut_out && material.textured) {
+        return static_cast<std::size_t>(BranchClass::CutOut);
+    }
+    if (!material.two_sided) {
+        return static_cast<std::size_t>(BranchClass::OneSided);
+    }
+    return static_cast<std::size_t>(material.textured ? BranchClass::TwoSided : BranchClass::Plain);
+}
+
+void ForestBuffers::upload_pictures(const ForestModel& model, const MaterialTextures& textures) {
+    std::vector<BranchPicture> before = std::exchange(pictures_, {});
+    texture_bytes_ = 0;
+    const auto bytes_of = [](const Texture& picture) { return picture.texels.size() * 4 / 3; };
+    for (const TreeForm& form : model.forms) {
+        for (const InstanceMeshes& level : *form.meshes) {
+            for (const Material& material : level.mesh.materials) {
+                if (!has_pictures(material) || class_of(material) < class_count()) {
+                    continue;
+                }
+                BranchPicture& added = pictures_.emplace_back();
+                added.colour_file = material.picture;
+                added.relief_file = material.relief;
+                const auto same =
+                    std::find_if(before.begin(), before.end(), [&](const BranchPicture& picture) {
+                        return picture.colour_file == material.picture &&
+                               picture.relief_file == material.relief;
+                    });
+                if (same != before.end()) {
+                    added = std::move(*same);
+                    before.erase(same);
+                } else {
+                    if (material.picture != nullptr) {
+                        added.colour = textures.make(*material.picture);
+                        added.has_holes = has_holes(*material.picture);
+                    }
+                    if (material.relief != nullptr) {
+                        added.relief = textures.make_normals(*material.relief);
+                    }
+                }
+                texture_bytes_ += added.colour_file ? bytes_of(*added.colour_file) : 0;
+                texture_bytes_ += added.relief_file ? bytes_of(*added.relief_file) : 0;
+            }
+        }
+    }
+    for (DrawBuffers* const buffers : {&forest_, &impostor_}) {
+        while (buffers->commands.size() < 2 * class_count()) {
+            buffers->commands.push_back({Buffer(*device_), 0});
+        }
+    }
+}
+
+void ForestBuffers::upload(ForestModel& model,
+                           const ImpostorPlan& plan,
+                           const MaterialTextures& textures) {
+    upload_pictures(model, textures);
     std::vector<MaterialRecord> records;
     std::vector<FormRecord> forms;
     std::uint64_t vertex_count = 0;
@@ -195,6 +247,7 @@ void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
     std::uint64_t first_index = 0;
     std::vector<Vertex> packed;
     std::vector<std::uint32_t> listed;
+    std::map<std::shared_ptr<const Texture>, std::uint64_t> picture_digests;
     for (std::size_t f = 0; f < model.forms.size(); ++f) {
         auto& levels = form_levels_.emplace_back();
         std::uint64_t& digest = mesh_digests_.emplace_back(0);
@@ -219,15 +272,18 @@ void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
                 }
             }
             const auto instances = static_cast<std::uint32_t>(meshes.first_part.size()) - 1;
-            level.ranges.resize(instances);
+            level.ranges.assign(instances * class_count(), {});
+            std::vector<std::size_t> classes;
+            for (const Material& material : mesh.materials) {
+                classes.push_back(class_of(material));
+            }
             listed.clear();
             for (std::uint32_t i = 0; i < instances; ++i) {
                 // Parts are sorted by material, not by class.
-                for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
+                for (std::size_t kind = 0; kind < class_count(); ++kind) {
                     const std::size_t before = listed.size();
                     for (const MeshPart& part : meshes.parts_of(i)) {
-                        if (static_cast<std::size_t>(class_of(mesh.materials[part.material])) !=
-                            kind) {
+                        if (classes[part.material] != kind) {
                             continue;
                         }
                         for (std::uint64_t k = 0; k < part.index_count; ++k) {
@@ -236,9 +292,19 @@ void ForestBuffers::upload(ForestModel& model, const ImpostorPlan& plan) {
                             listed.push_back(vertex);
                         }
                     }
-                    level.ranges[i].first[kind] = static_cast<std::uint32_t>(first_index + before);
-                    level.ranges[i].count[kind] =
-                        static_cast<std::uint32_t>(listed.size() - before);
+                    level.ranges[i * class_count() + kind] = {
+                        static_cast<std::uint32_t>(first_index + before),
+                        static_cast<std::uint32_t>(listed.size() - before)};
+                }
+            }
+            for (const Material& material : mesh.materials) {
+                if (material.picture != nullptr) {
+                    const auto [known, is_new] = picture_digests.try_emplace(material.picture, 0);
+                    if (is_new) {
+                        known->second =
+                            digest_of(std::span<const std::uint8_t>(material.picture->texels), 0);
+                    }
+                    digest = combine(digest, known->second);
                 }
             }
             for (const std::uint16_t number : numbers) {
@@ -322,15 +388,14 @@ void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
 void ForestBuffers::upload_commands(const DrawLists& lists) {
     current_->lists.fill(std::span<const BranchEntry>(lists.branches));
     glVertexArrayVertexBuffer(array_.name(), 1, current_->lists.name(), 0, sizeof(BranchEntry));
-    std::array<std::vector<DrawCommand>, 2 * kBranchClasses> commands;
+    std::vector<std::vector<DrawCommand>> commands(2 * class_count());
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];
-        const IndexRanges& ranges = level.ranges[run.instance];
-        for (std::size_t kind = 0; kind < kBranchClasses; ++kind) {
-            if (ranges.count[kind] != 0) {
-                commands[command_index(kind, run.blends)].push_back({ranges.count[kind], run.count,
-                                                                     ranges.first[kind],
-                                                                     level.base_vertex, run.first});
+        for (std::size_t kind = 0; kind < class_count(); ++kind) {
+            const IndexRange& range = level.ranges[run.instance * class_count() + kind];
+            if (range.count != 0) {
+                commands[command_index(kind, run.blends)].push_back(
+                    {range.count, run.count, range.first, level.base_vertex, run.first});
             }
         }
     }
@@ -340,19 +405,39 @@ void ForestBuffers::upload_commands(const DrawLists& lists) {
     }
 }
 
-std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
-    const Commands& commands =
-        current_->commands[command_index(static_cast<std::size_t>(kind), blends)];
+std::uint64_t ForestBuffers::draw(const Commands& commands) const {
     if (commands.count == 0) {
         return 0;
     }
     glBindVertexArray(array_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.buffer.name());
-    (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                 static_cast<GLsizei>(commands.count), sizeof(DrawCommand));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     return 1;
+}
+
+std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
+    (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
+    return draw(commands_of(static_cast<std::size_t>(kind), blends));
+}
+
+std::uint64_t ForestBuffers::draw_pictures(GLuint solid, GLuint cut_out, bool blends) const {
+    std::uint64_t draws = 0;
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        const BranchPicture& picture = pictures_[i];
+        glUseProgram(picture.has_holes ? cut_out : solid);
+        if (picture.colour) {
+            glBindTextureUnit(picture.has_holes ? kLeafTexture : kBarkTexture,
+                              picture.colour.name());
+        }
+        if (picture.relief) {
+            glBindTextureUnit(kReliefTexture, picture.relief.name());
+        }
+        glDisable(GL_CULL_FACE); // meshes of files have two sides
+        draws += draw(commands_of(kBranchClasses + i, blends));
+    }
+    return draws;
 }
 
 void ForestBuffers::bind_storage() const {

@@ -2,6 +2,7 @@
 // shaders/forest.glsl. One vertex and one index buffer for all forms, levels and instances.
 #pragma once
 
+#include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/objects.h"
 #include "viewer/scene/forest_lod.h"
 #include "viewer/scene/impostor_plan.h"
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,7 @@ enum class BranchClass : std::uint8_t {
     Plain,  // two-sided leaves of one colour
     CutOut, // two-sided leaves with an alpha mask
 };
+/// Beside these, each picture of a mesh file is a class.
 inline constexpr std::size_t kBranchClasses = 4;
 
 /// Target of uploads and draws: impostors are baked between pictures of the forest.
@@ -45,8 +48,8 @@ public:
     /// Selects the buffers of all further calls.
     void use(BufferSet set);
 
-    /// Uploads meshes, forms and materials; releases the meshes of the model.
-    void upload(ForestModel& model, const ImpostorPlan& plan);
+    /// Uploads meshes, forms, materials and pictures; releases the meshes of the model.
+    void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
     /// Uploads all trees, and clusters as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
     /// Uploads branches written by the pool.
@@ -63,11 +66,17 @@ public:
     /// Draws a class with the bound program of branch.*.glsl; returns the count of draw calls.
     /// `blends`: runs of blended trees; the program needs BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
+    /// Draws all that shows a picture of a file: with the program `cut_out` where the picture has
+    /// holes, else with `solid`. Binds these programs and textures of bark, leaves and relief;
+    /// returns the count of draw calls.
+    std::uint64_t draw_pictures(GLuint solid, GLuint cut_out, bool blends) const;
     void bind_storage() const;
     /// After bind_storage(): tree indices are those of clusters from now on.
     void bind_clusters() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
+    /// Of pictures of files.
+    [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint64_t tree_bytes() const {
         return forest_.trees.capacity() + clusters_.capacity();
     }
@@ -78,14 +87,21 @@ public:
     }
 
 private:
-    /// Index ranges of an instance at a level, by class.
-    struct IndexRanges {
-        std::array<std::uint32_t, kBranchClasses> first{};
-        std::array<std::uint32_t, kBranchClasses> count{};
+    struct IndexRange {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
     };
     struct FormLevel {
         std::int32_t base_vertex = 0;
-        std::vector<IndexRanges> ranges; // by instance
+        std::vector<IndexRange> ranges; // by instance, then by class
+    };
+    /// Pictures of a file on the device.
+    struct BranchPicture {
+        std::shared_ptr<const Texture> colour_file;
+        std::shared_ptr<const Texture> relief_file;
+        TextureObject colour; // none: the material has a relief alone
+        TextureObject relief;
+        bool has_holes = false;
     };
 
     struct Commands {
@@ -97,9 +113,20 @@ private:
         Buffer trees;
         Buffer branches;
         Buffer lists;
-        std::array<Commands, 2 * kBranchClasses> commands; // by class, unblended then blended
+        std::vector<Commands> commands; // of each class unblended, then blended
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
+    /// Makes textures of the pictures of all materials; equal ones once, those of before again.
+    void upload_pictures(const ForestModel& model, const MaterialTextures& textures);
+    [[nodiscard]] std::size_t class_of(const Material& material) const;
+    [[nodiscard]] static std::size_t command_index(std::size_t kind, bool blends) {
+        return 2 * kind + (blends ? 1 : 0);
+    }
+    [[nodiscard]] std::size_t class_count() const { return kBranchClasses + pictures_.size(); }
+    [[nodiscard]] const Commands& commands_of(std::size_t kind, bool blends) const {
+        return current_->commands[command_index(kind, blends)];
+    }
+    std::uint64_t draw(const Commands& commands) const;
 
     VertexArray array_;
     Buffer vertices_;
@@ -112,7 +139,10 @@ private:
     DrawBuffers* current_ = &forest_;
     std::vector<std::uint64_t> mesh_digests_; // by form
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
+    std::vector<BranchPicture> pictures_;
+    Device* device_;
     std::uint64_t mesh_bytes_ = 0;
+    std::uint64_t texture_bytes_ = 0;
 };
 
 } // namespace lsys::view

@@ -24,6 +24,7 @@ constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
+constexpr GLuint kReliefTexture = 5;
 // Half side of the shadow map near the ground, and its max, m.
 constexpr float kMinShadowRange = 45.0F;
 constexpr float kMaxShadowRange = 400.0F;
@@ -88,7 +89,7 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
     return {};
 }
 
-void ForestPass::show(ForestModel model) {
+void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
     const Clock::time_point start = Clock::now();
     lists_ = nullptr;
     lod_.reset();
@@ -96,12 +97,13 @@ void ForestPass::show(ForestModel model) {
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
     has_clusters_ = plan.has_clusters;
-    buffers_.upload(model_, plan);
+    buffers_.upload(model_, plan, textures);
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
-    terrain_.show(*model_.terrain,
-                  static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond);
+    terrain_.show(*model_.terrain, model_.ground,
+                  static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond,
+                  textures);
     upload_seconds_ = seconds_since(start);
     bake_seconds_ = 0.0;
 }
@@ -241,14 +243,18 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     stats.draws += buffers_.draw(BranchClass::Plain, blends);
     glUseProgram(programs.cut_out.name());
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
+    stats.draws += buffers_.draw_pictures(programs.solid.name(), programs.cut_out.name(), blends);
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     buffers_.bind_storage();
-    glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
-    glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
-    draw_branches(programs().branches, false, stats.branches);
-    draw_branches(programs().blending_branches, true, stats.branches);
+    for (const bool blends : {false, true}) {
+        glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
+        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(kReliefTexture, textures.bark_normals());
+        draw_branches(blends ? programs().blending_branches : programs().branches, blends,
+                      stats.branches);
+    }
     device_->end_pass();
     stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
@@ -281,7 +287,8 @@ ForestSizes ForestPass::sizes() const {
         lod_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();
     sizes.mesh_bytes = buffers_.mesh_bytes();
-    sizes.texture_bytes = impostors_.texture_bytes() + terrain_.texture_bytes();
+    sizes.texture_bytes =
+        impostors_.texture_bytes() + terrain_.texture_bytes() + buffers_.texture_bytes();
     sizes.upload_milliseconds = 1e3 * upload_seconds_;
     sizes.impostor_milliseconds = 1e3 * bake_seconds_;
     return sizes;

@@ -1,5 +1,5 @@
 // ForestPass: draws a forest: branches of near trees, impostors of far ones, ground and shadows. At
-// most 16 draw calls for any number of trees.
+// most 16 draw calls for any number of trees, and two for each picture of a mesh file.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
     /// must outlive the pass or the next call.
-    void show(ForestModel model);
+    void show(ForestModel model, const MaterialTextures& textures);
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// Adds or removes a tree: ForestLod::change_tree().

@@ -118,6 +118,7 @@ void ImpostorAtlas::find_missing() {
 void ImpostorAtlas::draw_elevation(const Cylinder& form,
                                    std::uint32_t e,
                                    const ForestBuffers& buffers,
+                                   MaterialTextures& textures,
                                    Buffer& frame) const {
     const float half_height = 0.5F * (form.high - form.low);
     const glm::vec3 middle(0.0F, 0.5F * (form.low + form.high), 0.0F);
@@ -145,6 +146,8 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
         glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
                    static_cast<GLsizei>(kTile * kSupersampling),
                    static_cast<GLsizei>(kTile * kSupersampling));
+        glBindTextureUnit(1, textures.base(MaterialKind::Bark));
+        glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
             glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
@@ -159,6 +162,7 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
                 buffers.draw(BranchClass::Plain);
             }
         }
+        buffers.draw_pictures(solid_.name(), cut_out_.name(), false);
         device_->end_pass();
     }
 }
@@ -312,15 +316,13 @@ void ImpostorAtlas::step(const ForestModel& model,
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GEQUAL);
-    glBindTextureUnit(1, textures.base(MaterialKind::Bark));
-    glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     constexpr std::array<GLfloat, 4> kNothing{};
     constexpr GLfloat kFar = 0.0F;
     glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 0, kNothing.data());
     glClearNamedFramebufferfv(bake.target.name(), GL_COLOR, 1, kNothing.data());
     glClearNamedFramebufferfv(bake.target.name(), GL_DEPTH, 0, &kFar);
-    draw_elevation(cylinder_of(plan_, layer), bake.elevation, buffers, bake.frame);
+    draw_elevation(cylinder_of(plan_, layer), bake.elevation, buffers, textures, bake.frame);
     const auto width = static_cast<GLsizei>(bake.row.width);
     const auto height = static_cast<GLsizei>(bake.row.height);
     glReadBuffer(GL_COLOR_ATTACHMENT0);

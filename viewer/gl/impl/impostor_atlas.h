@@ -66,6 +66,7 @@ private:
     void draw_elevation(const Cylinder& form,
                         std::uint32_t elevation,
                         const ForestBuffers& buffers,
+                        MaterialTextures& textures,
                         Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);

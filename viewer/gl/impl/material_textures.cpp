@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lsys::view {
@@ -113,6 +114,18 @@ GLuint MaterialTextures::bark_normals() {
         normals_ = upload(*device_, lsys::bark_normals(), GL_RGBA8, false);
     }
     return normals_.name();
+}
+
+TextureObject MaterialTextures::make_opaque(const Texture& picture) const {
+    Texture opaque = picture;
+    for (std::size_t i = 3; i < opaque.texels.size(); i += 4) {
+        opaque.texels[i] = 255;
+    }
+    return upload(*device_, std::move(opaque), GL_SRGB8_ALPHA8, false);
+}
+
+TextureObject MaterialTextures::make_normals(const Texture& picture) const {
+    return upload(*device_, picture, GL_RGBA8, false);
 }
 
 TextureObject MaterialTextures::make(const Texture& picture) const {

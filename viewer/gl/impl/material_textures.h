@@ -17,6 +17,10 @@ public:
     [[nodiscard]] GLuint bark_normals();
     /// Texture of a picture file; mip levels keep coverage if it has holes.
     [[nodiscard]] TextureObject make(const Texture& picture) const;
+    /// Texture of a picture file that is opaque wherever it is transparent.
+    [[nodiscard]] TextureObject make_opaque(const Texture& picture) const;
+    /// Texture of a picture file of normals.
+    [[nodiscard]] TextureObject make_normals(const Texture& picture) const;
 
 private:
     Device* device_;

@@ -49,7 +49,13 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     parts_ = mesh.parts;
     materials_ = mesh.materials;
     pictures_.clear();
+    reliefs_.clear();
     for (Material& material : materials_) {
+        TextureObject& relief = reliefs_.emplace_back();
+        if (material.relief != nullptr) {
+            relief = textures.make_normals(*material.relief);
+            material.relief.reset(); // may be large
+        }
         TextureObject& picture = pictures_.emplace_back();
         if (material.picture != nullptr) {
             picture = textures.make(*material.picture);
@@ -68,7 +74,8 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
     std::uint64_t draws = 0;
     for (const MeshPart& part : parts_) {
         const Material& material = materials_[part.material];
-        const bool bumpy = material.textured && material.kind == MaterialKind::Bark;
+        const TextureObject& relief = reliefs_[part.material];
+        const bool bumpy = relief || (material.textured && material.kind == MaterialKind::Bark);
         const TextureObject& picture = pictures_[part.material];
         const bool is_translucent = material.kind == MaterialKind::Leaf ||
                                     material.kind == MaterialKind::Flower ||
@@ -84,7 +91,7 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
                               picture ? picture.name() : textures.base(material.kind));
         }
         if (bumpy && shaded) {
-            glBindTextureUnit(kNormalTexture, textures.bark_normals());
+            glBindTextureUnit(kNormalTexture, relief ? relief.name() : textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
         // Draw calls count in 31 bits, in whole triangles.

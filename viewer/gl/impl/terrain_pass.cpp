@@ -20,6 +20,11 @@ constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
 constexpr GLint kRanges = static_cast<GLint>(kTerrainLevels);
 constexpr GLint kLevels = kRanges + 1;
+constexpr GLuint kColour = 3;
+constexpr GLuint kRelief = 4;
+constexpr GLint kTiles = kLevels + 1;
+constexpr GLint kMean = kTiles + 1;
+constexpr GLint kHasRelief = kMean + 1;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
@@ -85,12 +90,32 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     if (!made) {
         return made.error();
     }
+    Result<ProgramObject> with_picture =
+        make_program(*device_, shaders, "terrain.vert.glsl", "terrain.frag.glsl",
+                     "#define TWO_TAPS\n#define PICTURE\n");
+    if (!with_picture) {
+        return with_picture.error();
+    }
     program_ = std::move(made.value());
+    picture_program_ = std::move(with_picture.value());
     return {};
 }
 
-void TerrainPass::show(const Terrain& terrain, float view_distance) {
+void TerrainPass::show(const Terrain& terrain,
+                       const GroundPictures& pictures,
+                       float view_distance,
+                       const MaterialTextures& textures) {
     lod_ = std::make_unique<TerrainLod>(terrain, view_distance);
+    if (pictures.colour != pictures_.colour) {
+        colour_ =
+            pictures.colour == nullptr ? TextureObject() : textures.make_opaque(*pictures.colour);
+        mean_ = pictures.colour == nullptr ? glm::vec3(0.0F) : mean_colour(*pictures.colour);
+    }
+    if (pictures.normals != pictures_.normals) {
+        normals_ = pictures.normals == nullptr ? TextureObject()
+                                               : textures.make_normals(*pictures.normals);
+    }
+    pictures_ = pictures;
     if (!noise_) {
         noise_ = make_noise(*device_);
         std::vector<std::array<std::uint8_t, 2>> corners;
@@ -149,7 +174,7 @@ FrameStats TerrainPass::draw() {
     static_assert(sizeof(TerrainPatch) == 12);
     patches_.fill(std::span<const TerrainPatch>(patches));
     glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
-    glUseProgram(program_.name());
+    glUseProgram(colour_ ? picture_program_.name() : program_.name());
     std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
     for (std::uint32_t level = 0; level < lod_->levels(); ++level) {
         origins[std::size_t{2} * level] = lod_->grid(level).origin.x;
@@ -160,7 +185,17 @@ FrameStats TerrainPass::draw() {
                 TerrainLod::morph_start(0) / TerrainLod::range(0), lod_->eye_height());
     glUniform1i(kLevels, static_cast<GLint>(lod_->levels()));
     glBindTextureUnit(kHeights, heights_.name());
-    glBindTextureUnit(kNoise, noise_.name());
+    if (colour_) {
+        glUniform4f(kTiles, static_cast<float>(pictures_.origin_x),
+                    static_cast<float>(pictures_.origin_z), static_cast<float>(pictures_.width),
+                    static_cast<float>(pictures_.depth));
+        glUniform3f(kMean, mean_.r, mean_.g, mean_.b);
+        glUniform1i(kHasRelief, normals_ ? 1 : 0);
+        glBindTextureUnit(kColour, colour_.name());
+        glBindTextureUnit(kRelief, normals_ ? normals_.name() : colour_.name());
+    } else {
+        glBindTextureUnit(kNoise, noise_.name());
+    }
     glEnable(GL_CULL_FACE);
     glBindVertexArray(array_.name());
     glDrawElementsInstanced(GL_TRIANGLES, kPatchIndices, GL_UNSIGNED_BYTE, nullptr,
@@ -172,9 +207,13 @@ FrameStats TerrainPass::draw() {
 }
 
 std::uint64_t TerrainPass::texture_bytes() const {
+    std::uint64_t texels = std::uint64_t{kNoiseTexels} * kNoiseTexels; // of the finest mip levels
+    for (const auto& picture : {pictures_.colour, pictures_.normals}) {
+        texels += picture == nullptr ? 0 : std::uint64_t{picture->width} * picture->height;
+    }
     return lod_ == nullptr ? 0
                            : std::uint64_t{4} * kHeightTexels * kHeightTexels * lod_->levels() +
-                                 std::uint64_t{4} * kNoiseTexels * kNoiseTexels * 4 / 3;
+                                 std::uint64_t{4} * texels * 4 / 3;
 }
 
 std::vector<float> TerrainPass::read_heights(std::uint32_t level) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "grammar/base/result.h"
+#include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/objects.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/terrain_lod.h"
@@ -18,8 +19,12 @@ public:
 
     /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Replaces the ground; it must outlive the pass or the next call.
-    void show(const Terrain& terrain, float view_distance);
+    /// Replaces the ground; it must outlive the pass or the next call. Pictures that are shown
+    /// already are not uploaded again.
+    void show(const Terrain& terrain,
+              const GroundPictures& pictures,
+              float view_distance,
+              const MaterialTextures& textures);
     /// Selects patches for a camera and uploads new heights.
     void prepare(const Frustum& frustum);
     /// Draws the selected patches.
@@ -34,6 +39,11 @@ private:
     Device* device_;
     std::unique_ptr<TerrainLod> lod_;
     ProgramObject program_;
+    ProgramObject picture_program_; // with pictures of the ground
+    GroundPictures pictures_;
+    TextureObject colour_;
+    TextureObject normals_;
+    glm::vec3 mean_{0.0F}; // linear, of the colours
     TextureObject heights_;
     TextureObject noise_;
     VertexArray array_;

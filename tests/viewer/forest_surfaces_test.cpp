@@ -1,0 +1,370 @@
+// Pictures of files in forests: on the ground, on meshes, on polygons; drawn and exported.
+#include "runtime/meshing/texture.h"
+#include "tests/support/lsc_run.h"
+#include "tests/viewer/lsview_run.h"
+#include "tests/viewer/picture.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::tests;
+
+namespace {
+
+using Texel = std::array<std::uint8_t, 4>;
+
+/// The left half of one colour, the right of another.
+Texture halves(const Texel& left, const Texel& right) {
+    Texture texture{16, 16, {}};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        const Texel& texel = i % 16 < 8 ? left : right;
+        texture.texels.insert(texture.texels.end(), texel.begin(), texel.end());
+    }
+    return texture;
+}
+
+constexpr Texel kRed{220, 10, 10, 255};
+constexpr Texel kBlue{10, 10, 220, 255};
+constexpr Texel kNothing{220, 10, 10, 0};
+constexpr const char* kStick = "#n = 1;\n#w : F(0.01);\n";
+
+/// A scene of one tree on level ground from (0, 0) to (40, 40), with other files beside it.
+struct Surfaces {
+    explicit Surfaces(const std::string& terrain, const std::string& grammar = kStick) {
+        write_text(folder / "tree.lsys", grammar);
+        write_text(folder / "ground.png", encode_png(halves(kRed, kBlue)));
+        // Left slopes face -X, right ones +X.
+        write_text(folder / "slopes.png",
+                   encode_png(halves({37, 128, 218, 255}, {218, 128, 218, 255})));
+        write_text(folder / "holes.png", encode_png(halves(kRed, kNothing)));
+        write_text(folder / "wood.toml",
+                   "[terrain]\nsize = 40\n" + terrain +
+                       "\n[placement]\nmethod = \"uniform\"\ncount = 1\n"
+                       "[painted]\nerased = [0]\ntrees = [[\"tree\", 20, 20, 0, 1]]\n"
+                       "[[species]]\ngrammar = \"tree.lsys\"\nheroes = 1\n");
+    }
+    [[nodiscard]] LscRun view(const std::string& camera,
+                              const std::vector<std::string>& more,
+                              const std::string& size) const {
+        std::vector<std::string> arguments = {
+            folder / "wood.toml", "--screenshot", "-", "--size", size, "--camera", camera};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        LscRun run = run_lsview(arguments);
+        CAPTURE(run.err);
+        REQUIRE(run.status == 0);
+        return run;
+    }
+    [[nodiscard]] Picture picture(const std::string& camera,
+                                  const std::vector<std::string>& more = {},
+                                  const std::string& size = "64x64") const {
+        return decode_picture(view(camera, more, size).out);
+    }
+    /// Exports by `lsc forest`.
+    void write(const std::string& name, std::vector<std::string> more = {}) const {
+        std::vector<std::string> arguments = {"forest", folder / "wood.toml", "-o", folder / name};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const LscRun run = run_lsc(arguments, "");
+        CAPTURE(run.err);
+        REQUIRE(run.status == 0);
+    }
+    ScratchFolder folder;
+};
+
+std::array<int, 3> texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+    const std::size_t at = std::size_t{4} * (std::size_t{y} * picture.width + x);
+    return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
+}
+bool is_red(const std::array<int, 3>& colour) {
+    return colour[0] > 2 * colour[1] && colour[0] > 2 * colour[2];
+}
+bool is_blue(const std::array<int, 3>& colour) {
+    return colour[2] > 2 * colour[1] && colour[2] > 2 * colour[0];
+}
+int brightness(const std::array<int, 3>& colour) {
+    return colour[0] + colour[1] + colour[2];
+}
+
+/// The document of a GLB.
+nlohmann::json document_of(const std::string& glb) {
+    std::uint32_t size = 0;
+    REQUIRE(glb.size() > 20);
+    std::memcpy(&size, glb.data() + 12, sizeof size);
+    return nlohmann::json::parse(glb.substr(20, size));
+}
+/// The bytes of an image of a GLB.
+std::string image_of(const std::string& glb, std::size_t image) {
+    const nlohmann::json document = document_of(glb);
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, sizeof size);
+    const nlohmann::json& view =
+        document["bufferViews"][document["images"][image]["bufferView"].get<std::size_t>()];
+    return glb.substr(20 + size + 8 + view["byteOffset"].get<std::size_t>(),
+                      view["byteLength"].get<std::size_t>());
+}
+const nlohmann::json* find_named(const nlohmann::json& list, const std::string& name) {
+    for (const nlohmann::json& each : list) {
+        if (each["name"] == name) {
+            return &each;
+        }
+    }
+    return nullptr;
+}
+
+constexpr const char* kPictured = "colour = \"ground.png\"\ntile = 8";
+// 8 m of the ground across, from straight above; +X is to the right.
+constexpr const char* kAbove = "eye 12,30,12.01 target 12,0,12 fov 15.2";
+
+} // namespace
+
+TEST_CASE("the ground shows its picture at its place, tile beside tile") {
+    const Surfaces files(kPictured);
+    const Picture picture = files.picture(kAbove);
+    // The tile from x = 8 to 16: red to 12, blue beyond; another begins at the edges.
+    for (const std::uint32_t y : {8U, 32U, 56U}) {
+        CHECK(is_red(texel(picture, 12, y)));
+        CHECK(is_red(texel(picture, 28, y)));
+        CHECK(is_blue(texel(picture, 36, y)));
+        CHECK(is_blue(texel(picture, 52, y)));
+    }
+    SECTION("options of the command line replace it") {
+        const Picture small = files.picture(kAbove, {"--ground-tile", "4"});
+        CHECK(is_red(texel(small, 8, 32)));
+        CHECK(is_blue(texel(small, 24, 32)));
+        CHECK(is_red(texel(small, 40, 32)));
+        CHECK(is_blue(texel(small, 56, 32)));
+        const Surfaces plain("");
+        CHECK(is_red(texel(plain.picture(kAbove, {"--ground-picture", files.folder / "ground.png",
+                                                  "--ground-tile", "8"}),
+                           12, 32)));
+    }
+}
+
+TEST_CASE("far away a picture of the ground is its mean") {
+    const Surfaces files("colour = \"ground.png\"\ntile = 0.25");
+    const Picture picture = files.picture("eye 10,40,10.01 target 10,0,10 fov 4");
+    // Half red, half blue, whatever the tile.
+    std::array<int, 3> least{255, 255, 255};
+    std::array<int, 3> most{};
+    for (std::uint32_t y = 0; y < 64; y += 4) {
+        for (std::uint32_t x = 0; x < 64; x += 4) {
+            const std::array<int, 3> at = texel(picture, x, y);
+            for (std::size_t c = 0; c < 3; ++c) {
+                least[c] = std::min(least[c], at[c]);
+                most[c] = std::max(most[c], at[c]);
+            }
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        CHECK(most[c] - least[c] <= 4);
+    }
+    CHECK(least[0] > 2 * most[1]);
+    CHECK(least[2] > 2 * most[1]);
+}
+
+TEST_CASE("normals of the ground turn its light") {
+    // The sun stands towards +X.
+    const Surfaces bumpy("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
+    write_text(bumpy.folder / "ground.png", encode_png(halves(kRed, kRed)));
+    const Picture picture = bumpy.picture(kAbove);
+    CHECK(brightness(texel(picture, 48, 32)) > brightness(texel(picture, 16, 32)) + 30);
+}
+
+TEST_CASE("the relief of a mesh of a forest turns its light") {
+    const Surfaces files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
+    write_text(files.folder / "card.obj",
+               "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    const auto seen = [&](const std::string& relief) {
+        write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd red.png\n" + relief);
+        write_text(files.folder / "red.png", encode_png(halves(kRed, kRed)));
+        const Picture picture =
+            files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, "320x320");
+        return brightness(texel(picture, 80, 160));
+    };
+    // Its left half turns from the sun, and so lets more light through from behind.
+    CHECK(seen("norm slopes.png\n") > seen("") + 10);
+}
+
+TEST_CASE("pictures of the ground cost no draw call, and no picture leaves the ground as it was") {
+    const Surfaces plain("");
+    const Surfaces pictured(kPictured);
+    const auto draws_of = [](const Surfaces& files) {
+        const std::string stats = files.folder / "stats.json";
+        static_cast<void>(files.view(kAbove, {"--stats", stats}, "64x64"));
+        return nlohmann::json::parse(read_text(stats))["draws"].get<int>();
+    };
+    CHECK(draws_of(plain) == draws_of(pictured));
+}
+
+TEST_CASE("a picture of the ground that cannot be shown is an error at its place") {
+    const Surfaces files(kPictured);
+    const auto said = [&] {
+        const LscRun view = run_lsview({files.folder / "wood.toml", "--screenshot", "-"});
+        CHECK(view.status == 2);
+        const LscRun check = run_lsc({"forest", files.folder / "wood.toml", "--check"}, "");
+        CHECK(check.status == 2);
+        CHECK(check.err.find("wood.toml:3:10: error: ground: ") != std::string::npos);
+        return view.err;
+    };
+    std::filesystem::remove(files.folder / "ground.png");
+    CHECK(said().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
+    write_text(files.folder / "ground.png", "\xFF\xD8\xFF\xE0 and so on");
+    CHECK(said().find("it is a JPEG; only PNG is read") != std::string::npos);
+    // An IHDR of 20,000 by 20,000 pixels.
+    std::string large = encode_png(halves(kRed, kBlue));
+    for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
+        large[at + 2] = '\x4E';
+        large[at + 3] = '\x20';
+    }
+    write_text(files.folder / "ground.png", large);
+    CHECK(said().find("ground.png") != std::string::npos);
+}
+
+TEST_CASE("files of a forest have the pictures of its ground") {
+    const Surfaces files("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
+    const std::string colour = read_text(files.folder / "ground.png");
+    const std::string normals = read_text(files.folder / "slopes.png");
+    SECTION("GLB") {
+        for (const char* const form : {"", "--expand", "--bake"}) {
+            CAPTURE(form);
+            files.write("a.glb", *form == '\0' ? std::vector<std::string>()
+                                               : std::vector<std::string>{form});
+            const std::string glb = read_text(files.folder / "a.glb");
+            const nlohmann::json document = document_of(glb);
+            const nlohmann::json* const ground = find_named(document["materials"], "ground");
+            REQUIRE(ground != nullptr);
+            const auto picture_of = [&](const nlohmann::json& reference) {
+                const auto texture = reference["index"].get<std::size_t>();
+                return image_of(glb, document["textures"][texture]["source"].get<std::size_t>());
+            };
+            const nlohmann::json& surface = (*ground)["pbrMetallicRoughness"];
+            CHECK(decode_picture(picture_of(surface["baseColorTexture"])).texels ==
+                  decode_picture(colour).texels);
+            CHECK(decode_picture(picture_of((*ground)["normalTexture"])).texels ==
+                  decode_picture(normals).texels);
+            CHECK(surface["baseColorFactor"] == nlohmann::json({1.0, 1.0, 1.0, 1.0}));
+            const auto texture = surface["baseColorTexture"]["index"].get<std::size_t>();
+            const auto sampler = document["textures"][texture]["sampler"].get<std::size_t>();
+            CHECK(document["samplers"][sampler]["wrapS"] == 10497); // repeated
+        }
+    }
+    SECTION("USDA") {
+        files.write("a.usda");
+        const std::string usda = read_text(files.folder / "a.usda");
+        CHECK(usda.find("@./a.ground.png@") != std::string::npos);
+        CHECK(usda.find("@./a.ground_normals.png@") != std::string::npos);
+        CHECK(lsys::tests::read_picture(files.folder / "a.ground.png").texels ==
+              decode_picture(colour).texels);
+        CHECK(lsys::tests::read_picture(files.folder / "a.ground_normals.png").texels ==
+              decode_picture(normals).texels);
+    }
+    SECTION("OBJ") {
+        files.write("a.obj", {"--bake"});
+        CHECK(read_text(files.folder / "a.obj").find("mtllib a.mtl") != std::string::npos);
+        CHECK(read_text(files.folder / "a.mtl").find("map_Kd a.ground.png") != std::string::npos);
+        CHECK(lsys::tests::read_picture(files.folder / "a.ground.png").texels ==
+              decode_picture(colour).texels);
+    }
+}
+
+TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
+    const char* const grammar = GENERATE(
+        // A card of a mesh file, 2 m wide and high.
+        "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n",
+        // A picture as an object: as wide as high.
+        "#n = 1;\n#object L \"holes.png\";\n#w : L(2);\n",
+        // A polygon, towards +Y from the middle of its lower side.
+        "#n = 1;\n#object { \"holes.png\";\n#set angle 90;\n"
+        "#w : { -f(1)+ . f(2) . +f(2)+ . f(2) . };\n");
+    CAPTURE(grammar);
+    const Surfaces files("", grammar);
+    write_text(files.folder / "card.obj",
+               "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd holes.png\n");
+    // As branches, and as an impostor.
+    const char* const size = GENERATE("320x320", "64x64");
+    const Picture picture =
+        files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, size);
+    int red = 0;
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+        red += is_red(texel(picture, x, picture.height / 2)) ? 1 : 0;
+    }
+    // Half of the card, which is 2 of 2.68 m of the picture.
+    const double part = static_cast<double>(red) / picture.width;
+    CHECK(part > 0.30);
+    CHECK(part < 0.45);
+    files.write("a.glb");
+    const std::string glb = read_text(files.folder / "a.glb");
+    const nlohmann::json document = document_of(glb);
+    const nlohmann::json* const material = find_named(document["materials"], "picture 1");
+    REQUIRE(material != nullptr);
+    CHECK((*material)["alphaMode"] == "MASK");
+    CHECK((*material)["pbrMetallicRoughness"].contains("baseColorTexture"));
+    files.write("b.obj", {"--bake"});
+    CHECK(read_text(files.folder / "b.mtl").find("map_d b.picture_1_opacity.png") !=
+          std::string::npos);
+}
+
+TEST_CASE("impostors show pictures of meshes") {
+    const Surfaces files("", "#n = 1;\n#object L \"red.png\";\n#w : L(2);\n");
+    write_text(files.folder / "red.png", encode_png(halves(kRed, kRed)));
+    // No triangles of branches: all trees are impostors.
+    const Picture picture =
+        files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--triangles", "0", "--no-shadows"});
+    CHECK(is_red(texel(picture, 32, 30)));
+}
+
+TEST_CASE("a relief of a mesh file is read, as heights or as normals") {
+    const Texture heights = halves({0, 0, 0, 255}, {255, 255, 255, 255});
+    const Texture made = normals_of(heights, 1.0F);
+    const auto at = [&](std::uint32_t x) {
+        const std::size_t first = std::size_t{4} * (std::size_t{8} * 16 + x);
+        return std::array<int, 3>{made.texels[first], made.texels[first + 1],
+                                  made.texels[first + 2]};
+    };
+    CHECK(at(3) == std::array<int, 3>{128, 128, 255}); // level
+    // White is 2 % of 16 texels above black: a rise of 0.32 over two texels between them.
+    const double rise = 0.16;
+    const double length = std::sqrt(rise * rise + 1.0);
+    CHECK(at(7)[0] == std::lround(127.5 - 127.5 * rise / length));
+    CHECK(at(7)[2] == std::lround(127.5 + 127.5 / length));
+    CHECK(at(15)[0] == std::lround(127.5 + 127.5 * rise / length)); // it repeats
+    CHECK(normals_of(made, 1.0F).texels == made.texels);            // normals already
+}
+
+TEST_CASE("a mesh file names a relief and an opacity beside its picture") {
+    const Surfaces files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
+    write_text(files.folder / "card.obj",
+               "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    write_text(files.folder / "card.mtl",
+               "newmtl card\nmap_Kd ground.png\nmap_d mask.png\nbump -bm 2 slopes.png\n");
+    write_text(files.folder / "mask.png", encode_png(halves({255, 255, 255, 255}, {0, 0, 0, 255})));
+    files.write("a.glb");
+    const std::string glb = read_text(files.folder / "a.glb");
+    const nlohmann::json document = document_of(glb);
+    const nlohmann::json* const material = find_named(document["materials"], "picture 1");
+    REQUIRE(material != nullptr);
+    CHECK((*material)["alphaMode"] == "MASK");
+    REQUIRE(material->contains("normalTexture"));
+    const auto relief = (*material)["normalTexture"]["index"].get<std::size_t>();
+    CHECK(decode_picture(image_of(glb, relief)).texels ==
+          lsys::tests::read_picture(files.folder / "slopes.png").texels);
+    const auto colour =
+        (*material)["pbrMetallicRoughness"]["baseColorTexture"]["index"].get<std::size_t>();
+    const Picture shown = decode_picture(image_of(glb, colour));
+    CHECK(shown.texels[3] == 255);
+    CHECK(shown.texels[std::size_t{4} * 12 + 3] == 0);
+    CHECK(shown.texels[std::size_t{4} * 12 + 2] == kBlue[2]);
+}
