@@ -65,6 +65,7 @@ struct Skeleton {
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
     // Origins of the modules that drew them, a polygon's of its `{`; empty unless the turtle was
     // fed with origins.
     LargeVector<Origin> segment_origins;
