@@ -52,6 +52,7 @@ struct TurtleTraits {
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
     std::uint16_t first_colour = 0;      // index, where a word begins
+    float leaf_droop = 0.0F;             // bending of leaves by gravity, 0 to 1, without an option
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };

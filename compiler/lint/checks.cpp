@@ -29,6 +29,7 @@ constexpr ListedCheck kChecks[] = {
     {check_computed_equality, true},
     {check_branch_depth, true},
     {check_drawing, true},
+    {check_undrawn_edges, true},
     {check_growth, true},
 };
 

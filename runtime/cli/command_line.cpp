@@ -213,10 +213,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
                "Level of detail, 0 is the finest (default 0)")
         ->type_name("K")
         ->group("Mesh");
-    add_parsed(app, "--droop", command.mesh.droop, fraction,
-               "Bending of leaves by gravity, 0 to 1 (default 0)")
-        ->type_name("D")
-        ->group("Mesh");
+    add_droop(app, command.mesh.droop);
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);

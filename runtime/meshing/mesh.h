@@ -87,8 +87,8 @@ struct MeshOptions {
     /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
     /// none.
     float bark_noise = 0.0F;
-    /// Bending of leaves by gravity, 0 (none) to 1 (they hang).
-    float droop = 0.0F;
+    /// Bending of leaves by gravity, 0 (none) to 1 (they hang); not set: that of the skeleton.
+    std::optional<float> droop = std::nullopt;
     std::uint32_t subdivisions = 2; // Boxes: steps of smoothing
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint32_t threads = 0; // 0: as many as the machine has

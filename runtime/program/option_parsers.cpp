@@ -172,8 +172,12 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Bark displacement as a fraction of the radius, 0 to 1 (default 0)")
         ->type_name("A")
         ->group("Mesh");
-    add_parsed(app, "--droop", mesh.droop, fraction,
-               "Bending of leaves by gravity, 0 to 1 (default 0)")
+    add_droop(app, mesh.droop);
+}
+
+void add_droop(CLI::App& app, std::optional<float>& droop) {
+    add_parsed(app, "--droop", droop, fraction,
+               "Bending of leaves by gravity, 0 to 1 (default: 0.25 in .l++ files, else 0)")
         ->type_name("D")
         ->group("Mesh");
 }

@@ -68,6 +68,7 @@ struct Skeleton {
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
     // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
     // had origins.
     LargeVector<Origin> segment_origins;

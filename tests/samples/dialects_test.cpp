@@ -5,9 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -205,4 +208,79 @@ TEST_CASE("what is imported derives the same words") {
     }
     CHECK(imported > 50);
     CHECK(without_warning > 20);
+}
+
+namespace {
+
+/// Replaces text as the forest generator and L3D do, from left to right without overlap.
+std::string with_replaced(const std::string& text, const std::string& key, const std::string& by) {
+    std::string out;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        if (text.compare(at, key.size(), key) == 0) {
+            out += by;
+            at += key.size();
+        } else {
+            out += text[at++];
+        }
+    }
+    return out;
+}
+
+struct TextRule {
+    std::string key;
+    std::string value;
+};
+
+} // namespace
+
+TEST_CASE("a note says when the order of L3D's rules matters, and only then") {
+    std::mt19937 random(11);
+    const std::string letters = "ABCD";
+    std::size_t notes = 0;
+    std::size_t alike = 0;
+    for (int round = 0; round < 120; ++round) {
+        std::string order = letters;
+        for (std::size_t i = order.size() - 1; i > 0; --i) {
+            std::swap(order[i], order[random() % (i + 1)]);
+        }
+        std::vector<TextRule> by_line;
+        for (const char key : order.substr(0, 2 + random() % 3)) {
+            std::string value;
+            for (std::size_t i = random() % 3; i > 0; --i) {
+                value += letters[random() % letters.size()];
+            }
+            by_line.push_back({std::string(1, key), value + "F"});
+        }
+        std::vector<TextRule> by_key = by_line;
+        std::ranges::sort(by_key, {}, &TextRule::key);
+        const std::string axiom = std::string("F") + letters[random() % letters.size()];
+        std::string file = "3 90 5\n" + axiom + "\n";
+        for (const TextRule& rule : by_line) {
+            file += rule.key + "=" + rule.value + "\n";
+        }
+        std::string first = axiom;
+        std::string second = axiom;
+        bool differs = false;
+        for (int i = 0; i < 3; ++i) {
+            for (const TextRule& rule : by_line) {
+                first = with_replaced(first, rule.key, rule.value);
+            }
+            for (const TextRule& rule : by_key) {
+                second = with_replaced(second, rule.key, rule.value);
+            }
+            differs = differs || first != second;
+        }
+        INFO(file << first << "\n" << second);
+        const ScratchFolder folder;
+        lsys::tests::write_text(folder / "a.l3d", file + "@\n");
+        const LscRun run = run_lsc({"check", folder / "a.l3d"}, "");
+        INFO(run.err);
+        CHECK((run.err.find("[rule-order]") != std::string::npos) == differs);
+        const LscRun as_program = run_lsc({"check", "--bug-compatible", folder / "a.l3d"}, "");
+        CHECK(as_program.err.find("[rule-order]") == std::string::npos);
+        ++(differs ? notes : alike);
+    }
+    CHECK(notes > 20);
+    CHECK(alike > 20);
 }

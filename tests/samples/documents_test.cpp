@@ -274,6 +274,22 @@ TEST_CASE("Naderi's slides: one value for all keys of a generation") {
         ++values[value];
     }
     CHECK(values.size() == 3);
+    // The text of the slide with its brackets, `^{*}` as `^*`, is longer: its size counts characters.
+    const lsys::tests::ScratchFolder folder;
+    lsys::tests::write_text(folder / "printed.l++", R"(5
+15
+20
+fA
+A=^f >(30) B\\B\\\\\\B
+B=[[^][^]fL \\\\\A L]
+L=[[^](60) [^*(.3)] +(50)^*(.28)]
+L=[[^](60)^*(.3)]
+L=[[&](70)^*(.3)]
+@
+)");
+    CHECK(dump(folder / "printed.l++", {"--count"}) == "26871\n");
+    CHECK(dump(folder / "printed.l++", {}).size() == 26871 + 3); // back quotes and the line's end
+    CHECK(dump(sample("naderi-leaves", "l++"), {"--count"}) == "22749\n");
     // The tip adds three segments in each of 64 generations.
     const std::string spiral = dump(sample("naderi-spiral", "l++"), {});
     CHECK(occurrences(spiral, "^(15)") == 64);

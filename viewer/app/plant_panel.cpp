@@ -254,7 +254,8 @@ void draw_look(PlantViewSettings& settings) {
     draw_camera(settings.camera);
 }
 
-void draw_mesh(PlantViewSettings& settings) {
+/// `own_droop`: of the plant's leaves, where the user sets none.
+void draw_mesh(PlantViewSettings& settings, float own_droop) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
     }
@@ -277,7 +278,10 @@ void draw_mesh(PlantViewSettings& settings) {
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
     ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
-    ImGui::SliderFloat("Droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    float droop = mesh.droop.value_or(own_droop);
+    if (ImGui::SliderFloat("Droop", &droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+        mesh.droop = droop;
+    }
 }
 
 void draw_bending(PlantViewSettings& settings) {
@@ -306,7 +310,8 @@ void draw_plant_panel(PlantView& view) {
     draw_settings(view);
     draw_writing(view);
     draw_look(view.settings);
-    draw_mesh(view.settings);
+    draw_mesh(view.settings,
+              view.document() == nullptr ? 0.0F : view.document()->plant.skeleton.leaf_droop);
     draw_bending(view.settings);
     ImGui::PopItemWidth();
 }

@@ -41,7 +41,7 @@ struct IgnoringStream {
 template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {
     auto& [leaf_moves, object_moves, object_has_step_scale, forward_has_width, width_is_relative,
-           l3d_compatible_surface, taper, first_turn, first_colour] = traits;
+           l3d_compatible_surface, taper, first_turn, first_colour, leaf_droop] = traits;
     stream.truth(leaf_moves);
     stream.truth(object_moves);
     stream.truth(object_has_step_scale);
@@ -51,6 +51,7 @@ void describe_traits(Stream& stream, Value& traits) {
     stream.real(taper);
     stream.real(first_turn);
     stream.number(first_colour);
+    stream.real(leaf_droop);
 }
 
 template <typename Stream, typename Value>

@@ -7,6 +7,7 @@
 #include "grammar/dialects/impl/frontends.h"
 #include "grammar/dialects/impl/text.h"
 #include "grammar/dialects/l3d/reader.h"
+#include "grammar/dialects/l3d/rule_order.h"
 #include "grammar/dialects/l3d/writer.h"
 
 #include <algorithm>
@@ -30,13 +31,15 @@ float value_of(SourceSpan span, const ParseContext& context) {
     return negative ? -literal.value : literal.value;
 }
 
-void write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
+/// Returns the number of generations.
+std::uint32_t
+write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
     const float generations = value_of(file.numbers[0], context);
     if (!(generations >= 0.0F && generations < kMaxGenerations)) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, file.numbers[0],
                                 "`" + shown(context.sources.text(file.numbers[0])) +
                                     "` is no number of generations");
-        return;
+        return 0;
     }
     if (generations != std::trunc(generations)) {
         context.diagnostics.add(DiagnosticCode::ForeignQuirk, file.numbers[0],
@@ -48,6 +51,7 @@ void write_header(const L3dFile& file, const ParseContext& context, Translation&
                     file.numbers[1]);
     const float thickness = value_of(file.numbers[2], context) / 100.0F;
     translation.put("#set width " + text_of(thickness) + ";\n", file.numbers[2]);
+    return static_cast<std::uint32_t>(generations);
 }
 
 /// The axiom: the last line without a `=`; or, where there is none, the first rule if its `=` can
@@ -152,6 +156,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
             rules.push_back(rule);
         }
     }
+    const std::vector<L3dRule> by_line = rules;
     // L3D sorts its rules by the bytes of their left sides.
     const auto text_of_key = [&](const L3dRule& rule) { return context.sources.text(rule.key); };
     std::stable_sort(rules.begin(), rules.end(), [&](const L3dRule& a, const L3dRule& b) {
@@ -169,7 +174,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
         translation.put("#set choice generation;\n#set weights any;\n");
         translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
     }
-    write_header(file, context, translation);
+    const std::uint32_t generations = write_header(file, context, translation);
     if (!file.has_mark) {
         report_missing_mark(root, context);
     }
@@ -186,6 +191,9 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
     writer.write(*axiom);
     translation.put(";\n\n");
     write_rules(rules, alternatives, context, writer, translation);
+    if (!context.bug_compatible && !context.diagnostics.has_errors()) {
+        report_rule_order(by_line, context.sources.text(*axiom), generations, context);
+    }
 }
 
 } // namespace lsys

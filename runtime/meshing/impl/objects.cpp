@@ -134,6 +134,7 @@ void append_objects(const Skeleton& skeleton,
                                              : kNoGroup;
     });
     Workers workers(options.threads);
+    const float droop = options.droop.value_or(skeleton.leaf_droop);
     Shape shape;
     std::uint64_t shape_key = kNoGroup;
     for (const Group& group : groups.groups) {
@@ -170,7 +171,7 @@ void append_objects(const Skeleton& skeleton,
                                 .items = items,
                                 .part = part,
                                 .palette = material.palette,
-                                .droop = shape.droops ? std::min(options.droop, 1.0F) : 0.0F,
+                                .droop = shape.droops ? std::min(droop, 1.0F) : 0.0F,
                                 .block = block});
         }
     }

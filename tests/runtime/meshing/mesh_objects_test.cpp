@@ -163,6 +163,26 @@ TEST_CASE("arrays that are not asked for are not made") {
     CHECK_FALSE(meshed(random_objects(2, 50), options).indices.empty());
 }
 
+TEST_CASE("leaves droop as the skeleton says, unless the options say otherwise") {
+    Skeleton skeleton = one({.kind = TurtleOperation::Leaf});
+    const Mesh straight = meshed(skeleton);
+    skeleton.leaf_droop = traits_of(TurtleProfile::Lplus).leaf_droop;
+    const Mesh drooping = meshed(skeleton);
+    CHECK(meshed(skeleton, {.droop = 0.0F}).positions == straight.positions);
+    CHECK(meshed(one({.kind = TurtleOperation::Leaf}), {.droop = 0.25F}).positions ==
+          drooping.positions);
+    // A leaf that points straight up loses a quarter of its height, as that of the program L3D.
+    CHECK(test::bounds_of(straight).high.y == 1.0F);
+    CHECK(test::bounds_of(drooping).high.y == Approx(0.75F).margin(0.015));
+    skeleton.l3d_compatible_surface = true;
+    Mesh of_program;
+    REQUIRE(make_mesh(skeleton, {}, {.droop = 0.9F}, of_program) == std::nullopt);
+    CHECK(test::bounds_of(of_program).high.y == Approx(0.75F).margin(1e-6));
+    for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
+        CHECK((traits_of(profile).leaf_droop != 0.0F) == (profile == TurtleProfile::Lplus));
+    }
+}
+
 TEST_CASE("leaves droop to the ground, whatever their frame, and are not stretched") {
     const Mesh straight = meshed(one({.kind = TurtleOperation::Leaf}));
     std::mt19937 random(3);
