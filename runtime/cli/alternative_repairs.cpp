@@ -13,9 +13,9 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The meaning of a statement.
+/// A statement that parses.
 struct Reading {
-    std::string tree; // without its parentheses
+    std::string tree; // dump of the syntax tree, without parentheses
     std::size_t redundant_groups = 0;
 };
 
@@ -70,7 +70,7 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether a text may parse: not with unbalanced or adjacent pairs of parentheses.
+/// Whether a text may parse: false for unbalanced parentheses and for `)(`. Saves a parse.
 bool may_parse(std::string_view text) {
     std::int64_t open = 0;
     char before = '\0';
@@ -93,7 +93,7 @@ bool has_balanced_modules(std::string_view text) {
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether a number follows the comma added at `place`: then no product can be meant.
+/// Whether a number follows the comma added at `place`, which rules out a missing `*`.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&
@@ -112,7 +112,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         }
     };
     for (std::size_t at = 0; at <= broken.size(); ++at) {
-        // A name and a function may have lost the `(` between them, `Fsin(x))`.
+        // A `(` may be missing inside a word: `Fsin(x))` for `F(sin(x))`.
         add(at, 0, "(");
         const bool is_in_word =
             at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
@@ -124,7 +124,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         if (at == broken.size()) {
             break;
         }
-        // A superfluous opening bracket is next to another one.
+        // An opening bracket is superfluous only after an equal one.
         const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
         if (broken[at] == ')' || broken[at] == '}' ||
             ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
@@ -157,7 +157,7 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     const std::optional<Reading> proposed = read(setting, repair.repaired);
     std::vector<std::string> texts;
     if (repair.code == DiagnosticCode::MissingComma) {
-        // A product may be meant.
+        // The alternative to a missing comma is a missing `*`.
         if (!is_before_number(repair.broken, repair.place)) {
             texts.emplace_back(repair.broken);
             texts.back().insert(repair.place, " * ");

@@ -27,7 +27,7 @@ ExitStatus check_text(const std::string& path,
         return report_error(compiled.error(), console);
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
-        // Editors apply machine-applicable fixes.
+        // Editors apply machine-applicable fixes without asking, so doubtful ones become offers.
         const Result<void> offered = offer_doubtful_fixes(
             path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
@@ -72,7 +72,7 @@ Result<void> write_fixed(const std::string& path,
             return written;
         }
     }
-    if (path == "-") { // last: it cannot be undone
+    if (path == "-") { // standard output comes last: it cannot be undone
         const auto mended = fixed.changed.find(root);
         if (Result<void> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
             !written) {

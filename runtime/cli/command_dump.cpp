@@ -73,7 +73,7 @@ write_stage(const DumpCommand& command, const std::string& text, const Console& 
     return report_result(write_file(command.output, text, console), console);
 }
 
-/// Prints tokens or syntax tree, which exist for grammars with errors too.
+/// Prints the tokens or the syntax tree, also of a grammar with errors.
 ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
     GrammarText grammar;
@@ -122,7 +122,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
     return list ? more_severe(shown, write_stage(command, *list, console)) : shown;
 }
 
-/// Writes `lines` lines; `append` adds one of them to a text.
+/// Writes `lines` lines; `append(line, text)` appends line number `line` to `text`.
 template <typename Append>
 ExitStatus write_lines(const DumpCommand& command,
                        const Console& console,

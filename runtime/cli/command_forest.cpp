@@ -120,7 +120,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    OutputSet outputs(run.console); // pictures first, then the file with their names
+    OutputSet outputs(run.console); // pictures before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -223,7 +223,7 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
                 "because there was none to take\n",
                 stage.generations, cache.instances.size(), cache.slots.size(),
                 cache.skeleton.segments.size(), hits, misses);
-            // The sum over all keys of an id and age.
+            // Sums over the keys with the same id and age.
             std::map<std::pair<std::uint32_t, std::uint32_t>, InstanceSlot> rows;
             for (const InstanceSlot& slot : cache.slots) {
                 InstanceSlot& row = rows[{slot.id, slot.age}];
@@ -257,7 +257,7 @@ ExitStatus print_stats(const Run& run) {
     return report_result(run.console.write(text), run.console);
 }
 
-/// Writes the forest in `frames` of its years, including the last.
+/// Writes the forest of `frames` evenly spaced years, including the last.
 ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
     options.threads = run.project.threads;

@@ -40,13 +40,13 @@ Result<std::string> with_options(const std::string& text, const GrammarOptions& 
                        {options.generations, options.definitions, options.settings}, load);
 }
 
-/// Whether a grammar can hold the number: its numbers are binary32.
+/// Whether binary32, the type of all numbers in a grammar, holds the number exactly.
 bool is_exact(std::uint32_t generations) {
     return static_cast<double>(static_cast<float>(generations)) == static_cast<double>(generations);
 }
 
-/// Translates one system and reports its diagnostics, as every command that compiles does. After Ok
-/// the text derives the same word as the file.
+/// Translates one system and reports its diagnostics, like every command that compiles. After Ok
+/// `imported.text` derives the same word as the original.
 ExitStatus import_text(const std::string& path,
                        GrammarText text,
                        const GrammarOptions& options,
@@ -108,13 +108,13 @@ struct FolderImport {
     const ImportCommand& command;
     const Console& console;
     fs::path folder;
-    std::set<std::string> names; // of the files of this run
+    std::set<std::string> names; // of the files written by this run
     ExitStatus status = ExitStatus::Ok;
     std::uint64_t imported = 0;
     std::uint64_t failed = 0;
 };
 
-/// `name` as a file name.
+/// `name` with `_` in place of blanks, control characters and slashes, and before a leading dot.
 std::string file_name(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -126,7 +126,7 @@ std::string file_name(std::string_view name) {
 }
 
 /// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has used the name:
-/// `a/b` and `a_b` are different systems.
+/// the systems `a/b` and `a_b` have the same stem.
 std::string new_path(const std::string& stem, FolderImport& import) {
     std::string name = stem + ".lsys";
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
@@ -135,7 +135,7 @@ std::string new_path(const std::string& stem, FolderImport& import) {
     return (import.folder / name).string();
 }
 
-/// Writes a file with a derived name; an existing one is replaced only with --force.
+/// Writes a file whose name the program chose; replaces an existing file only with --force.
 ExitStatus
 write_named(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
@@ -183,8 +183,8 @@ Result<void> import_one(const std::string& path,
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
-/// Imports all systems of a file to `prefix`NAME.lsys. Of several with one name, regardless of
-/// letter case, only the first.
+/// Imports the systems of a file to `prefix`NAME.lsys. Skips a system that has the name of an
+/// earlier one, regardless of letter case.
 Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,

@@ -37,7 +37,8 @@ std::string bounds_text(const Count& low, const Count& high) {
     return low_text == high_text ? low_text : low_text + " .. " + high_text;
 }
 
-/// The growth factor of the number of modules from one generation to the next; empty after 0.
+/// The growth factor of the number of modules from one generation to the next; empty if `before` is
+/// 0.
 std::string factor_text(const Count& before, const Count& now) {
     if (!before.exceeds && before.value == 0) {
         return {};
@@ -153,7 +154,7 @@ ExitStatus count_words(const StatsCommand& command,
     return report_derivation(derivation.end(), options.limits, grammar, console);
 }
 
-/// A JSON number if it is exact, else a text.
+/// A JSON number if the count fits into 64 bits, else a JSON string.
 nlohmann::ordered_json json_count(const Count& count) {
     if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
         return count.value.low;
@@ -172,8 +173,8 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
     return object;
 }
 
-/// The height of the plant in m; none if it has too many modules to be drawn here, cannot be drawn
-/// or nothing of it can be seen. Folds the bytecode of the grammar.
+/// The height of the plant in m; none if the plant has too many modules, drawing fails or nothing
+/// is visible. Folds the bytecode of the grammar.
 std::optional<double> find_height(const StatsCommand& command,
                                   const Count& modules,
                                   Grammar& grammar,
@@ -217,7 +218,7 @@ make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> 
     return text;
 }
 
-/// Grows the plant and reports on it under its weight.
+/// Grows the plant and reports how it bears its weight.
 ExitStatus report_weight(const StatsCommand& command,
                          const Project& project,
                          Grammar& grammar,

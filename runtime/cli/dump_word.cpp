@@ -28,12 +28,12 @@ namespace {
 
 constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
 
-/// The derivation of a run, from command line, grammar and saved state.
+/// What a run derives, by command line, grammar and saved state. Ages are generations.
 struct Plan {
     DeriveOptions derive;
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
-    std::string saved_bytes; // of --from; empty: from the axiom
+    std::string saved_bytes; // of the file of --from; empty: start at the axiom
     std::uint64_t max_bytes = 0;
 };
 
@@ -103,7 +103,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     return plan;
 }
 
-/// Writes to an Output from callbacks that return whether to continue.
+/// An Output for callbacks that return whether to continue; keeps the first error.
 class Writer {
 public:
     explicit Writer(Output output) : output_(std::move(output)) {}
@@ -132,8 +132,8 @@ private:
 
 using OnGeneration = std::function<bool(const Derivation&)>;
 
-/// Runs the derivation of `plan` and calls `on_generation` with the words of all ages, or the last
-/// one; false ends the run.
+/// Runs the derivation of `plan` and calls `on_generation` after the last generation, with --all
+/// after each. `on_generation` returns false to end the run.
 ExitStatus derive(Derivation& derivation,
                   const DumpCommand& command,
                   const Plan& plan,
@@ -280,7 +280,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
     StreamOutcome outcome;
     const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
     if (command.count || command.output == "-") {
-        // Checks the derivation before standard output is written, and counts.
+        // Check the derivation and count its modules before standard output is written.
         const ExitStatus status = stream(plan, grammar, console, ignore, outcome);
         if (status != ExitStatus::Ok) {
             return status;
@@ -327,7 +327,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
 
 // --- counts without words
 
-/// Prints the counts if they are known without deriving. The start of a derivation still checks the
+/// Prints the counts if the growth matrix gives them. The derivation is only started, to check the
 /// random constants.
 std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
                                                  const Plan& plan,
@@ -379,7 +379,7 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
             return *counted;
         }
     }
-    if (from_axiom && command.save_state.empty()) { // a state file needs the codes of the grammar
+    if (from_axiom && command.save_state.empty()) { // a state file stores the codes before folding
         fold_modules(plan.derive, grammar.bytecode);
     }
     const bool shows = console.shows_progress();

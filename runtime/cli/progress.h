@@ -47,15 +47,16 @@ private:
 
     std::vector<double> expected_;
     std::uint32_t generation_ = 0; // of the last update
-    std::uint64_t modules_ = 0;    // of that update
-    std::uint64_t before_ = 0;     // modules of all generations before it
+    std::uint64_t modules_ = 0;    // of the last update
+    std::uint64_t before_ = 0;     // modules of all earlier generations
     bool drawn_ = false;
 };
 
 /// The progress bar of the pipeline's derivations.
 class PipelineProgress {
 public:
-    /// Makes `host` report progress to this bar if `console` shows progress. Outlives the work.
+    /// Makes `host` report progress to this bar if `console` shows progress. The bar outlives all
+    /// calls with `host`.
     PipelineProgress(const Console& console, Host& host);
     /// Removes the bar.
     void clear() { bar_.reset(); }

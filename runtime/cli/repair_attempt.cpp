@@ -10,7 +10,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum rounds. The text is compiled again after each, because mistakes may hide others.
+/// Maximum rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
@@ -79,7 +79,7 @@ Result<void> RepairAttempt::run() {
     }
 }
 
-/// Adds the new files of this round.
+/// Adds the files that occur in this round for the first time.
 void RepairAttempt::read_files() {
     const SourceMap& sources = *fixed_.compiled.grammar.sources;
     std::map<std::string, std::vector<TextPlace>> statements;

@@ -1,5 +1,5 @@
-// RepairAttempt: one attempt of `lsc check --fix`, and its doubtful statements. fixes.cpp repeats
-// it without these.
+// RepairAttempt: one attempt of `lsc check --fix`. Finds doubtful statements, whose repair is wrong
+// or ambiguous; fixes.cpp repeats the attempt without them.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -47,7 +47,7 @@ struct RepairSubject {
                                            const std::map<std::string, std::string>& changed,
                                            CompiledText& compiled);
 
-/// The repair of a grammar, except of excluded statements.
+/// The repair of a grammar without its excluded statements.
 class RepairAttempt {
 public:
     RepairAttempt(const RepairSubject& subject,
@@ -61,7 +61,8 @@ public:
     [[nodiscard]] std::set<StatementKey> wrong_statements() const;
     /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;
-    /// Makes the fixes of `diagnostics`, of the original text, that were not applied offers.
+    /// Turns the fixes of `diagnostics`, of the original text, into offers unless they were
+    /// applied.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kRounds = 2000;
 
-/// The next number of two digits that is not smaller.
+/// `value` rounded up to two significant digits.
 double rounded_up(double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     return std::ceil(value / unit - 1e-9) * unit;

@@ -26,8 +26,8 @@ namespace {
 constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
-/// The path of a file that is named in a file of `folder`; without `..`, unless a link makes that
-/// another file.
+/// The whole path of `path`, which a file of `folder` names. Without `..`, unless a symbolic link
+/// makes the shorter path another file.
 std::string path_in(const std::string& folder, const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(folder) / path;
     const std::filesystem::path normal = whole.lexically_normal();
@@ -35,7 +35,7 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
 }
 
-/// Leaves out notes on equal plants where the scene asks for one plant.
+/// `diagnostics` without the notes on equal plants if the species has a single hero.
 Diagnostics notes_for(const SceneSpecies& species, Diagnostics diagnostics) {
     if (species.cache.heroes != 1) {
         return diagnostics;
@@ -64,7 +64,7 @@ Scene scene_of(const std::vector<std::string>& grammars) {
     return scene;
 }
 
-/// Ends the step with an error about a name, at its place in the scene if it has one.
+/// Ends the step with an error at `place` in the scene, or without a place if `place` has no file.
 Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loaded, Step& step) {
     if (place.file == kNoFile || step.project().is_cancelled()) {
         return step.fail(error);
@@ -120,12 +120,12 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
     return Terrain::height_map(terrain.region, std::move(map.value()), terrain.height_map);
 }
 
-/// The heroes of one species with one number of generations, and its meshes.
+/// The heroes of one species with one number of generations, and the mesh files of its grammar.
 struct GrownStage {
     ForestStage stage;
     std::vector<UserMesh> user_meshes;
     Settings settings;      // of the grammar
-    SourceSpan height_span; // of its `#set height`
+    SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
 };
 
@@ -188,7 +188,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
-        // No branch is shared, so every hero is whole and has all its tips.
+        // A pipe model excludes shared branches, so every hero is whole and has all its tips.
         if (const std::optional<Stop> stop =
                 apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
                            stage.cache.skeleton)) {
@@ -206,9 +206,9 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     return step.done(std::move(grown));
 }
 
-/// Scales the heroes of a species whose grammar has a height, so that tree 0 of the last stage has
-/// it at scale 1. Returns false if the plants are flat and a height is asked for, by the grammar or
-/// by `wants_height`.
+/// Scales the heroes of a species to the `#set height` of its grammar, if any: tree 0 of the last
+/// stage has this height at scale 1. Returns false if the plants are flat and a height is required,
+/// by the grammar or by `wants_height`.
 bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& species) {
     if (settings.height == 0.0F && !wants_height) {
         return true;
@@ -244,7 +244,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
                       b.definitions.end(), same_definition);
 }
 
-/// The index of the species of `known` that has the heroes of `species`, or nothing.
+/// The index of the species of the previous forest that has the heroes of `species`, or nothing.
 std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownForest& known) {
     if (known.scene == nullptr) {
         return std::nullopt;
@@ -322,7 +322,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
     }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
-    std::set<const Texture*> known_pictures; // counted in the budget
+    std::set<const Texture*> known_pictures; // already counted in the budget
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {

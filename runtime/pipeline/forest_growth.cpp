@@ -14,8 +14,8 @@ struct ForestGrowth::State {
     const Terrain& terrain;
     PlacementOptions options;
     Domination domination;
-    LargeVector<Tree> before; // of the year before that of `domination`; empty in year 0
-    LargeVector<Tree> after;  // of the year of `domination`
+    LargeVector<Tree> before; // of the year before domination.year(); empty in year 0
+    LargeVector<Tree> after;  // of domination.year()
 
     State(const Scene& of, const Terrain& on, PlacementOptions with, Domination begun)
         : scene(of), terrain(on), options(std::move(with)), domination(std::move(begun)),

@@ -27,15 +27,15 @@ struct PlantGrowth::State {
     TurtleOptions turtle;
     Plant plant;
     Derivation derivation;
-    Skeleton drawn;                       // of the derivation's word, unless `growth` has it
-    std::optional<SkeletonGrowth> growth; // up to the derivation's word
-    std::vector<Origin> ancestors;        // of the derivation's word
-    bool is_whole = false;                // drawings and word belong together; not after a stop
+    Skeleton drawn;                       // of the current word, unless `growth` holds it
+    std::optional<SkeletonGrowth> growth; // from the previous word to the current one
+    std::vector<Origin> ancestors;        // of the modules of the current word
+    bool is_whole = false;                // the drawings match the word; false after a stop
     bool noted_lost_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 
-    /// Draws the word. Messages of a drawing belong to its last generation.
+    /// Draws the word. Only the drawing of the last generation reports warnings.
     [[nodiscard]] std::optional<Stop> draw(Step& step) {
         const Stopwatch drawing;
         DerivationEnd derived;
@@ -111,7 +111,7 @@ struct PlantGrowth::State {
     [[nodiscard]] std::optional<Stop> go_to(const GrowthMoment& moment, Step& step) {
         const std::uint32_t wanted = moment.generation + (moment.part > 0.0 ? 1 : 0);
         LSYS_CHECK(wanted <= derive.generations, wanted, derive.generations);
-        // The drawings at hand are those of age() - 1 and age().
+        // The stored drawings are those of age() - 1 and age().
         if (!is_whole || moment.generation + 1 < age() || (moment.generation < age() && !growth)) {
             if (const std::optional<Stop> stop = start(step)) {
                 return stop;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kDiskTrees = 0.7; // poisson-disk trees per square of side `spacing`
 
+/// Replaces `target` if the option is set.
 template <typename Target, typename Value>
 void take(const std::optional<Value>& option, Target& target) {
     if (option) {

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// An Error that names the file.
+/// `bytes`, or its Error with the name of the file.
 Result<std::string> name_file(Result<std::string> bytes, const std::string& path) {
     if (bytes) {
         return bytes;

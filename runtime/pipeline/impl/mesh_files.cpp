@@ -31,7 +31,7 @@ struct Library {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
-    FileId file = kNoFile; // added for its first diagnostic
+    FileId file = kNoFile; // kNoFile until its first diagnostic
 };
 
 /// Finds and reads the picture of the mesh in the file `path`, whose contents are `text`.
@@ -92,8 +92,8 @@ private:
         return budget_.left - std::min(budget_.left, held_);
     }
 
-    /// Reports at the place of `name` in `text`: a warning, or an error if it needs too much
-    /// memory.
+    /// Reports `error` at the place of `name` in `text`, as an error if a limit of memory is
+    /// reached, else as a warning.
     void report(const std::string& path,
                 const std::string& text,
                 FileId& file,
@@ -209,7 +209,7 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes not in the budget: the text of the files, the mesh
+    std::uint64_t held_; // bytes that the budget does not count: texts of files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
     std::vector<Library> libraries_;
