@@ -14,13 +14,13 @@ namespace lsys::lsc {
 namespace {
 
 /// A statement that parses.
-struct Reading {
+struct ParsedStatement {
     std::string tree; // dump of the syntax tree, without parentheses
     std::size_t redundant_groups = 0;
 };
 
 /// The statement `#set names` of a file; empty if there is none.
-std::string names_setting(std::string_view text) {
+std::string find_names_setting(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
     for (std::size_t at = text.find("#set"); at != std::string_view::npos;
          at = text.find("#set", at + 1)) {
@@ -51,7 +51,8 @@ std::size_t count_redundant_groups(const Ast& ast) {
     return count;
 }
 
-std::optional<Reading> read(const std::string& setting, std::string_view statement) {
+std::optional<ParsedStatement> parse_statement(const std::string& setting,
+                                               std::string_view statement) {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
@@ -63,7 +64,7 @@ std::optional<Reading> read(const std::string& setting, std::string_view stateme
     if (diagnostics.has_errors()) {
         return std::nullopt;
     }
-    return Reading{dump_ast(ast, names, sources), count_redundant_groups(ast)};
+    return ParsedStatement{dump_ast(ast, names, sources), count_redundant_groups(ast)};
 }
 
 bool is_word(char c) {
@@ -153,8 +154,8 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     if (repair.broken.size() > kMaxComparedStatement) {
         return {};
     }
-    const std::string setting = names_setting(repair.file_text);
-    const std::optional<Reading> proposed = read(setting, repair.repaired);
+    const std::string setting = find_names_setting(repair.file_text);
+    const std::optional<ParsedStatement> proposed = parse_statement(setting, repair.repaired);
     std::vector<std::string> texts;
     if (repair.code == DiagnosticCode::MissingComma) {
         // The alternative to a missing comma is a missing `*`.
@@ -172,13 +173,13 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
         if (is_balanced && !has_balanced_modules(text)) {
             continue;
         }
-        std::optional<Reading> reading = read(setting, text);
-        if (reading && proposed &&
-            (reading->tree == proposed->tree ||
-             reading->redundant_groups > proposed->redundant_groups)) {
+        std::optional<ParsedStatement> parsed = parse_statement(setting, text);
+        if (parsed && proposed &&
+            (parsed->tree == proposed->tree ||
+             parsed->redundant_groups > proposed->redundant_groups)) {
             continue;
         }
-        if (reading && trees.insert(std::move(reading->tree)).second) {
+        if (parsed && trees.insert(std::move(parsed->tree)).second) {
             others.push_back(std::move(text));
         }
     }

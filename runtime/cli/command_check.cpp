@@ -73,8 +73,8 @@ Result<void> write_fixed(const std::string& path,
         }
     }
     if (path == "-") { // standard output comes last: it cannot be undone
-        const auto mended = fixed.changed.find(root);
-        if (Result<void> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
+        const auto found = fixed.changed.find(root);
+        if (Result<void> written = put("-", found != fixed.changed.end() ? found->second : bytes);
             !written) {
             return written;
         }
@@ -123,9 +123,9 @@ ExitStatus fix_file(const std::string& path,
         console.info(offers == 1 ? "1 repair is offered, and left to you"
                                  : fmt::format("{} repairs are offered, and left to you", offers));
     }
-    for (const std::string& left : fixed.out_of_scope) {
-        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
-                                 shown_path(path)));
+    for (const std::string& outside : fixed.out_of_scope) {
+        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`",
+                                 outside, shown_path(path)));
     }
     return status;
 }

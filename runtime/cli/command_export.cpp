@@ -163,8 +163,8 @@ ExitStatus check_weight(const Export& run, PhysicsOptions options) {
 /// Writes the plant bent by weight and wind: at rest, or in frames of its motion.
 ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
-    constexpr double kRadians = 1e-6;
-    constexpr std::uint32_t kRounds = 10'000;
+    constexpr double kRestAngle = 1e-6; // radians
+    constexpr std::uint32_t kMaxSettleRounds = 10'000;
     constexpr float kStepsPerSecond = 60.0F;
     PhysicsOptions options;
     options.gravity = command.gravity.value_or(0.0F);
@@ -180,7 +180,7 @@ ExitStatus write_bent(Export& run) {
         return weight;
     }
     PlantPhysics physics(run.plant.skeleton, options);
-    if ((command.settle || command.frames == 0) && !physics.settle(kRadians, kRounds)) {
+    if ((command.settle || command.frames == 0) && !physics.settle(kRestAngle, kMaxSettleRounds)) {
         run.console.info("the plant has not quite come to rest");
     }
     Skeleton bent;

@@ -127,7 +127,7 @@ std::string file_name(std::string_view name) {
 
 /// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has used the name:
 /// the systems `a/b` and `a_b` have the same stem.
-std::string new_path(const std::string& stem, FolderImport& import) {
+std::string unused_path(const std::string& stem, FolderImport& import) {
     std::string name = stem + ".lsys";
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
         name = fmt::format("{}-{}.lsys", stem, number);
@@ -137,7 +137,7 @@ std::string new_path(const std::string& stem, FolderImport& import) {
 
 /// Writes a file whose name the program chose; replaces an existing file only with --force.
 ExitStatus
-write_named(const std::string& path, const std::string& text, const FolderImport& import) {
+write_new_file(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
         return write_imported(path, text, import.console);
     }
@@ -166,20 +166,20 @@ Result<void> import_one(const std::string& path,
     const Console& console = import.console;
     const std::string_view title = row_of(text.dialect).title;
     Imported imported;
-    ExitStatus one =
+    ExitStatus status =
         import_text(path, std::move(text), options, import.command.run, console, imported);
-    std::string to;
-    if (one == ExitStatus::Ok) {
-        to = new_path(stem, import);
-        one = write_named(to, imported.text, import);
+    std::string output_path;
+    if (status == ExitStatus::Ok) {
+        output_path = unused_path(stem, import);
+        status = write_new_file(output_path, imported.text, import);
     }
-    (one == ExitStatus::Ok ? import.imported : import.failed) += 1;
-    import.status = more_severe(import.status, one);
+    (status == ExitStatus::Ok ? import.imported : import.failed) += 1;
+    import.status = more_severe(import.status, status);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
-    return console.write(one == ExitStatus::Ok
+    return console.write(status == ExitStatus::Ok
                              ? fmt::format("{}: {}, {}, written to {}\n", what, title,
-                                           counted(imported.warnings, "warning"), to)
+                                           counted(imported.warnings, "warning"), output_path)
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
@@ -189,17 +189,17 @@ Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,
                             FolderImport& import) {
-    std::set<std::string> known;
+    std::set<std::string> seen;
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
         if (import.console.interrupted()) {
             import.status = ExitStatus::Interrupted;
             return {};
         }
-        std::string low = system;
-        std::transform(low.begin(), low.end(), low.begin(), [](char c) {
+        std::string lower_case = system;
+        std::transform(lower_case.begin(), lower_case.end(), lower_case.begin(), [](char c) {
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
-        if (!known.insert(low).second) {
+        if (!seen.insert(lower_case).second) {
             ++import.failed;
             import.status = more_severe(import.status, ExitStatus::AuthorErrors);
             if (Result<void> written = import.console.write(fmt::format(

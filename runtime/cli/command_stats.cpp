@@ -80,7 +80,7 @@ std::string lay_out(const std::vector<Row>& rows) {
     return text;
 }
 
-std::string make_table(const GrowthPrediction& growth, std::string_view kind) {
+std::string make_table(const GrowthPrediction& growth, std::string_view note) {
     Row head{"generation", "modules", "parameters", "segments", "bytes", "growth"};
     if (growth.has_expected) {
         head.insert(head.begin() + 2, "expected");
@@ -101,11 +101,11 @@ std::string make_table(const GrowthPrediction& growth, std::string_view kind) {
         rows.push_back(std::move(row));
     }
     std::string text = lay_out(rows);
-    text += kind;
+    text += note;
     return text;
 }
 
-std::string_view kind_of(const GrowthPrediction& growth) {
+std::string_view accuracy_note(const GrowthPrediction& growth) {
     return growth.exact ? "exact\n"
            : growth.has_expected
                ? "bounds and expected counts: the productions are chosen by chance\n"
@@ -261,13 +261,13 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     const bool known = is_growth_known(grammar.bytecode);
     GrowthPrediction growth;
     ExitStatus counted = ExitStatus::Ok;
-    std::string kind;
+    std::string note;
     if (known) {
         growth = predict_growth(grammar.bytecode, shown);
-        kind = kind_of(growth);
+        note = accuracy_note(growth);
     } else {
         counted = count_words(command, shown, grammar, console, growth);
-        kind = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
+        note = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
                            grammar.bytecode.settings.seed,
                            grammar.bytecode.has_cuts() ? "cuts branches off with `%`"
                                                        : "has `#decompose`");
@@ -280,11 +280,11 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
         height = find_height(command, growth.high.back().modules, grammar, console);
     }
     if (height) {
-        kind += fmt::format("height of the plant: {:.4g} m\n", *height);
+        note += fmt::format("height of the plant: {:.4g} m\n", *height);
     }
     const std::string text = command.messages.format == MessageFormat::Json
                                  ? make_json(growth, known, height)
-                                 : make_table(growth, kind);
+                                 : make_table(growth, note);
     if (const Result<void> written = write_file("-", text, console); !written) {
         return report_error(written.error(), console);
     }

@@ -26,7 +26,7 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
+constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 
 /// What a run derives, by command line, grammar and saved state. Ages are generations.
 struct Plan {
@@ -34,7 +34,6 @@ struct Plan {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::string saved_bytes; // of the file of --from; empty: start at the axiom
-    std::uint64_t max_bytes = 0;
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -212,8 +211,8 @@ ExitStatus dump_stored(const DumpCommand& command,
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
         // Standard output cannot be undone, so a first run checks that the derivation succeeds.
-        Derivation rehearsal(bytecode, plan.derive);
-        const ExitStatus status = derive(rehearsal, command, plan, grammar, console, ignore);
+        Derivation trial(bytecode, plan.derive);
+        const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -297,24 +296,24 @@ ExitStatus dump_streamed(const DumpCommand& command,
         WordPrinter printer(bytecode);
         ModuleLines lines(bytecode);
         std::string text;
-        bool begun = false; // whether the word has a module
+        bool has_modules = false; // so far
         const auto print = [&](const StreamChunk& chunk) {
             if (command.origins) {
                 lines.append(chunk, text);
             } else {
-                text += begun || chunk.codes.empty() ? "" : printer.quote();
-                begun = begun || !chunk.codes.empty();
+                text += has_modules || chunk.codes.empty() ? "" : printer.quote();
+                has_modules = has_modules || !chunk.codes.empty();
                 printer.append(chunk.codes, chunk.parameters, text);
             }
-            if (text.size() < kPieceOfText) {
+            if (text.size() < kWriteBufferBytes) {
                 return !console.interrupted();
             }
-            const bool fine = writer.write(text);
+            const bool written = writer.write(text);
             text.clear();
-            return fine && !console.interrupted();
+            return written && !console.interrupted();
         };
         const ExitStatus status = stream(plan, grammar, console, print, outcome);
-        text += begun ? printer.quote() : "";
+        text += has_modules ? printer.quote() : "";
         text += command.origins ? "" : "\n";
         if (status == ExitStatus::Ok) {
             static_cast<void>(writer.write(text));

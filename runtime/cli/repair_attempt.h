@@ -71,13 +71,13 @@ private:
 
     void read_files();
     void read_syntax_errors();
-    void read_first_errors();
+    void read_original_errors();
     void apply(const ChosenFixes& chosen);
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
     [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
-    [[nodiscard]] std::optional<TextPlace> present_place(const StatementKey& key) const;
+    [[nodiscard]] std::optional<TextPlace> place_after_fixes(const StatementKey& key) const;
     [[nodiscard]] const SourceFile* find_source(const std::string& path) const;
 
     const RepairSubject& subject_;
@@ -86,7 +86,7 @@ private:
     FixedGrammar fixed_;
     std::map<std::string, EditedFile> files_;
     std::set<StatementKey> with_syntax_errors_; // of the last round
-    std::map<StatementKey, Errors> first_errors_;
+    std::map<StatementKey, Errors> original_errors_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
 };
 

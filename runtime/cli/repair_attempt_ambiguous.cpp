@@ -49,7 +49,7 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
 bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& fix) const {
     const EditedFile& file = files_.at(key.first);
     const TextPlace before = file.statements()[key.second];
-    const std::optional<TextPlace> now = present_place(key);
+    const std::optional<TextPlace> now = place_after_fixes(key);
     const SourceFile* const source = find_source(key.first);
     if (!now || source == nullptr || fix.path != key.first || fix.place < before.begin ||
         source->text().size() > kMaxComparedFile ||
@@ -89,16 +89,16 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
         }
         // A product in place of the comma is not plausible if it adds a module with a number of
         // parameters that occurs nowhere else.
-        const std::set<ModuleName> others_modules = modules_of(alternative_text.grammar);
+        const std::set<ModuleName> alternative_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
-               others_modules.size() <= modules.size() ||
-               !std::includes(others_modules.begin(), others_modules.end(), modules.begin(),
-                              modules.end());
+               alternative_modules.size() <= modules.size() ||
+               !std::includes(alternative_modules.begin(), alternative_modules.end(),
+                              modules.begin(), modules.end());
     });
 }
 
 /// The place of the statement after all fixes; nothing if the fixes split or removed it.
-std::optional<TextPlace> RepairAttempt::present_place(const StatementKey& key) const {
+std::optional<TextPlace> RepairAttempt::place_after_fixes(const StatementKey& key) const {
     const EditedFile& file = files_.at(key.first);
     std::optional<TextPlace> found;
     for (const SourceSpan& span : fixed_.compiled.statements) {

@@ -11,7 +11,7 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::uint32_t kRounds = 2000;
+constexpr std::uint32_t kMaxWeighRounds = 2000;
 
 /// `value` rounded up to two significant digits.
 double rounded_up(double value) {
@@ -51,7 +51,7 @@ WeightReport weigh(const Skeleton& plant, const Settings& settings, const Physic
     WeightReport report;
     report.gravity = static_cast<double>(options.gravity);
     report.stability = stability_of(plant, options);
-    report.height_left = bent_height(plant, options, kRounds);
+    report.height_left = bent_height(plant, options, kMaxWeighRounds);
     if (report.stands()) {
         return report;
     }

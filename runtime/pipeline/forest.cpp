@@ -245,12 +245,13 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
 }
 
 /// The index of the species of the previous forest that has the heroes of `species`, or nothing.
-std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownForest& known) {
-    if (known.scene == nullptr) {
+std::optional<std::size_t> find_reusable(const SceneSpecies& species,
+                                         const PreviousForest& previous) {
+    if (previous.scene == nullptr) {
         return std::nullopt;
     }
-    for (std::size_t i = 0; i < known.scene->species.size(); ++i) {
-        if (has_same_heroes(species, known.scene->species[i])) {
+    for (std::size_t i = 0; i < previous.scene->species.size(); ++i) {
+        if (has_same_heroes(species, previous.scene->species[i])) {
             return i;
         }
     }
@@ -299,7 +300,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
 }
 
 Outcome<GrownForest>
-grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known) {
+grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous) {
     Step step(project);
     const Scene& scene = loaded.scene;
     GrownForest grown;
@@ -339,13 +340,14 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
         made.years_of_stage = species.years_of_stage;
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
         Messages& messages = grown.messages.emplace_back();
-        const std::optional<std::size_t> at = grown.known.emplace_back(find_known(species, known));
-        if (at) {
-            messages = known.grown->messages[*at];
+        const std::optional<std::size_t> reused =
+            grown.reused_species.emplace_back(find_reusable(species, previous));
+        if (reused) {
+            messages = previous.grown->messages[*reused];
             step.messages.append(messages);
-            made.stages = known.grown->forest.species[*at].stages;
-            made.height = known.grown->forest.species[*at].height;
-            meshes = known.grown->user_meshes[*at];
+            made.stages = previous.grown->forest.species[*reused].stages;
+            made.height = previous.grown->forest.species[*reused].height;
+            meshes = previous.grown->user_meshes[*reused];
             for (const UserMesh& mesh : meshes) {
                 const bool is_new =
                     mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;

@@ -37,7 +37,7 @@ struct GrownForest {
     PlacementReport placed;
     /// Per species: index of the species of the previous forest whose heroes are reused; none: the
     /// heroes are new.
-    std::vector<std::optional<std::size_t>> known;
+    std::vector<std::optional<std::size_t>> reused_species;
     std::vector<Messages> messages; // by species
     double cache_seconds = 0.0;     // to derive and draw the heroes
     double place_seconds = 0.0;
@@ -45,7 +45,7 @@ struct GrownForest {
 
 /// A forest that was grown before. Species that ask for the same heroes reuse those of the previous
 /// forest, even if their files have changed since. Null: none.
-struct KnownForest {
+struct PreviousForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;
 };
@@ -62,7 +62,7 @@ struct KnownForest {
 /// Makes a forest without trees: the ground, the density map and the heroes of each species. A file
 /// that cannot be read is reported at its place in the scene.
 [[nodiscard]] Outcome<GrownForest>
-grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known);
+grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous);
 
 /// Gives placed trees their heights: drawn from `height` of the species, else `#set height` times
 /// the scale of the tree. Call it once per placement.

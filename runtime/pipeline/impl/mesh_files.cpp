@@ -27,7 +27,7 @@ std::string beside(const std::string& path, const std::string& name) {
 }
 
 /// A material file that could be read.
-struct Library {
+struct MaterialLibrary {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
@@ -46,7 +46,7 @@ public:
 
     void run(const Project& project) {
         for (const ObjName& name : mesh_.libraries) {
-            Library library{beside(path_, name.name), {}, {}};
+            MaterialLibrary library{beside(path_, name.name), {}, {}};
             Result<std::string> read =
                 project.host.read_named_file(library.path, {kMaxSourceBytes, left()});
             if (!read) {
@@ -133,14 +133,14 @@ private:
     /// The picture of a material; an empty path if it has none.
     struct FoundPicture {
         std::string path;
-        Library* library = nullptr;
+        MaterialLibrary* library = nullptr;
         const MaterialPicture* picture = nullptr;
     };
     FoundPicture find(const ObjName& material) {
         if (material.name.empty()) {
             return {};
         }
-        for (Library& library : libraries_) {
+        for (MaterialLibrary& library : libraries_) {
             const auto found = library.materials.find(material.name);
             if (found == library.materials.end()) {
                 continue;
@@ -161,14 +161,14 @@ private:
     void read(const FoundPicture& found, const Project& project) {
         const std::string& path = found.path;
         const auto add_note = [&](std::string message) {
-            Library& library = *found.library;
+            MaterialLibrary& library = *found.library;
             warn(library.path, library.text, library.file, found.picture->file, std::move(message));
         };
         std::shared_ptr<const Texture> picture = budget_.pictures[path];
         if (picture == nullptr) {
             Result<Texture> decoded = decode(path, project);
             if (!decoded) {
-                Library& library = *found.library;
+                MaterialLibrary& library = *found.library;
                 report(library.path, library.text, library.file, found.picture->file,
                        decoded.error());
                 return;
@@ -212,7 +212,7 @@ private:
     std::uint64_t held_; // bytes that the budget does not count: texts of files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
-    std::vector<Library> libraries_;
+    std::vector<MaterialLibrary> libraries_;
 };
 
 } // namespace
