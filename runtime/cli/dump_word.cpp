@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 
-/// What a run derives, by command line, grammar and saved state. Ages are generations.
+/// The derivation of a run, from command line, grammar and saved state. Ages are generations.
 struct Plan {
     DeriveOptions derive;
     std::uint32_t first_age = 0;
