@@ -13,14 +13,14 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The meaning of a statement.
-struct Reading {
-    std::string tree; // without its parentheses
+/// A statement that parses.
+struct ParsedStatement {
+    std::string tree; // dump of the syntax tree, without parentheses
     std::size_t redundant_groups = 0;
 };
 
 /// The statement `#set names` of a file; empty if there is none.
-std::string names_setting(std::string_view text) {
+std::string find_names_setting(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
     for (std::size_t at = text.find("#set"); at != std::string_view::npos;
          at = text.find("#set", at + 1)) {
@@ -51,7 +51,8 @@ std::size_t count_redundant_groups(const Ast& ast) {
     return count;
 }
 
-std::optional<Reading> read(const std::string& setting, std::string_view statement) {
+std::optional<ParsedStatement> parse_statement(const std::string& setting,
+                                               std::string_view statement) {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
@@ -63,14 +64,14 @@ std::optional<Reading> read(const std::string& setting, std::string_view stateme
     if (diagnostics.has_errors()) {
         return std::nullopt;
     }
-    return Reading{dump_ast(ast, names, sources), count_redundant_groups(ast)};
+    return ParsedStatement{dump_ast(ast, names, sources), count_redundant_groups(ast)};
 }
 
 bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether a text may parse: not with unbalanced or adjacent pairs of parentheses.
+/// Whether a text may parse: false for unbalanced parentheses and for `)(`. Saves a parse.
 bool may_parse(std::string_view text) {
     std::int64_t open = 0;
     char before = '\0';
@@ -93,7 +94,7 @@ bool has_balanced_modules(std::string_view text) {
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether a number follows the comma added at `place`: then no product can be meant.
+/// Whether a number follows the comma added at `place`, which rules out a missing `*`.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&
@@ -112,7 +113,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         }
     };
     for (std::size_t at = 0; at <= broken.size(); ++at) {
-        // A name and a function may have lost the `(` between them, `Fsin(x))`.
+        // A `(` may be missing inside a word: `Fsin(x))` for `F(sin(x))`.
         add(at, 0, "(");
         const bool is_in_word =
             at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
@@ -124,7 +125,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         if (at == broken.size()) {
             break;
         }
-        // A superfluous opening bracket is next to another one.
+        // An opening bracket is superfluous only after an equal one.
         const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
         if (broken[at] == ')' || broken[at] == '}' ||
             ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
@@ -153,11 +154,11 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     if (repair.broken.size() > kMaxComparedStatement) {
         return {};
     }
-    const std::string setting = names_setting(repair.file_text);
-    const std::optional<Reading> proposed = read(setting, repair.repaired);
+    const std::string setting = find_names_setting(repair.file_text);
+    const std::optional<ParsedStatement> proposed = parse_statement(setting, repair.repaired);
     std::vector<std::string> texts;
     if (repair.code == DiagnosticCode::MissingComma) {
-        // A product may be meant.
+        // The alternative to a missing comma is a missing `*`.
         if (!is_before_number(repair.broken, repair.place)) {
             texts.emplace_back(repair.broken);
             texts.back().insert(repair.place, " * ");
@@ -172,13 +173,13 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
         if (is_balanced && !has_balanced_modules(text)) {
             continue;
         }
-        std::optional<Reading> reading = read(setting, text);
-        if (reading && proposed &&
-            (reading->tree == proposed->tree ||
-             reading->redundant_groups > proposed->redundant_groups)) {
+        std::optional<ParsedStatement> parsed = parse_statement(setting, text);
+        if (parsed && proposed &&
+            (parsed->tree == proposed->tree ||
+             parsed->redundant_groups > proposed->redundant_groups)) {
             continue;
         }
-        if (reading && trees.insert(std::move(reading->tree)).second) {
+        if (parsed && trees.insert(std::move(parsed->tree)).second) {
             others.push_back(std::move(text));
         }
     }

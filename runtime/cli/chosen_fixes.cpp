@@ -9,7 +9,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The edited places of a file: begin to end.
+/// The end of each edited place of a file, by its begin.
 using TakenPlaces = std::map<std::uint32_t, std::uint32_t>;
 
 /// Whether an edit of `span` overlaps an edited place or touches an insertion.

@@ -27,7 +27,7 @@ ExitStatus check_text(const std::string& path,
         return report_error(compiled.error(), console);
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
-        // Editors apply machine-applicable fixes.
+        // Editors apply machine-applicable fixes without asking, so doubtful ones become offers.
         const Result<void> offered = offer_doubtful_fixes(
             path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
@@ -72,9 +72,9 @@ Result<void> write_fixed(const std::string& path,
             return written;
         }
     }
-    if (path == "-") { // last: it cannot be undone
-        const auto mended = fixed.changed.find(root);
-        if (Result<void> written = put("-", mended != fixed.changed.end() ? mended->second : bytes);
+    if (path == "-") { // standard output comes last: it cannot be undone
+        const auto found = fixed.changed.find(root);
+        if (Result<void> written = put("-", found != fixed.changed.end() ? found->second : bytes);
             !written) {
             return written;
         }
@@ -123,9 +123,9 @@ ExitStatus fix_file(const std::string& path,
         console.info(offers == 1 ? "1 repair is offered, and left to you"
                                  : fmt::format("{} repairs are offered, and left to you", offers));
     }
-    for (const std::string& left : fixed.out_of_scope) {
-        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`", left,
-                                 shown_path(path)));
+    for (const std::string& outside : fixed.out_of_scope) {
+        console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`",
+                                 outside, shown_path(path)));
     }
     return status;
 }

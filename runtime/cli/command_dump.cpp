@@ -24,18 +24,18 @@ namespace {
 
 /// A message about conflicting options; empty if there are none.
 std::string find_conflict(const DumpCommand& command) {
-    const bool saves = command.steps || !command.save_state.empty() || !command.from.empty();
-    const bool meshes = command.stage == DumpStage::Mesh;
-    const bool draws = meshes || command.stage == DumpStage::Skeleton;
-    if (!meshes && command.mesh != MeshOptions{}) {
+    const bool uses_states = command.steps || !command.save_state.empty() || !command.from.empty();
+    const bool makes_mesh = command.stage == DumpStage::Mesh;
+    const bool draws = makes_mesh || command.stage == DumpStage::Skeleton;
+    if (!makes_mesh && command.mesh != MeshOptions{}) {
         return "only --stage mesh makes a mesh, so --method, --sides, --level, --deviation, "
                "--subdivisions, --bark-noise and --droop do not go with another stage";
     }
-    if (meshes && command.origins) {
+    if (makes_mesh && command.origins) {
         return "a mesh names its segments, whose origins --stage skeleton prints: --origins does "
                "not go with --stage mesh";
     }
-    if (draws && (command.all || command.count || saves)) {
+    if (draws && (command.all || command.count || uses_states)) {
         return "a plant is drawn from the last word, so --all, --count, --steps, --save-state and "
                "--from do not go with --stage skeleton or mesh";
     }
@@ -53,12 +53,12 @@ std::string find_conflict(const DumpCommand& command) {
     }
     if (command.stage != DumpStage::Word) {
         const bool derives = command.all || command.count || command.stream || command.origins ||
-                             saves || command.seed;
+                             uses_states || command.seed;
         return derives ? "only --stage word derives, so --all, --count, --stream, --origins, "
                          "--seed, --steps, --save-state and --from do not go with another stage"
                        : "";
     }
-    if (command.stream && (saves || command.all)) {
+    if (command.stream && (uses_states || command.all)) {
         return "--stream keeps no word, so --all, --steps, --save-state and --from do not go with "
                "it";
     }
@@ -73,7 +73,7 @@ write_stage(const DumpCommand& command, const std::string& text, const Console& 
     return report_result(write_file(command.output, text, console), console);
 }
 
-/// Prints tokens or syntax tree, which exist for grammars with errors too.
+/// Prints the tokens or the syntax tree, also of a grammar with errors.
 ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
     GrammarText grammar;
@@ -88,8 +88,9 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
                                               shown_path(command.file), row_of(dialect).title)},
                             console);
     }
-    if (const Result<void> fine = check_system(command.file, dialect, command.grammar); !fine) {
-        return report_error(fine.error(), console);
+    if (const Result<void> allowed = check_system(command.file, dialect, command.grammar);
+        !allowed) {
+        return report_error(allowed.error(), console);
     }
     SourceMap sources;
     Names names;
@@ -105,7 +106,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
 }
 
 /// Reports that a compiled grammar has no program.
-ExitStatus lacks_program(const DumpCommand& command, const Console& console) {
+ExitStatus report_missing_program(const DumpCommand& command, const Console& console) {
     return report_error(
         Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
                           command.file)},
@@ -122,7 +123,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
     return list ? more_severe(shown, write_stage(command, *list, console)) : shown;
 }
 
-/// Writes `lines` lines; `append` adds one of them to a text.
+/// Writes `lines` lines; `append(line, text)` appends line number `line` to `text`.
 template <typename Append>
 ExitStatus write_lines(const DumpCommand& command,
                        const Console& console,
@@ -132,11 +133,11 @@ ExitStatus write_lines(const DumpCommand& command,
     if (!output) {
         return report_error(output.error(), console);
     }
-    constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
+    constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
     std::string text;
     for (std::uint64_t line = 0; line < lines; ++line) {
         append(line, text);
-        if (text.size() >= kPieceOfText || line + 1 == lines) {
+        if (text.size() >= kBufferBytes || line + 1 == lines) {
             if (console.interrupted()) {
                 return ExitStatus::Interrupted;
             }
@@ -199,12 +200,12 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
     switch (command.stage) {
     case DumpStage::Program:
         if (!grammar.program) {
-            return lacks_program(command, console);
+            return report_missing_program(command, console);
         }
         return write_stage(command, dump_program(*grammar.program, grammar.names), console);
     case DumpStage::Instanced:
         if (!grammar.program) {
-            return lacks_program(command, console);
+            return report_missing_program(command, console);
         }
         return dump_instanced(command, grammar, console);
     case DumpStage::Bytecode:

@@ -28,11 +28,11 @@ std::string list_all() {
     return text;
 }
 
-/// Columns of prose: those of a terminal as it opens.
+/// Max columns of prose: the default width of terminals.
 constexpr std::size_t kColumns = 80;
 
-/// The paragraphs of `text`, which blank lines separate, with lines of at most kColumns characters.
-/// A longer word has a line of its own.
+/// `text` in lines of at most kColumns characters; blank lines separate paragraphs. A longer word
+/// has a line of its own.
 std::string wrapped(std::string_view text) {
     std::string out;
     std::size_t column = 0; // of the current line

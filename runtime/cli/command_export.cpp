@@ -43,7 +43,7 @@ struct Export {
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                      // of the last file
-    std::set<std::string> pictures; // written so far; shared by all frames
+    std::set<std::string> pictures; // names of the written ones, shared by all frames
 };
 
 /// Adds the files beside `path`: pictures, and the materials of an OBJ; puts their names into
@@ -75,7 +75,7 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
-/// Whether the output is a regular file, which other files can accompany.
+/// Whether `path` is or will be a regular file, which other files can accompany.
 bool is_regular(const std::string& path) {
     std::error_code ignored;
     const auto kind = std::filesystem::status(path, ignored).type();
@@ -83,8 +83,8 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Meshes `skeleton` and writes it to `path`; as a skin with `animation`, of which it is the first
-/// pose.
+/// Meshes `skeleton` and writes the mesh to `path`; with `animation` as a skin, whose first pose is
+/// `skeleton`.
 ExitStatus write_plant(Export& run,
                        const Skeleton& skeleton,
                        const std::string& path,
@@ -147,8 +147,8 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     return write_plant(run, first, command.output, &animation);
 }
 
-/// Warns of a plant that falls under its weight without wind. Large plants are not weighed: each
-/// trial settles them.
+/// Warns of a plant that falls under its weight alone, without wind. Large plants are not checked,
+/// because weigh() settles the plant many times.
 ExitStatus check_weight(const Export& run, PhysicsOptions options) {
     constexpr std::size_t kMaxSegments = 20'000;
     const Skeleton& plant = run.plant.skeleton;
@@ -163,8 +163,8 @@ ExitStatus check_weight(const Export& run, PhysicsOptions options) {
 /// Writes the plant bent by weight and wind: at rest, or in frames of its motion.
 ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
-    constexpr double kRadians = 1e-6;
-    constexpr std::uint32_t kRounds = 10'000;
+    constexpr double kRestAngle = 1e-6; // radians
+    constexpr std::uint32_t kMaxSettleRounds = 10'000;
     constexpr float kStepsPerSecond = 60.0F;
     PhysicsOptions options;
     options.gravity = command.gravity.value_or(0.0F);
@@ -180,7 +180,7 @@ ExitStatus write_bent(Export& run) {
         return weight;
     }
     PlantPhysics physics(run.plant.skeleton, options);
-    if ((command.settle || command.frames == 0) && !physics.settle(kRadians, kRounds)) {
+    if ((command.settle || command.frames == 0) && !physics.settle(kRestAngle, kMaxSettleRounds)) {
         run.console.info("the plant has not quite come to rest");
     }
     Skeleton bent;
@@ -218,8 +218,8 @@ ExitStatus write_stats(const Export& run, const Plant& plant) {
     return report_result(run.console.write(text), run.console);
 }
 
-/// Writes the plant from its axiom to its last generation, a numbered file for each frame.
-/// `grown`: the last of them.
+/// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
+/// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     const ExportCommand& command = run.command;
     for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
@@ -334,7 +334,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
-    if (bends) { // the time of neither meshing nor writing
+    if (bends) { // the rest after meshing and writing
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }

@@ -25,11 +25,11 @@ namespace {
 
 constexpr std::uint32_t kGroundCells = 128; // per side
 
-enum class Kind : std::uint8_t { None, Instances, Mesh, Statistics };
+enum class OutputKind : std::uint8_t { None, Instances, Mesh, Statistics };
 
 /// The kind and format of the output, by its extension.
-struct Target {
-    Kind kind = Kind::None;
+struct OutputTarget {
+    OutputKind kind = OutputKind::None;
     ExportFormat format = ExportFormat::Glb;
 };
 
@@ -37,13 +37,13 @@ bool has_instances(const FormatTraits& format) {
     return format.write_forest != nullptr;
 }
 
-Result<Target> target_of(const ForestCommand& command) {
+Result<OutputTarget> target_of(const ForestCommand& command) {
     if (command.output.empty()) {
-        return Target{};
+        return OutputTarget{};
     }
     const std::filesystem::path path = command.output;
     if (path.extension() == ".json") {
-        return Target{Kind::Statistics};
+        return OutputTarget{OutputKind::Statistics};
     }
     const std::optional<ExportFormat> format = format_of_path(command.output);
     if (command.bake) {
@@ -52,18 +52,18 @@ Result<Target> target_of(const ForestCommand& command) {
                 fmt::format("`{}`: --bake writes {}", command.output,
                             format_names("or", [](const auto& each) { return each.uses_mesh; }))};
         }
-        return Target{Kind::Mesh, *format};
+        return OutputTarget{OutputKind::Mesh, *format};
     }
     if (!format || !has_instances(traits_of(*format))) {
         return Error{fmt::format("the name of `{}` does not tell a format with instances: {}, or "
                                  "json for statistics; --bake writes others",
                                  command.output, format_names("or", has_instances))};
     }
-    return Target{Kind::Instances, *format};
+    return OutputTarget{OutputKind::Instances, *format};
 }
 
 /// A message about conflicting options; empty if there are none.
-std::string find_conflict(const ForestCommand& command, const Target& target) {
+std::string find_conflict(const ForestCommand& command, const OutputTarget& target) {
     if (command.output.empty() && !command.stats && !command.check) {
         return "nothing is asked for; say where to write with -o, or --stats, or --check";
     }
@@ -71,7 +71,7 @@ std::string find_conflict(const ForestCommand& command, const Target& target) {
         return "--expand and --bake do not go together";
     }
     if (command.expand &&
-        (target.kind != Kind::Instances || !traits_of(target.format).expands_forest)) {
+        (target.kind != OutputKind::Instances || !traits_of(target.format).expands_forest)) {
         return "--expand is for " +
                format_names("and", [](const auto& each) { return each.expands_forest; });
     }
@@ -86,7 +86,7 @@ struct Run {
     const ForestCommand& command;
     const Console& console;
     const Project& project;
-    const Target& target;
+    const OutputTarget& target;
     const Scene& scene;
     GrownForest grown;
     std::vector<std::vector<InstanceMeshes>> meshes; // by species and stage
@@ -140,7 +140,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.cell = run.command.cell;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    OutputSet outputs(run.console); // pictures first, then the file with their names
+    OutputSet outputs(run.console); // pictures before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -208,13 +208,13 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
 ExitStatus write_forest(Run& run, const std::string& path) {
     const ForestScene scene{run.grown.forest, run.meshes, run.ground ? &*run.ground : nullptr};
     switch (run.target.kind) {
-    case Kind::None:
+    case OutputKind::None:
         return ExitStatus::Ok;
-    case Kind::Instances:
+    case OutputKind::Instances:
         return write_instances(run, scene, path);
-    case Kind::Mesh:
+    case OutputKind::Mesh:
         return write_baked(run, scene, path);
-    case Kind::Statistics:
+    case OutputKind::Statistics:
         break;
     }
     const std::string text = forest_stats_json(scene, {true, run.command.run.threads}) + "\n";
@@ -258,7 +258,7 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
                 "because there was none to take\n",
                 stage.generations, cache.instances.size(), cache.slots.size(),
                 cache.skeleton.segments.size(), hits, misses);
-            // The sum over all keys of an id and age.
+            // Sums over the keys with the same id and age.
             std::map<std::pair<std::uint32_t, std::uint32_t>, InstanceSlot> rows;
             for (const InstanceSlot& slot : cache.slots) {
                 InstanceSlot& row = rows[{slot.id, slot.age}];
@@ -292,7 +292,7 @@ ExitStatus print_stats(const Run& run) {
     return report_result(run.console.write(text), run.console);
 }
 
-/// Writes the forest in `frames` of its years, including the last.
+/// Writes the forest of `frames` evenly spaced years, including the last.
 ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
     options.threads = run.project.threads;
@@ -336,7 +336,7 @@ ExitStatus write_years(Run& run) {
 } // namespace
 
 ExitStatus run_command(const ForestCommand& command, const Console& console) {
-    const Result<Target> target = target_of(command);
+    const Result<OutputTarget> target = target_of(command);
     if (!target) {
         return report_error(target.error(), console);
     }
@@ -361,7 +361,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || command.check) {
         return status;
     }
-    if (target.value().kind != Kind::None || command.messages.format == MessageFormat::Json) {
+    if (target.value().kind != OutputKind::None || command.messages.format == MessageFormat::Json) {
         status = make_meshes(run);
         if (status != ExitStatus::Ok) {
             return status;

@@ -40,13 +40,13 @@ Result<std::string> with_options(const std::string& text, const GrammarOptions& 
                        {options.generations, options.definitions, options.settings}, load);
 }
 
-/// Whether a grammar can hold the number: its numbers are binary32.
+/// Whether binary32, the type of all numbers in a grammar, holds the number exactly.
 bool is_exact(std::uint32_t generations) {
     return static_cast<double>(static_cast<float>(generations)) == static_cast<double>(generations);
 }
 
-/// Translates one system and reports its diagnostics, as every command that compiles does. After Ok
-/// the text derives the same word as the file.
+/// Translates one system and reports its diagnostics, like every command that compiles. After Ok
+/// `imported.text` derives the same word as the original.
 ExitStatus import_text(const std::string& path,
                        GrammarText text,
                        const GrammarOptions& options,
@@ -108,13 +108,13 @@ struct FolderImport {
     const ImportCommand& command;
     const Console& console;
     fs::path folder;
-    std::set<std::string> names; // of the files of this run
+    std::set<std::string> names; // of the files written by this run
     ExitStatus status = ExitStatus::Ok;
     std::uint64_t imported = 0;
     std::uint64_t failed = 0;
 };
 
-/// `name` as a file name.
+/// `name` with `_` in place of blanks, control characters and slashes, and before a leading dot.
 std::string file_name(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -126,8 +126,8 @@ std::string file_name(std::string_view name) {
 }
 
 /// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has used the name:
-/// `a/b` and `a_b` are different systems.
-std::string new_path(const std::string& stem, FolderImport& import) {
+/// the systems `a/b` and `a_b` have the same stem.
+std::string unused_path(const std::string& stem, FolderImport& import) {
     std::string name = stem + ".lsys";
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
         name = fmt::format("{}-{}.lsys", stem, number);
@@ -135,9 +135,9 @@ std::string new_path(const std::string& stem, FolderImport& import) {
     return (import.folder / name).string();
 }
 
-/// Writes a file with a derived name; an existing one is replaced only with --force.
+/// Writes a file whose name the program chose; replaces an existing file only with --force.
 ExitStatus
-write_named(const std::string& path, const std::string& text, const FolderImport& import) {
+write_new_file(const std::string& path, const std::string& text, const FolderImport& import) {
     if (import.command.force) {
         return write_imported(path, text, import.console);
     }
@@ -166,40 +166,40 @@ Result<void> import_one(const std::string& path,
     const Console& console = import.console;
     const std::string_view title = row_of(text.dialect).title;
     Imported imported;
-    ExitStatus one =
+    ExitStatus status =
         import_text(path, std::move(text), options, import.command.run, console, imported);
-    std::string to;
-    if (one == ExitStatus::Ok) {
-        to = new_path(stem, import);
-        one = write_named(to, imported.text, import);
+    std::string output_path;
+    if (status == ExitStatus::Ok) {
+        output_path = unused_path(stem, import);
+        status = write_new_file(output_path, imported.text, import);
     }
-    (one == ExitStatus::Ok ? import.imported : import.failed) += 1;
-    import.status = more_severe(import.status, one);
+    (status == ExitStatus::Ok ? import.imported : import.failed) += 1;
+    import.status = more_severe(import.status, status);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
-    return console.write(one == ExitStatus::Ok
+    return console.write(status == ExitStatus::Ok
                              ? fmt::format("{}: {}, {}, written to {}\n", what, title,
-                                           counted(imported.warnings, "warning"), to)
+                                           counted(imported.warnings, "warning"), output_path)
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
-/// Imports all systems of a file to `prefix`NAME.lsys. Of several with one name, regardless of
-/// letter case, only the first.
+/// Imports the systems of a file to `prefix`NAME.lsys. Skips a system that has the name of an
+/// earlier one, regardless of letter case.
 Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,
                             FolderImport& import) {
-    std::set<std::string> known;
+    std::set<std::string> seen;
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
         if (import.console.interrupted()) {
             import.status = ExitStatus::Interrupted;
             return {};
         }
-        std::string low = system;
-        std::transform(low.begin(), low.end(), low.begin(), [](char c) {
+        std::string lower_case = system;
+        std::transform(lower_case.begin(), lower_case.end(), lower_case.begin(), [](char c) {
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
-        if (!known.insert(low).second) {
+        if (!seen.insert(lower_case).second) {
             ++import.failed;
             import.status = more_severe(import.status, ExitStatus::AuthorErrors);
             if (Result<void> written = import.console.write(fmt::format(

@@ -296,7 +296,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     return nullptr;
 }
 
-/// The mistake of a first argument that is not a command.
+/// The error of a missing command or of a first argument that is none; none if it is a command.
 std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
                                           const CLI::App& app) {
     if (arguments.empty()) {
@@ -325,7 +325,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.require_subcommand(1);
     app.footer("`lsc COMMAND --help` lists the options of a command.");
-    // Only the command that runs gets its options.
+    // Only the given command gets options, because `parsed` holds the options of one command.
     const std::string first = arguments.empty() ? std::string() : arguments.front();
     CommandLine parsed = UsageError{"no command is given", kListHint};
     const auto add = [&]<typename Command>(const char* name, const char* text,

@@ -23,7 +23,7 @@ using CommandLine = std::variant<PrintText,
                                  FormatCommand,
                                  ExplainCommand>;
 
-/// The command with its options, a text to print, or a mistake.
+/// The command with its options, a text to print, or a usage error.
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
 
 } // namespace lsys::lsc

@@ -37,7 +37,8 @@ std::string bounds_text(const Count& low, const Count& high) {
     return low_text == high_text ? low_text : low_text + " .. " + high_text;
 }
 
-/// The growth factor of the number of modules from one generation to the next; empty after 0.
+/// The growth factor of the number of modules from one generation to the next; empty if `before` is
+/// 0.
 std::string factor_text(const Count& before, const Count& now) {
     if (!before.exceeds && before.value == 0) {
         return {};
@@ -79,7 +80,7 @@ std::string lay_out(const std::vector<Row>& rows) {
     return text;
 }
 
-std::string make_table(const GrowthPrediction& growth, std::string_view kind) {
+std::string make_table(const GrowthPrediction& growth, std::string_view note) {
     Row head{"generation", "modules", "parameters", "segments", "bytes", "growth"};
     if (growth.has_expected) {
         head.insert(head.begin() + 2, "expected");
@@ -100,11 +101,11 @@ std::string make_table(const GrowthPrediction& growth, std::string_view kind) {
         rows.push_back(std::move(row));
     }
     std::string text = lay_out(rows);
-    text += kind;
+    text += note;
     return text;
 }
 
-std::string_view kind_of(const GrowthPrediction& growth) {
+std::string_view accuracy_note(const GrowthPrediction& growth) {
     return growth.exact ? "exact\n"
            : growth.has_expected
                ? "bounds and expected counts: the productions are chosen by chance\n"
@@ -153,7 +154,7 @@ ExitStatus count_words(const StatsCommand& command,
     return report_derivation(derivation.end(), options.limits, grammar, console);
 }
 
-/// A JSON number if it is exact, else a text.
+/// A JSON number if the count fits into 64 bits, else a JSON string.
 nlohmann::ordered_json json_count(const Count& count) {
     if (count.at_most(std::numeric_limits<std::uint64_t>::max())) {
         return count.value.low;
@@ -172,8 +173,8 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
     return object;
 }
 
-/// The height of the plant in m; none if it has too many modules to be drawn here, cannot be drawn
-/// or nothing of it can be seen. Folds the bytecode of the grammar.
+/// The height of the plant in m; none if the plant has too many modules, drawing fails or nothing
+/// is visible. Folds the bytecode of the grammar.
 std::optional<double> find_height(const StatsCommand& command,
                                   const Count& modules,
                                   Grammar& grammar,
@@ -217,7 +218,7 @@ make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> 
     return text;
 }
 
-/// Grows the plant and reports on it under its weight.
+/// Grows the plant and reports how it bears its weight.
 ExitStatus report_weight(const StatsCommand& command,
                          const Project& project,
                          Grammar& grammar,
@@ -260,13 +261,13 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     const bool known = is_growth_known(grammar.bytecode);
     GrowthPrediction growth;
     ExitStatus counted = ExitStatus::Ok;
-    std::string kind;
+    std::string note;
     if (known) {
         growth = predict_growth(grammar.bytecode, shown);
-        kind = kind_of(growth);
+        note = accuracy_note(growth);
     } else {
         counted = count_words(command, shown, grammar, console, growth);
-        kind = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
+        note = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
                            grammar.bytecode.settings.seed,
                            grammar.bytecode.has_cuts() ? "cuts branches off with `%`"
                                                        : "has `#decompose`");
@@ -279,11 +280,11 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
         height = find_height(command, growth.high.back().modules, grammar, console);
     }
     if (height) {
-        kind += fmt::format("height of the plant: {:.4g} m\n", *height);
+        note += fmt::format("height of the plant: {:.4g} m\n", *height);
     }
     const std::string text = command.messages.format == MessageFormat::Json
                                  ? make_json(growth, known, height)
-                                 : make_table(growth, kind);
+                                 : make_table(growth, note);
     if (const Result<void> written = write_file("-", text, console); !written) {
         return report_error(written.error(), console);
     }

@@ -26,15 +26,14 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::size_t kPieceOfText = std::size_t{1} << 18;
+constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 
-/// The derivation of a run, from command line, grammar and saved state.
+/// The derivation of a run, from command line, grammar and saved state. Ages are generations.
 struct Plan {
     DeriveOptions derive;
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
-    std::string saved_bytes; // of --from; empty: from the axiom
-    std::uint64_t max_bytes = 0;
+    std::string saved_bytes; // of the file of --from; empty: start at the axiom
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -103,7 +102,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     return plan;
 }
 
-/// Writes to an Output from callbacks that return whether to continue.
+/// An Output for callbacks that return whether to continue; keeps the first error.
 class Writer {
 public:
     explicit Writer(Output output) : output_(std::move(output)) {}
@@ -132,8 +131,8 @@ private:
 
 using OnGeneration = std::function<bool(const Derivation&)>;
 
-/// Runs the derivation of `plan` and calls `on_generation` with the words of all ages, or the last
-/// one; false ends the run.
+/// Runs the derivation of `plan` and calls `on_generation` after the last generation, with --all
+/// after each. `on_generation` returns false to end the run.
 ExitStatus derive(Derivation& derivation,
                   const DumpCommand& command,
                   const Plan& plan,
@@ -212,8 +211,8 @@ ExitStatus dump_stored(const DumpCommand& command,
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
         // Standard output cannot be undone, so a first run checks that the derivation succeeds.
-        Derivation rehearsal(bytecode, plan.derive);
-        const ExitStatus status = derive(rehearsal, command, plan, grammar, console, ignore);
+        Derivation trial(bytecode, plan.derive);
+        const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
             return status;
         }
@@ -280,7 +279,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
     StreamOutcome outcome;
     const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
     if (command.count || command.output == "-") {
-        // Checks the derivation before standard output is written, and counts.
+        // Check the derivation and count its modules before standard output is written.
         const ExitStatus status = stream(plan, grammar, console, ignore, outcome);
         if (status != ExitStatus::Ok) {
             return status;
@@ -297,24 +296,24 @@ ExitStatus dump_streamed(const DumpCommand& command,
         WordPrinter printer(bytecode);
         ModuleLines lines(bytecode);
         std::string text;
-        bool begun = false; // whether the word has a module
+        bool has_modules = false; // so far
         const auto print = [&](const StreamChunk& chunk) {
             if (command.origins) {
                 lines.append(chunk, text);
             } else {
-                text += begun || chunk.codes.empty() ? "" : printer.quote();
-                begun = begun || !chunk.codes.empty();
+                text += has_modules || chunk.codes.empty() ? "" : printer.quote();
+                has_modules = has_modules || !chunk.codes.empty();
                 printer.append(chunk.codes, chunk.parameters, text);
             }
-            if (text.size() < kPieceOfText) {
+            if (text.size() < kWriteBufferBytes) {
                 return !console.interrupted();
             }
-            const bool fine = writer.write(text);
+            const bool written = writer.write(text);
             text.clear();
-            return fine && !console.interrupted();
+            return written && !console.interrupted();
         };
         const ExitStatus status = stream(plan, grammar, console, print, outcome);
-        text += begun ? printer.quote() : "";
+        text += has_modules ? printer.quote() : "";
         text += command.origins ? "" : "\n";
         if (status == ExitStatus::Ok) {
             static_cast<void>(writer.write(text));
@@ -327,7 +326,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
 
 // --- counts without words
 
-/// Prints the counts if they are known without deriving. The start of a derivation still checks the
+/// Prints the counts if the growth matrix gives them. The derivation is only started, to check the
 /// random constants.
 std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
                                                  const Plan& plan,
@@ -379,7 +378,7 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
             return *counted;
         }
     }
-    if (from_axiom && command.save_state.empty()) { // a state file needs the codes of the grammar
+    if (from_axiom && command.save_state.empty()) { // a state file stores the codes before folding
         fold_modules(plan.derive, grammar.bytecode);
     }
     const bool shows = console.shows_progress();

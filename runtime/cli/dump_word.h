@@ -7,8 +7,8 @@
 
 namespace lsys::lsc {
 
-/// Derives and writes word, counts and state by the options of `command`; nothing if a limit or a
-/// run-time error ends the derivation.
+/// Derives, and writes the word, counts and state that `command` asks for. Writes nothing if
+/// a limit or a run-time error ends the derivation.
 [[nodiscard]] ExitStatus
 dump_word(const DumpCommand& command, Grammar& grammar, const Console& console);
 

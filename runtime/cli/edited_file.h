@@ -22,7 +22,7 @@ struct TextPlace {
 
 class EditedFile {
 public:
-    /// `statements`: places in any order.
+    /// `statements`: places in `text`, in any order.
     EditedFile(std::string_view text, std::vector<TextPlace> statements);
 
     /// Adds a round of edits of `text`, which ascend and do not overlap.
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::vector<std::size_t> original_statements_at(TextPlace place) const;
 
     [[nodiscard]] const std::string& original() const { return original_; }
-    /// Ascending.
+    /// Places of the statements in the original, ascending.
     [[nodiscard]] const std::vector<TextPlace>& statements() const { return statements_; }
 
 private:

@@ -14,7 +14,7 @@ namespace lsys::lsc {
 
 /// A grammar of an explanation.
 struct Example {
-    bool right = false;     // else wrong
+    bool right = false;     // a correct grammar; else a wrong one
     bool is_sketch = false; // not to be run
     std::string arguments;  // of `lsc`; `check` if empty
     /// Name and text of the grammar, `example.lsys`, and of the files beside it.
@@ -27,7 +27,8 @@ struct Explanation {
     std::vector<Example> examples;
 };
 
-/// The explanations of `markdown` in order; its head describes the form.
+/// The explanations of `markdown` in order. The head of grammar/explanations.md describes the
+/// format.
 [[nodiscard]] std::vector<Explanation> parse_explanations(std::string_view markdown);
 
 } // namespace lsys::lsc

@@ -12,13 +12,14 @@ namespace lsys::lsc {
 /// or below. Other included files stay unchanged. Symbolic links and `..` are resolved.
 class FixScope {
 public:
-    /// `named`: the files of the command line, including `path`; `-` is in the current folder.
+    /// `named`: the files of the command line, including `path`. Standard input (`-`) counts as
+    /// a file of the current folder.
     FixScope(const std::string& path, std::span<const std::string> named);
     /// Whether the existing file at `path` may be written.
     [[nodiscard]] bool contains(const std::string& path) const;
 
 private:
-    std::string root_; // as in messages
+    std::string root_; // path of the grammar as messages show it
     std::filesystem::path folder_;
     std::set<std::filesystem::path> named_;
 };

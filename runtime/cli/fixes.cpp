@@ -13,7 +13,7 @@ namespace {
 /// Maximum attempts, each with fewer fixes than the one before; the last one applies none.
 constexpr int kMaxAttempts = 20;
 
-/// Repeats the repair until all applied fixes are certain.
+/// Repeats the repair until all applied fixes are certain; calls `finish` with the last attempt.
 template <typename Finish>
 Result<void> repair(const RepairSubject& subject, const Finish& finish) {
     std::set<StatementKey> excluded;

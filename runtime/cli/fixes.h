@@ -2,14 +2,14 @@
 // none is left. Rules that keep the meaning intended by the author:
 //
 // 1. A fix is certain (Fix::machine_applicable) if its diagnostic has no other plausible repair.
-// 2. A statement with a syntax error without certain fix is not changed
+// 2. A statement is not changed if one of its syntax errors has no certain fix
 //    (ParseSession::offer_doubtful_fixes).
-// 3. Warnings are fixed after all errors, which may be their cause.
-// 4. The fixes of a statement are applied together: they are undone if it has a syntax error or a
-//    new error afterwards, or any error if a bracket or comma was repaired. Typographic characters
-//    are always replaced, independent of each other.
-// 5. A bracket or comma is repaired only if each alternative gives a statement that does not parse
-//    or reads the same, or a grammar with more warnings (alternative_repairs.h).
+// 3. Warnings are fixed after all errors, because errors may cause warnings.
+// 4. The fixes of a statement are applied and undone together. They are undone if the statement
+//    then has a syntax error or a new error; if a bracket or comma was repaired, for any error.
+//    Typographic characters are always replaced, independent of each other.
+// 5. A bracket or comma is repaired only if each alternative gives errors, the same meaning or more
+//    warnings (alternative_repairs.h).
 //
 // Other fixes become offers: shown as help, and not machine applicable in JSON.
 #pragma once
@@ -33,7 +33,7 @@ struct FixedGrammar {
     /// The first kMaxFixLines fixes, one per line: `tree.lsys:7:26: fixed: write A S(1) [code]`.
     std::vector<std::string> lines;
     std::uint64_t fix_count = 0;
-    /// Files outside the scope with certain fixes.
+    /// Files with certain fixes that are outside the scope.
     std::set<std::string> out_of_scope;
     /// The compiled repaired text with the remaining diagnostics, whose fixes are offers.
     CompiledText compiled;
@@ -49,7 +49,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
                                     const Project& project,
                                     FixedGrammar& fixed);
 
-/// Makes the fixes of `compiled`, the compiled `text`, that fix_text() does not apply offers.
+/// Turns the fixes of `compiled`, the compiled `text`, into offers unless fix_text() applies them.
 [[nodiscard]] Result<void> offer_doubtful_fixes(const std::string& path,
                                                 const GrammarText& text,
                                                 const GrammarOptions& options,

@@ -23,12 +23,12 @@ void ModuleLines::append(const StreamChunk& piece, std::string& text) {
 }
 
 bool ModuleLines::print(const Word& word, const std::function<bool(std::string_view)>& flush) {
-    constexpr std::uint64_t kPiece = 4096; // modules
+    constexpr std::uint64_t kModulesPerFlush = 4096;
     std::vector<Code> codes;
     std::string text;
     std::size_t parameter = 0;
-    for (std::uint64_t first = 0; first < word.module_count(); first += kPiece) {
-        const std::uint64_t count = std::min(kPiece, word.module_count() - first);
+    for (std::uint64_t first = 0; first < word.module_count(); first += kModulesPerFlush) {
+        const std::uint64_t count = std::min(kModulesPerFlush, word.module_count() - first);
         codes.clear();
         std::size_t stored = 0;
         for (std::uint64_t i = first; i < first + count; ++i) {

@@ -15,11 +15,11 @@ namespace lsys::lsc {
 
 class ModuleLines {
 public:
-    /// `bytecode` outlives it.
+    /// `bytecode` outlives the object.
     explicit ModuleLines(const Bytecode& bytecode)
         : bytecode_(bytecode), modules_(bytecode), origins_(bytecode) {}
 
-    /// Appends the lines of a piece with origins.
+    /// Appends one line per module of `piece`, which has origins.
     void append(const StreamChunk& piece, std::string& text);
     /// Passes the text of a word to `flush` in pieces; returns false as soon as `flush` does.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);

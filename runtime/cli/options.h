@@ -115,7 +115,7 @@ struct ImportCommand {
     std::string file;   // empty: all of `folder`
     std::string folder; // of --all
     std::string output; // a file, or a folder for --all
-    bool force = false; // replace existing files with derived names
+    bool force = false; // replace existing files whose names the program chose
 };
 
 struct FormatCommand {

@@ -14,7 +14,7 @@ namespace lsys::lsc {
 
 class OutputSet {
 public:
-    /// `console` outlives it.
+    /// `console` outlives the set.
     explicit OutputSet(const Console& console) : console_(console) {}
 
     /// Writes a file that appears at commit(), and prints the messages of `write`, which hands its

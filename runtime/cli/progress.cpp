@@ -57,19 +57,19 @@ Progress::time_left(std::uint32_t generation, std::uint64_t modules, double seco
 }
 
 void Progress::update(std::uint32_t generation, std::uint64_t modules, Clock::time_point now) {
-    before_ += generation != generation_ ? modules_ : 0;
+    earlier_modules_ += generation != generation_ ? modules_ : 0;
     generation_ = generation;
     modules_ = modules;
     if (terminal_ == nullptr || now - begin_ < kShowDelay ||
-        (drawn_ && now - last_ < kRedrawInterval)) {
+        (drawn_ && now - last_drawn_ < kRedrawInterval)) {
         return;
     }
-    last_ = now;
+    last_drawn_ = now;
     drawn_ = true;
-    const std::uint64_t of = std::max<std::uint64_t>(generations_, 1);
-    const auto filled = static_cast<std::size_t>(std::min(kWidth * generation / of, kWidth));
+    const std::uint64_t total = std::max<std::uint64_t>(generations_, 1);
+    const auto filled = static_cast<std::size_t>(std::min(kWidth * generation / total, kWidth));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
-    const double rate = static_cast<double>(before_ + modules) / seconds;
+    const double rate = static_cast<double>(earlier_modules_ + modules) / seconds;
     *terminal_ << kClearLine
                << fmt::format("[{}{}] generation {} of {}, {} modules, {}/s{}",
                               std::string(filled, '='),

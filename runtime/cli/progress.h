@@ -26,7 +26,7 @@ public:
              std::uint32_t generations,
              Clock::time_point begin,
              std::vector<double> expected)
-        : terminal_(terminal), generations_(generations), begin_(begin), last_(begin),
+        : terminal_(terminal), generations_(generations), begin_(begin), last_drawn_(begin),
           expected_(std::move(expected)) {}
     ~Progress() { clear(); }
     Progress(const Progress&) = delete;
@@ -41,21 +41,22 @@ private:
     std::ostream* terminal_;
     std::uint32_t generations_;
     Clock::time_point begin_;
-    Clock::time_point last_;
+    Clock::time_point last_drawn_;
     [[nodiscard]] std::string
     time_left(std::uint32_t generation, std::uint64_t modules, double seconds) const;
 
     std::vector<double> expected_;
-    std::uint32_t generation_ = 0; // of the last update
-    std::uint64_t modules_ = 0;    // of that update
-    std::uint64_t before_ = 0;     // modules of all generations before it
+    std::uint32_t generation_ = 0;      // of the last update
+    std::uint64_t modules_ = 0;         // of the last update
+    std::uint64_t earlier_modules_ = 0; // of all generations before
     bool drawn_ = false;
 };
 
 /// The progress bar of the pipeline's derivations.
 class PipelineProgress {
 public:
-    /// Makes `host` report progress to this bar if `console` shows progress. Outlives the work.
+    /// Makes `host` report progress to this bar if `console` shows progress. The bar outlives all
+    /// calls with `host`.
     PipelineProgress(const Console& console, Host& host);
     /// Removes the bar.
     void clear() { bar_.reset(); }

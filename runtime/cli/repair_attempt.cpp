@@ -10,7 +10,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum rounds. The text is compiled again after each, because mistakes may hide others.
+/// Maximum rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
@@ -22,7 +22,7 @@ std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceM
 }
 
 /// Whether the repair is independent of other errors of its statement.
-bool stands_alone(DiagnosticCode code) {
+bool is_independent(DiagnosticCode code) {
     return code == DiagnosticCode::LookAlike;
 }
 
@@ -62,7 +62,7 @@ Result<void> RepairAttempt::run() {
         read_files();
         read_syntax_errors();
         if (round == 0) {
-            read_first_errors();
+            read_original_errors();
         }
         compiled.diagnostics.sort_by_place();
         if (round == kMaxRounds || excludes_all_ || subject_.project.is_cancelled()) {
@@ -79,7 +79,7 @@ Result<void> RepairAttempt::run() {
     }
 }
 
-/// Adds the new files of this round.
+/// Adds the files that occur in this round for the first time.
 void RepairAttempt::read_files() {
     const SourceMap& sources = *fixed_.compiled.grammar.sources;
     std::map<std::string, std::vector<TextPlace>> statements;
@@ -112,11 +112,11 @@ void RepairAttempt::read_syntax_errors() {
     }
 }
 
-void RepairAttempt::read_first_errors() {
+void RepairAttempt::read_original_errors() {
     for (const Diagnostic& diagnostic : fixed_.compiled.diagnostics.all()) {
         if (diagnostic.severity == Severity::Error) {
             for (const StatementKey& key : statements_at(diagnostic.span)) {
-                first_errors_[key].emplace(diagnostic.code, diagnostic.message);
+                original_errors_[key].emplace(diagnostic.code, diagnostic.message);
             }
         }
     }
@@ -134,7 +134,7 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
             return false;
         }
     }
-    if (stands_alone(diagnostic.code)) {
+    if (is_independent(diagnostic.code)) {
         return true;
     }
     const std::vector<StatementKey> keys = statements_of(fix);
@@ -204,7 +204,7 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
         const auto applied = applied_.find(key);
         return applied != applied_.end() &&
                std::any_of(applied->second.begin(), applied->second.end(),
-                           [](const AppliedFix& fix) { return !stands_alone(fix.code); });
+                           [](const AppliedFix& fix) { return !is_independent(fix.code); });
     };
     std::set<StatementKey> keys;
     for (const StatementKey& key : with_syntax_errors_) {
@@ -217,8 +217,8 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
             continue;
         }
         for (const StatementKey& key : statements_at(diagnostic.span)) {
-            const auto before = first_errors_.find(key);
-            const bool is_new = before == first_errors_.end() ||
+            const auto before = original_errors_.find(key);
+            const bool is_new = before == original_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
             // The parser reads the original as if its brackets were repaired, so an error caused by
             // a bracket is in both texts.
@@ -233,7 +233,7 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
 void RepairAttempt::offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const {
     const bool are_errors_left = fixed_.compiled.diagnostics.has_errors();
     diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
-        if (stands_alone(diagnostic.code)) {
+        if (is_independent(diagnostic.code)) {
             return false;
         }
         if (excludes_all_ || (diagnostic.severity != Severity::Error && are_errors_left)) {

@@ -1,5 +1,5 @@
-// RepairAttempt: one attempt of `lsc check --fix`, and its doubtful statements. fixes.cpp repeats
-// it without these.
+// RepairAttempt: one attempt of `lsc check --fix`. Finds doubtful statements, whose repair is wrong
+// or ambiguous; fixes.cpp repeats the attempt without them.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -47,7 +47,7 @@ struct RepairSubject {
                                            const std::map<std::string, std::string>& changed,
                                            CompiledText& compiled);
 
-/// The repair of a grammar, except of excluded statements.
+/// The repair of a grammar without its excluded statements.
 class RepairAttempt {
 public:
     RepairAttempt(const RepairSubject& subject,
@@ -61,7 +61,8 @@ public:
     [[nodiscard]] std::set<StatementKey> wrong_statements() const;
     /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;
-    /// Makes the fixes of `diagnostics`, of the original text, that were not applied offers.
+    /// Turns the fixes of `diagnostics`, of the original text, into offers unless they were
+    /// applied.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }
 
@@ -70,13 +71,13 @@ private:
 
     void read_files();
     void read_syntax_errors();
-    void read_first_errors();
+    void read_original_errors();
     void apply(const ChosenFixes& chosen);
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
     [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
-    [[nodiscard]] std::optional<TextPlace> present_place(const StatementKey& key) const;
+    [[nodiscard]] std::optional<TextPlace> place_after_fixes(const StatementKey& key) const;
     [[nodiscard]] const SourceFile* find_source(const std::string& path) const;
 
     const RepairSubject& subject_;
@@ -85,7 +86,7 @@ private:
     FixedGrammar fixed_;
     std::map<std::string, EditedFile> files_;
     std::set<StatementKey> with_syntax_errors_; // of the last round
-    std::map<StatementKey, Errors> first_errors_;
+    std::map<StatementKey, Errors> original_errors_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
 };
 

@@ -9,8 +9,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum number of compared repairs and maximum size of their files, which are compiled for each
-/// alternative; other repairs are offers.
+/// Maximum number of compared repairs and maximum size of their files, because a comparison
+/// compiles the file for each alternative. Repairs beyond these limits are offers.
 constexpr std::size_t kMaxCompared = 100;
 constexpr std::size_t kMaxComparedFile = std::size_t{1} << 20;
 
@@ -37,7 +37,7 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         if (candidate == fixes.end() || subject_.project.is_cancelled()) {
             continue;
         }
-        // Combinations of several repairs are not compared.
+        // Several repairs count as ambiguous, because their combinations are not compared.
         if (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate)) {
             keys.insert(key);
         }
@@ -49,7 +49,7 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
 bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& fix) const {
     const EditedFile& file = files_.at(key.first);
     const TextPlace before = file.statements()[key.second];
-    const std::optional<TextPlace> now = present_place(key);
+    const std::optional<TextPlace> now = place_after_fixes(key);
     const SourceFile* const source = find_source(key.first);
     if (!now || source == nullptr || fix.path != key.first || fix.place < before.begin ||
         source->text().size() > kMaxComparedFile ||
@@ -87,17 +87,18 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
                 program) {
             return false;
         }
-        // Without the comma a module has a number of parameters that occurs nowhere else.
-        const std::set<ModuleName> others_modules = modules_of(alternative_text.grammar);
+        // A product in place of the comma is not plausible if it adds a module with a number of
+        // parameters that occurs nowhere else.
+        const std::set<ModuleName> alternative_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
-               others_modules.size() <= modules.size() ||
-               !std::includes(others_modules.begin(), others_modules.end(), modules.begin(),
-                              modules.end());
+               alternative_modules.size() <= modules.size() ||
+               !std::includes(alternative_modules.begin(), alternative_modules.end(),
+                              modules.begin(), modules.end());
     });
 }
 
-/// The place of the statement after all fixes; nothing if it became several or none.
-std::optional<TextPlace> RepairAttempt::present_place(const StatementKey& key) const {
+/// The place of the statement after all fixes; nothing if the fixes split or removed it.
+std::optional<TextPlace> RepairAttempt::place_after_fixes(const StatementKey& key) const {
     const EditedFile& file = files_.at(key.first);
     std::optional<TextPlace> found;
     for (const SourceSpan& span : fixed_.compiled.statements) {

@@ -11,9 +11,9 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::uint32_t kRounds = 2000;
+constexpr std::uint32_t kMaxWeighRounds = 2000;
 
-/// The next number of two digits that is not smaller.
+/// `value` rounded up to two significant digits.
 double rounded_up(double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     return std::ceil(value / unit - 1e-9) * unit;
@@ -51,7 +51,7 @@ WeightReport weigh(const Skeleton& plant, const Settings& settings, const Physic
     WeightReport report;
     report.gravity = static_cast<double>(options.gravity);
     report.stability = stability_of(plant, options);
-    report.height_left = bent_height(plant, options, kRounds);
+    report.height_left = bent_height(plant, options, kMaxWeighRounds);
     if (report.stands()) {
         return report;
     }

@@ -13,19 +13,20 @@
 
 namespace lsys::lsc {
 
-/// A plant under its weight, and the values with which it stands: none where it does, or where
-/// none was found. Rounded up to two digits.
+/// A plant under its weight. For a plant that falls, also the values with which it would stand,
+/// rounded up to two digits; unset if none was found.
 struct WeightReport {
     double gravity = 0.0; // m/s^2
     Stability stability;
-    double height_left = 1.0; // part of the height at rest
+    double height_left = 1.0; // of the bent plant, relative to the unbent one
     std::optional<double> width_factor;
-    std::optional<double> elasticity; // Pa, of springs that follow from it
-    std::optional<double> spring;     // N m/rad, of a plant with one spring for all joints
+    std::optional<double> elasticity; // Pa; if all springs are computed from it
+    std::optional<double> spring;     // N m/rad; if all joints have the same spring
     [[nodiscard]] bool stands() const { return height_left >= kStandingHeight; }
 };
 
-/// Settles the plant, and if it falls tries widths and springs; `options` has the gravity.
+/// Settles the plant under the gravity of `options`. If the plant falls, searches for widths and
+/// springs with which it stands.
 [[nodiscard]] WeightReport
 weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
 

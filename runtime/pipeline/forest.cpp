@@ -26,8 +26,8 @@ namespace {
 constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
-/// The path of a file that is named in a file of `folder`; without `..`, unless a link makes that
-/// another file.
+/// The whole path of `path`, which a file of `folder` names. Without `..`, unless a symbolic link
+/// makes the shorter path another file.
 std::string path_in(const std::string& folder, const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(folder) / path;
     const std::filesystem::path normal = whole.lexically_normal();
@@ -35,7 +35,7 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
 }
 
-/// Leaves out notes on equal plants where the scene asks for one plant.
+/// `diagnostics` without the notes on equal plants if the species has a single hero.
 Diagnostics notes_for(const SceneSpecies& species, Diagnostics diagnostics) {
     if (species.cache.heroes != 1) {
         return diagnostics;
@@ -64,7 +64,7 @@ Scene scene_of(const std::vector<std::string>& grammars) {
     return scene;
 }
 
-/// Ends the step with an error about a name, at its place in the scene if it has one.
+/// Ends the step with an error at `place` in the scene, or without a place if `place` has no file.
 Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loaded, Step& step) {
     if (place.file == kNoFile || step.project().is_cancelled()) {
         return step.fail(error);
@@ -139,21 +139,21 @@ Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file
     return std::make_shared<const Texture>(std::move(picture.value()));
 }
 
-/// Reads the pictures of the ground, or takes those of `known`.
+/// Reads the pictures of the ground, or reuses those of `previous`.
 Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
-                                             const KnownForest& known,
+                                             const PreviousForest& previous,
                                              const Project& project,
                                              FileBudget& budget) {
     Step step(project);
     const SceneTerrain& terrain = loaded.scene.terrain;
     GroundPictures ground{
         nullptr, nullptr, terrain.tile_x, terrain.tile_z, terrain.tile_width, terrain.tile_depth};
-    const bool is_known = known.scene != nullptr &&
-                          known.scene->terrain.colour.path == terrain.colour.path &&
-                          known.scene->terrain.normals.path == terrain.normals.path;
-    if (is_known) {
-        ground.colour = known.grown->ground.colour;
-        ground.normals = known.grown->ground.normals;
+    const bool is_reused = previous.scene != nullptr &&
+                           previous.scene->terrain.colour.path == terrain.colour.path &&
+                           previous.scene->terrain.normals.path == terrain.normals.path;
+    if (is_reused) {
+        ground.colour = previous.grown->ground.colour;
+        ground.normals = previous.grown->ground.normals;
     }
     struct Wanted {
         const SceneFile& file;
@@ -164,7 +164,7 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
         if (wanted.file.path.empty()) {
             continue;
         }
-        if (!is_known) {
+        if (!is_reused) {
             auto read = read_ground_picture(wanted.file, loaded.folder, step, budget);
             if (!read) {
                 return fail_at(
@@ -179,12 +179,12 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
     return step.done(std::move(ground));
 }
 
-/// The heroes of one species with one number of generations, and its meshes.
+/// The heroes of one species with one number of generations, and the mesh files of its grammar.
 struct GrownStage {
     ForestStage stage;
     std::vector<UserMesh> user_meshes;
     Settings settings;      // of the grammar
-    SourceSpan height_span; // of its `#set height`
+    SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
 };
 
@@ -247,7 +247,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
-        // No branch is shared, so every hero is whole and has all its tips.
+        // A pipe model excludes shared branches, so every hero is whole and has all its tips.
         if (const std::optional<Stop> stop =
                 apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
                            stage.cache.skeleton)) {
@@ -265,9 +265,9 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     return step.done(std::move(grown));
 }
 
-/// Scales the heroes of a species whose grammar has a height, so that tree 0 of the last stage has
-/// it at scale 1. Returns false if the plants are flat and a height is asked for, by the grammar or
-/// by `wants_height`.
+/// Scales the heroes of a species to the `#set height` of its grammar, if any: tree 0 of the last
+/// stage has this height at scale 1. Returns false if the plants are flat and a height is required,
+/// by the grammar or by `wants_height`.
 bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& species) {
     if (settings.height == 0.0F && !wants_height) {
         return true;
@@ -303,13 +303,14 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
                       b.definitions.end(), same_definition);
 }
 
-/// The index of the species of `known` that has the heroes of `species`, or nothing.
-std::optional<std::size_t> find_known(const SceneSpecies& species, const KnownForest& known) {
-    if (known.scene == nullptr) {
+/// The index of the species of the previous forest that has the heroes of `species`, or nothing.
+std::optional<std::size_t> find_reusable(const SceneSpecies& species,
+                                         const PreviousForest& previous) {
+    if (previous.scene == nullptr) {
         return std::nullopt;
     }
-    for (std::size_t i = 0; i < known.scene->species.size(); ++i) {
-        if (has_same_heroes(species, known.scene->species[i])) {
+    for (std::size_t i = 0; i < previous.scene->species.size(); ++i) {
+        if (has_same_heroes(species, previous.scene->species[i])) {
             return i;
         }
     }
@@ -358,7 +359,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
 }
 
 Outcome<GrownForest>
-grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known) {
+grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous) {
     Step step(project);
     const Scene& scene = loaded.scene;
     GrownForest grown;
@@ -379,12 +380,12 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
         }
         grown.density_map = std::move(map.value());
     }
-    if (!step.take(make_ground_pictures(loaded, known, project, budget), grown.ground)) {
+    if (!step.take(make_ground_pictures(loaded, previous, project, budget), grown.ground)) {
         return step.end();
     }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
-    std::set<const Texture*> known_pictures; // counted in the budget
+    std::set<const Texture*> known_pictures; // already counted in the budget
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {
@@ -401,13 +402,14 @@ grow_species(const LoadedScene& loaded, const Project& project, const KnownFores
         made.years_of_stage = species.years_of_stage;
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
         Messages& messages = grown.messages.emplace_back();
-        const std::optional<std::size_t> at = grown.known.emplace_back(find_known(species, known));
-        if (at) {
-            messages = known.grown->messages[*at];
+        const std::optional<std::size_t> reused =
+            grown.reused_species.emplace_back(find_reusable(species, previous));
+        if (reused) {
+            messages = previous.grown->messages[*reused];
             step.messages.append(messages);
-            made.stages = known.grown->forest.species[*at].stages;
-            made.height = known.grown->forest.species[*at].height;
-            meshes = known.grown->user_meshes[*at];
+            made.stages = previous.grown->forest.species[*reused].stages;
+            made.height = previous.grown->forest.species[*reused].height;
+            meshes = previous.grown->user_meshes[*reused];
             for (const UserMesh& mesh : meshes) {
                 const bool is_new =
                     mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;

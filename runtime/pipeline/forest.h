@@ -24,7 +24,7 @@ namespace lsys {
 
 struct LoadedScene {
     Scene scene;
-    std::shared_ptr<const SourceMap> sources; // of the places in `scene`
+    std::shared_ptr<const SourceMap> sources; // of the spans in `scene`
     std::string folder;                       // base of relative paths in the scene
 };
 
@@ -36,16 +36,17 @@ struct GrownForest {
     std::optional<GreyMap> density_map;
     GroundPictures ground; // of the surface
     PlacementReport placed;
-    /// Per species: its index in the known forest whose heroes are reused; none: heroes were grown.
-    std::vector<std::optional<std::size_t>> known;
+    /// Per species: index of the species of the previous forest whose heroes are reused; none: the
+    /// heroes are new.
+    std::vector<std::optional<std::size_t>> reused_species;
     std::vector<Messages> messages; // by species
     double cache_seconds = 0.0;     // to derive and draw the heroes
     double place_seconds = 0.0;
 };
 
-/// A forest that was grown before. Species that ask for the same heroes take them from it, and the
-/// ground its pictures, even if their files have changed since.
-struct KnownForest {
+/// A forest that was grown before. Species that ask for the same heroes reuse those of the previous
+/// forest, and the ground its pictures, even if their files have changed since. Null: none.
+struct PreviousForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;
 };
@@ -53,19 +54,19 @@ struct KnownForest {
 /// Whether the path names a scene: it ends in `.toml`.
 [[nodiscard]] bool is_scene(const std::string& path);
 
-/// Reads the scene file `files` names, or makes a scene of the grammars that it names, and applies
-/// `overrides`.
+/// Reads the scene file that `files` names, or makes a scene of the grammars that `files` names.
+/// Applies `overrides`.
 [[nodiscard]] Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
                                               const SceneOverrides& overrides,
                                               const Project& project);
 
-/// Makes everything but the trees. A file that cannot be read is reported at its place in the
-/// scene.
+/// Makes a forest without trees: the ground, the density map and the heroes of each species. A file
+/// that cannot be read is reported at its place in the scene.
 [[nodiscard]] Outcome<GrownForest>
-grow_species(const LoadedScene& loaded, const Project& project, const KnownForest& known);
+grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous);
 
-/// Gives placed trees their heights: those of `height` of a species, else of `#set height` times
-/// the scale of the tree. Only once for a placement.
+/// Gives placed trees their heights: drawn from `height` of the species, else `#set height` times
+/// the scale of the tree. Call it once per placement.
 [[nodiscard]] Outcome<void>
 size_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
@@ -73,13 +74,13 @@ size_forest(const Scene& scene, const Project& project, GrownForest& grown);
 [[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
-/// m, of the tallest tree, at its scale. Time is linear in the branches of all trees.
+/// Height of the tallest tree in m, at its scale. Time is linear in the branches of all trees.
 [[nodiscard]] double find_tallest(const GrownForest& grown, const Project& project);
 
-/// Ends a step by a stop of make_instance_meshes(), with its message.
+/// Ends `step` with `stop`, which make_instance_meshes() returned, and its message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
 
-/// Meshes all instances; by species and stage.
+/// Meshes all instances. The result is by species and stage.
 [[nodiscard]] Outcome<std::vector<std::vector<InstanceMeshes>>>
 mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project& project);
 

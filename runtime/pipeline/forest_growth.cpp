@@ -14,12 +14,12 @@ struct ForestGrowth::State {
     const Terrain& terrain;
     PlacementOptions options;
     Domination domination;
-    LargeVector<Tree> before; // of the year before that of `domination`; empty in year 0
-    LargeVector<Tree> after;  // of the year of `domination`
+    LargeVector<Tree> before; // of the year before domination.year(); empty in year 0
+    LargeVector<Tree> after;  // of domination.year()
 
-    State(const Scene& of, const Terrain& on, PlacementOptions with, Domination begun)
-        : scene(of), terrain(on), options(std::move(with)), domination(std::move(begun)),
-          after(domination.trees()) {}
+    State(const Scene& source, const Terrain& ground, PlacementOptions placement, Domination begun)
+        : scene(source), terrain(ground), options(std::move(placement)),
+          domination(std::move(begun)), after(domination.trees()) {}
 
     [[nodiscard]] Result<void> go_to(std::uint32_t year, const Project& project) {
         while (domination.year() < year) {

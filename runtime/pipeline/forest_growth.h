@@ -1,4 +1,4 @@
-// ForestGrowth: a forest placed by domination over its years, in steps as small as wanted.
+// ForestGrowth: a forest placed by domination, at any moment of its years.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -14,18 +14,19 @@ namespace lsys {
 class ForestGrowth {
 public:
     /// Starts with the seedlings of year 0. `scene` and `terrain` outlive the growth. Stop::Failed:
-    /// another placement, or errors of Domination::begin().
+    /// another placement method, or errors of Domination::begin().
     [[nodiscard]] static Outcome<ForestGrowth>
     begin(const Scene& scene, const Terrain& terrain, const Project& project);
     ~ForestGrowth();
     ForestGrowth(ForestGrowth&&) noexcept;
     ForestGrowth& operator=(ForestGrowth&&) noexcept;
 
-    /// Years of the scene.
+    /// The years that the scene asks for.
     [[nodiscard]] std::uint32_t last_year() const;
-    /// Advances to the moment, which is not after the last year, and writes its trees, painting
-    /// applied, to `trees`. At whole years they are those of place_forest() with that number of
-    /// years; between them those of trees_between(). An earlier moment than the last starts again.
+    /// Advances to `moment`, which is not after the last year, and writes the trees of `moment` to
+    /// `trees`, painting applied: at whole years those of place_forest() with that number of years,
+    /// between years those of trees_between(). Going back to an earlier year starts again at year
+    /// 0.
     [[nodiscard]] Outcome<void> trees(const GrowthMoment& moment,
                                       const TreeHeight& height_of,
                                       const Project& project,

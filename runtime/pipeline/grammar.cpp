@@ -186,7 +186,7 @@ Result<CompiledText> compile_text(const std::string& path,
                             : parse_lsys_with_names(root, names, context);
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
     if (foreign && compiled.diagnostics.has_errors()) {
-        return compiled; // there is no whole translation to check
+        return compiled; // an incomplete translation is not checked
     }
     CompileOptions compile_options;
     compile_options.definitions = options.definitions;
@@ -201,13 +201,13 @@ Result<CompiledText> compile_text(const std::string& path,
     compile_options.max_modules = max_modules;
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
-    // No file holds the options.
+    // Fixes of options are only offers, because no file holds the options.
     compiled.diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
         return diagnostic.span.file != kNoFile &&
                static_cast<std::uint32_t>(diagnostic.span.file) >= first_option;
     });
     if (foreign) {
-        compiled.diagnostics.drop_repairs("`#"); // they are .lsys text, invalid in the dialect
+        compiled.diagnostics.drop_repairs("`#"); // .lsys text, invalid in the dialect
     }
     grammar.program = std::move(outcome.program);
     if (grammar.program) {

@@ -22,13 +22,13 @@ namespace lsys {
 
 /// Options of reading and compiling a grammar.
 struct GrammarOptions {
-    std::string dialect; // its name; empty: detected by contents, else by extension
+    std::string dialect; // name; empty: detected by contents, else by extension
     bool bug_compatible = false;
     std::string system; // name in a file of several systems; empty: the only one
     std::vector<Definition> definitions;
     /// Definitions that are ignored if the grammar has no such constant.
     std::vector<Definition> optional_definitions;
-    /// In place of the `#set` statements of their keys, each key at most once.
+    /// Replace the `#set` statements of the same keys; each key at most once.
     std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // instead of #n
 
@@ -47,20 +47,20 @@ struct Grammar {
     Names names;
     std::optional<Program> program; // none for a .lsb file or after errors
     Bytecode bytecode;
-    SourceSpan height_span;      // of `height` in its #set; kNoFile: none, or a .lsb file
-    std::string translation;     // to .lsys, of a grammar in another dialect
-    bool is_module_file = false; // read from a .lsb: `sources` has GrammarOptions::settings alone
+    SourceSpan height_span;      // of `height` in `#set height`; kNoFile: none, or a .lsb file
+    std::string translation;     // .lsys text of a grammar in another dialect
+    bool is_module_file = false; // read from a .lsb file; `sources` has only settings of options
 };
 
 /// The result of compile_text(), also for a text with errors.
 struct CompiledText {
     Grammar grammar;
     Diagnostics diagnostics;
-    std::vector<SourceSpan> statements; // of all statements, also with errors
-    /// Number of diagnostics of the syntax; they come first before sorting.
+    std::vector<SourceSpan> statements; // of all statements, including wrong ones
+    /// Number of syntax diagnostics, which come first until the diagnostics are sorted.
     std::size_t syntax_diagnostic_count = 0;
     bool has_bytecode = false;             // there are no errors
-    std::optional<Error> definition_error; // -D names no constant
+    std::optional<Error> definition_error; // a -D that names no constant
 };
 
 /// `path` in messages; `-` is standard input.

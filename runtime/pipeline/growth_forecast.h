@@ -1,5 +1,5 @@
-// Predictions of the sizes of words before deriving: whether they pass a limit, and their numbers
-// of modules. Only if they are exact and quick to compute.
+// Predictions of word sizes before deriving: limits that words will pass, and numbers of modules.
+// Exact, except expect_modules(). Large programs have no predictions, which would be slow.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,18 +11,18 @@
 
 namespace lsys {
 
-/// The limit report of a derivation of `generations` generations from the axiom, if it is certain
-/// to pass the limit on modules.
+/// The limit report of a derivation of `generations` generations from the axiom; none unless the
+/// derivation is certain to pass the limit on modules.
 [[nodiscard]] std::optional<LimitReport>
 predict_limit(const Bytecode& bytecode, std::uint32_t generations, const Limits& limits);
 
-/// The numbers of modules of the words of all ages up to `generations`, if no word passes the limit
-/// and no derivation can end in an error: no parameters, no conditions, brackets in pairs, and
-/// numbers that do not depend on draws.
+/// The number of modules of each generation up to `generations`. None if a word passes the limit,
+/// if a number depends on random draws, or if a derivation could end in an error: the program has
+/// parameters, conditions or unpaired brackets.
 [[nodiscard]] std::optional<std::vector<std::uint64_t>>
 predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits& limits);
 
-/// The expected numbers of modules of all generations up to `generations`; empty where unknown.
+/// The expected number of modules of each generation up to `generations`; empty if unknown.
 [[nodiscard]] std::vector<double> expect_modules(const Bytecode& bytecode,
                                                  std::uint32_t generations);
 

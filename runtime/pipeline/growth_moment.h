@@ -5,15 +5,15 @@
 
 namespace lsys {
 
-/// A moment of a growth: `part` of the way from `generation`, or year, to the next; 0 or more and
-/// below 1.
+/// A moment of a growth: generation (or year) `generation`, and the fraction `part` of the way to
+/// the next one, 0 <= part < 1.
 struct GrowthMoment {
     std::uint32_t generation = 0;
     double part = 0.0;
 };
 
-/// The moment of frame `frame`, from 0 on, of `frames` that show 0 to `last` generations or years
-/// in equal steps. The last frame, and a single one, is the last generation exactly.
+/// The moment of frame `frame`, counted from 0, of `frames` frames that show generations (or years)
+/// 0 to `last` in equal steps. The last frame, or the only one, shows `last` exactly.
 [[nodiscard]] GrowthMoment
 moment_of_frame(std::uint32_t frame, std::uint32_t frames, std::uint32_t last);
 

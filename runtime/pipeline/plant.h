@@ -40,15 +40,15 @@ struct Plant {
 derive_options(const PlantOptions& options, const Bytecode& bytecode, const Project& project);
 
 /// Folds all modules that a derivation from the axiom can reach (fold_reached()): the bytecode then
-/// derives the same words faster, with codes of its own.
+/// derives the same words faster, with other module codes.
 void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
 
-/// Derives and draws. The grammar's bytecode is folded.
+/// Derives and draws. Folds the bytecode of the grammar.
 [[nodiscard]] Outcome<Plant>
 grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project);
 
-/// Meshes `skeleton`, that of the plant or a bent one, with the threads and the limit of memory of
-/// the project.
+/// Meshes `skeleton`, the skeleton of `plant` or a bent copy, with the threads and the memory limit
+/// of the project.
 [[nodiscard]] Outcome<Mesh> mesh_plant(const Plant& plant,
                                        const Skeleton& skeleton,
                                        const MeshOptions& options,

@@ -19,23 +19,23 @@
 namespace lsys {
 
 struct PlantGrowth::State {
-    State(Grammar& of, DeriveOptions with)
-        : grammar(of), derive(std::move(with)), derivation(of.bytecode, derive) {}
+    State(Grammar& source, DeriveOptions options)
+        : grammar(source), derive(std::move(options)), derivation(source.bytecode, derive) {}
 
     Grammar& grammar;
     DeriveOptions derive;
     TurtleOptions turtle;
     Plant plant;
     Derivation derivation;
-    Skeleton drawn;                       // of the derivation's word, unless `growth` has it
-    std::optional<SkeletonGrowth> growth; // up to the derivation's word
-    std::vector<Origin> ancestors;        // of the derivation's word
-    bool is_whole = false;                // drawings and word belong together; not after a stop
+    Skeleton drawn;                       // of the current word, unless `growth` holds it
+    std::optional<SkeletonGrowth> growth; // from the previous word to the current one
+    std::vector<Origin> ancestors;        // of the modules of the current word
+    bool is_consistent = false;           // the drawings match the word; false after a stop
     bool noted_lost_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 
-    /// Draws the word. Messages of a drawing belong to its last generation.
+    /// Draws the word. Only the drawing of the last generation reports warnings.
     [[nodiscard]] std::optional<Stop> draw(Step& step) {
         const Stopwatch drawing;
         DerivationEnd derived;
@@ -68,19 +68,19 @@ struct PlantGrowth::State {
     }
 
     [[nodiscard]] std::optional<Stop> start(Step& step) {
-        is_whole = false;
+        is_consistent = false;
         growth.reset();
         if (derivation.start()) {
             return report_drawing(derivation.end(), {}, grammar, step);
         }
         const std::optional<Stop> stop = draw(step);
-        is_whole = !stop;
+        is_consistent = !stop;
         return stop;
     }
 
     /// Derives and draws the next generation.
     [[nodiscard]] std::optional<Stop> advance(Step& step) {
-        is_whole = false;
+        is_consistent = false;
         Skeleton before = growth ? growth->take_after() : std::move(drawn);
         growth.reset();
         const Stopwatch deriving;
@@ -104,15 +104,16 @@ struct PlantGrowth::State {
             step.messages.add_info("polygons lose corners from one generation to the next; they "
                                    "do so at once");
         }
-        is_whole = true;
+        is_consistent = true;
         return std::nullopt;
     }
 
     [[nodiscard]] std::optional<Stop> go_to(const GrowthMoment& moment, Step& step) {
         const std::uint32_t wanted = moment.generation + (moment.part > 0.0 ? 1 : 0);
         LSYS_CHECK(wanted <= derive.generations, wanted, derive.generations);
-        // The drawings at hand are those of age() - 1 and age().
-        if (!is_whole || moment.generation + 1 < age() || (moment.generation < age() && !growth)) {
+        // The stored drawings are those of age() - 1 and age().
+        if (!is_consistent || moment.generation + 1 < age() ||
+            (moment.generation < age() && !growth)) {
             if (const std::optional<Stop> stop = start(step)) {
                 return stop;
             }

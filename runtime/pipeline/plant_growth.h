@@ -1,5 +1,5 @@
-// PlantGrowth: a plant over its generations, in steps as small as wanted. Derives once, forwards,
-// and keeps the drawings of two generations.
+// PlantGrowth: a plant at any moment of its generations. Derives once, forwards, and keeps the
+// drawings of two generations.
 #pragma once
 
 #include "runtime/pipeline/growth_moment.h"
@@ -14,9 +14,9 @@ namespace lsys {
 
 class PlantGrowth {
 public:
-    /// Starts with the axiom. `grammar`, whose bytecode is folded, outlives the growth. Options:
-    /// `generations` is the last one; `stream` and `origins` are ignored. Fails as grow_plant()
-    /// does.
+    /// Starts with the axiom. Folds the bytecode of `grammar`, which outlives the growth. Of
+    /// `options`, `generations` is the last generation; `stream` and `origins` are ignored. Fails
+    /// like grow_plant().
     [[nodiscard]] static Outcome<PlantGrowth>
     begin(const PlantOptions& options, Grammar& grammar, const Project& project);
     ~PlantGrowth();
@@ -24,13 +24,14 @@ public:
     PlantGrowth& operator=(PlantGrowth&&) noexcept;
 
     [[nodiscard]] std::uint32_t last_generation() const;
-    /// Derives up to the moment, which is not after the last generation, and writes the plant there
-    /// to `out`. Whole generations are exactly those of grow_plant(), if no production reads their
-    /// number. A moment before the one asked for last starts again at the axiom. Messages: those of
-    /// the drawing of the last generation; a note where polygons lose corners at once.
+    /// Derives up to `moment`, which is not after the last generation, and writes the plant of
+    /// `moment` to `out`. At whole generations the plant is exactly that of grow_plant(), if no
+    /// production reads the number of generations. Going back to an earlier generation starts again
+    /// at the axiom. Messages: those of drawing the last generation; a note if polygons lose
+    /// corners at once.
     [[nodiscard]] Outcome<void>
     pose(const GrowthMoment& moment, const Project& project, Skeleton& out);
-    /// The plant without its skeleton: meshes, seed, and what was derived last.
+    /// The plant without its skeleton: meshes, seed, times, and counts of the last derived word.
     [[nodiscard]] const Plant& plant() const;
 
 private:

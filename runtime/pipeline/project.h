@@ -1,5 +1,5 @@
-// Project: input of all steps of the pipeline: the host, which gives files and takes progress, and
-// the limits of a run.
+// Project: input that all steps of the pipeline share: the host, which reads files and shows
+// progress, and the limits of a run.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -25,7 +25,7 @@ struct DerivationProgress {
 /// Limits of reading a file.
 struct ReadLimit {
     std::uint64_t max_bytes = 0;              // for a file of its kind
-    std::uint64_t memory = ~std::uint64_t{0}; // left; more is an Error of ErrorKind::Limit
+    std::uint64_t memory = ~std::uint64_t{0}; // bytes left; more is an ErrorKind::Limit
 };
 
 /// Services of the program that calls the pipeline. The functions may be called from any thread,

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kDiskTrees = 0.7; // poisson-disk trees per square of side `spacing`
 
+/// Replaces `target` if the option is set.
 template <typename Target, typename Value>
-void take(const std::optional<Value>& option, Target& target) {
+void replace_if_set(const std::optional<Value>& option, Target& target) {
     if (option) {
         target = static_cast<Target>(*option);
     }
@@ -55,11 +56,11 @@ bool SceneOverrides::changes_placement() const {
 
 Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     for (SceneSpecies& species : scene.species) {
-        take(overrides.heroes, species.cache.heroes);
-        take(overrides.seed, species.cache.seed);
-        take(overrides.cache_cap, species.cache.cap);
-        take(overrides.tolerance, species.cache.tolerance);
-        take(overrides.rho, species.rho);
+        replace_if_set(overrides.heroes, species.cache.heroes);
+        replace_if_set(overrides.seed, species.cache.seed);
+        replace_if_set(overrides.cache_cap, species.cache.cap);
+        replace_if_set(overrides.tolerance, species.cache.tolerance);
+        replace_if_set(overrides.rho, species.rho);
         const GrammarOptions& grammar = overrides.grammar;
         species.dialect.text = grammar.dialect.empty() ? species.dialect.text : grammar.dialect;
         species.system.text = grammar.system.empty() ? species.system.text : grammar.system;
@@ -88,33 +89,33 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             continue;
         }
         const SpeciesOverrides& own = found->second;
-        take(own.heroes, species.cache.heroes);
-        take(own.rho, species.rho);
+        replace_if_set(own.heroes, species.cache.heroes);
+        replace_if_set(own.rho, species.rho);
         PlacementSpecies& placed = scene.placement.species[i];
-        take(own.share, placed.share);
-        take(own.min_scale, placed.min_scale);
-        take(own.max_scale, placed.max_scale);
+        replace_if_set(own.share, placed.share);
+        replace_if_set(own.min_scale, placed.min_scale);
+        replace_if_set(own.max_scale, placed.max_scale);
         placed.max_scale = std::max(placed.max_scale, placed.min_scale);
         if (placed.max_height > 0.0F) {
-            take(own.min_height, placed.min_height);
-            take(own.max_height, placed.max_height);
+            replace_if_set(own.min_height, placed.min_height);
+            replace_if_set(own.max_height, placed.max_height);
             placed.max_height = std::max(placed.max_height, placed.min_height);
         }
     }
-    take(overrides.terrain, scene.terrain.kind);
-    take(overrides.hill_height, scene.terrain.noise.height);
-    take(overrides.hill_spacing, scene.terrain.noise.feature);
-    take(overrides.hill_seed, scene.terrain.noise.seed);
+    replace_if_set(overrides.terrain, scene.terrain.kind);
+    replace_if_set(overrides.hill_height, scene.terrain.noise.height);
+    replace_if_set(overrides.hill_spacing, scene.terrain.noise.feature);
+    replace_if_set(overrides.hill_seed, scene.terrain.noise.seed);
     if (Result<void> done = apply_ground(overrides, scene.terrain); !done) {
         return done;
     }
     PlacementOptions& placement = scene.placement;
-    take(overrides.key, placement.key);
-    take(overrides.method, placement.method);
-    take(overrides.count, placement.count);
-    take(overrides.spacing, placement.spacing);
-    take(overrides.density, placement.density);
-    take(overrides.years, placement.years);
+    replace_if_set(overrides.key, placement.key);
+    replace_if_set(overrides.method, placement.method);
+    replace_if_set(overrides.count, placement.count);
+    replace_if_set(overrides.spacing, placement.spacing);
+    replace_if_set(overrides.density, placement.density);
+    replace_if_set(overrides.years, placement.years);
     if (!overrides.density_map.empty()) {
         scene.density_map.path = std::filesystem::absolute(overrides.density_map).string();
     }

@@ -38,7 +38,7 @@ struct SpeciesOverrides {
 };
 
 struct SceneOverrides {
-    GrammarOptions grammar; // for all species; generations: one stage of that age
+    GrammarOptions grammar; // for all species; `generations` replaces their stages by one
     std::optional<std::uint64_t> key;
     std::optional<std::uint64_t> seed; // of the heroes
     std::optional<std::uint32_t> heroes;
@@ -66,20 +66,20 @@ struct SceneOverrides {
 
     friend bool operator==(const SceneOverrides&, const SceneOverrides&) = default;
 
-    /// Trees may get other places, species or numbers than the scene's own.
+    /// Whether trees may get other places, species or numbers (Tree::number) than in the scene.
     [[nodiscard]] bool changes_placement() const;
 };
 
-/// Replaces values of `scene`. Overrides of several sources are applied one after the other, the
+/// Replaces values of `scene`. To combine several overrides, apply one after the other, the
 /// strongest last. Errors: a tile of a placement without tiles; normals or a tile of the ground
 /// without a picture of it.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
-/// Sets `method` and those of its values that the method of `scene` does not read, for about as
-/// many trees as `scene` has.
+/// Sets `method`, and the values that `method` reads but the method of `scene` does not, for about
+/// as many trees as in `scene`.
 void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene);
 
-/// Whether a placement reads PlacementOptions::count, spacing, density.
+/// Whether a placement method reads PlacementOptions::count, spacing, density.
 [[nodiscard]] bool reads_count(PlacementMethod method);
 [[nodiscard]] bool reads_spacing(PlacementMethod method);
 [[nodiscard]] bool reads_density(PlacementMethod method);

@@ -13,7 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Usual values of a setting. Lengths, and settings of other scales, have none.
+/// Usual values of a setting. Settings whose scale depends on the grammar, such as lengths, have
+/// none.
 struct UsualRange {
     std::string_view key;
     float min;

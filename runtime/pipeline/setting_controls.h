@@ -26,20 +26,21 @@ struct SettingControl {
     std::array<float, 4> numbers{};      // the value; only the first, except for Vector
     std::string_view word;               // the value of Word
     std::vector<std::string_view> words; // all values of Word
-    float lowest = 0.0F;                 // values of Number and Count below are errors
-    float highest = 0.0F;                // so are values above
-    /// Usual range for a slider, which may be narrower; `max` is not above `min`: none.
+    float lowest = 0.0F;                 // min value of Number and Count; less is an error
+    float highest = 0.0F;                // max value of Number and Count; more is an error
+    /// Range of a slider: usual values, may be narrower than the legal ones. None if `max` is not
+    /// above `min`.
     float min = 0.0F;
     float max = 0.0F;
 };
 
-/// The settings of a grammar that options may replace, except `seed`. Compiled grammars lack those
-/// that decided how they were compiled; other dialects lack `names`.
+/// The settings of a grammar that options may replace, except `seed`. A .lsb file lacks the
+/// settings that are compiled in (is_compiled_in()); other dialects lack `names`.
 [[nodiscard]] std::vector<SettingControl> setting_controls(const Grammar& grammar);
 
 /// Numbers as the values of a `#set`: `0.5 -1 0 0.2`. Reading the text gives the same numbers.
 [[nodiscard]] std::string setting_text(std::span<const float> numbers);
-/// As many numbers as `count` if `values` is nothing else, else none: it may name constants.
+/// The numbers of `values` if it is exactly `count` numbers; none if not, as with constants.
 [[nodiscard]] std::optional<std::array<float, 4>> numbers_of(std::string_view values,
                                                              std::size_t count);
 

@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// The place in `values` of a text that would end the statement or the line; npos: none.
+/// The first place in `values` that would end the statement or the line; npos: none.
 std::size_t find_end_of_statement(std::string_view values) {
     return std::min({values.find_first_of(";#\n\r"), values.find("//"), values.find("/*")});
 }

@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// An Error that names the file.
-Result<std::string> name_file(Result<std::string> bytes, const std::string& path) {
+/// `bytes`, or its Error with the name of the file.
+Result<std::string> with_file_name(Result<std::string> bytes, const std::string& path) {
     if (bytes) {
         return bytes;
     }
@@ -23,11 +23,11 @@ Result<std::string> name_file(Result<std::string> bytes, const std::string& path
 } // namespace
 
 Result<std::string> Step::read(const std::string& path, const ReadLimit& limit) const {
-    return name_file(project_.host.read_file(path, limit), path);
+    return with_file_name(project_.host.read_file(path, limit), path);
 }
 
 Result<std::string> Step::read_named(const std::string& path, const ReadLimit& limit) const {
-    return name_file(project_.host.read_named_file(path, limit), path);
+    return with_file_name(project_.host.read_named_file(path, limit), path);
 }
 
 bool Step::diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources) {

@@ -23,8 +23,8 @@ public:
     [[nodiscard]] Result<std::string> read_named(const std::string& path,
                                                  const ReadLimit& limit) const;
 
-    /// Adds diagnostics, warnings as errors where the project denies them; returns whether the
-    /// step may go on.
+    /// Adds diagnostics, warnings as errors if the project denies warnings. Returns whether there
+    /// are no errors, so that the step may go on.
     bool diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     bool diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources);
     /// Takes over messages and value of an inner step; returns whether there is a value.
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Ended end() { return end(stop_); }
     /// Ends with Stop::Limit if a diagnostic is about a limit, else with Stop::Diagnosed.
     [[nodiscard]] Ended end_diagnosed();
-    /// Ends with Stop::Limit or Stop::OutOfMemory, as `what` ("the mesh") does not fit into the
+    /// Ends with Stop::Limit or Stop::OutOfMemory, because `what` ("the mesh") exceeds the
     /// memory of the project or of the system.
     [[nodiscard]] Ended end_too_large(Stop stop, std::string_view what);
     /// Ends with a failure of the environment or a limit of memory, or with Stop::Cancelled if the

@@ -27,7 +27,7 @@ struct TextEdit {
     std::string text;
 };
 
-/// The line end used at `offset`, or at the first line end of a text whose last line has none.
+/// The first line end after `offset`; if there is none, the first line end of the text.
 std::string_view line_end_at(std::string_view text, std::size_t offset) {
     std::size_t newline = text.find('\n', offset);
     if (newline == std::string_view::npos) {
@@ -37,7 +37,7 @@ std::string_view line_end_at(std::string_view text, std::size_t offset) {
                                                                                          : "\n";
 }
 
-/// Whether the rest of a line after a statement holds nothing but a comment that ends with it.
+/// Whether the rest of a line after a statement is blank or comments that end on the same line.
 bool is_blank_or_comment(std::string_view rest) {
     rest.remove_prefix(std::min(rest.find_first_not_of(kSpaces), rest.size()));
     if (rest.empty() || rest.starts_with("//")) {
@@ -178,7 +178,7 @@ private:
                 words.contains(names_.text(ast_.params[statement.index].name)));
     }
 
-    /// Adds a line after the last `#set`, and after the definitions of `words` that it uses.
+    /// Adds a line after the last `#set` and after the definitions of `words`, which the line uses.
     void add_line(const std::string& line, const std::set<std::string, std::less<>>& words) {
         const Statement* before = nullptr;
         for (const Statement& statement : ast_.statements) {

@@ -1,5 +1,5 @@
-// Values written into the text of a .lsys grammar, all other bytes kept: those that a user set in a
-// window or on a command line.
+// Writes values that a user set, in a window or on a command line, into the text of a .lsys
+// grammar. All other bytes stay as they are.
 #pragma once
 
 #include "compiler/program/compile_options.h"
@@ -24,11 +24,12 @@ struct StatementValues {
     }
 };
 
-/// The `bytes` of the .lsys grammar `path` with `values` in the place of those of its statements.
-/// Settings without a statement get a line of their own after the last `#set`, else before the
-/// first statement; so do generations. Line ends and a byte order mark stay as they are. `load`
-/// reads included files, which never change. Errors: a syntax error; a constant that does not exist
-/// or is defined after its use; a statement that stands in an included file.
+/// The `bytes` of the .lsys grammar `path` with `values` in place of the values of its statements.
+/// A setting without a statement becomes a new line after the last `#set`, else before the first
+/// statement; generations without `#n` become a new line before the first statement. Line ends and
+/// a byte order mark stay as they are. `load` reads included files, which never change. Errors: a
+/// syntax error; a constant that does not exist or is defined after its use; a statement that
+/// stands in an included file.
 [[nodiscard]] Result<std::string> with_values(const std::string& path,
                                               const std::string& bytes,
                                               const StatementValues& values,

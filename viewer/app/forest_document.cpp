@@ -28,7 +28,8 @@ Outcome<void> make_model(const ViewOptions& options,
     const GrownForest& grown = document.grown;
     KnownModel known;
     if (before != nullptr) {
-        known = {&before->model, before->grown.forest.key, before->mesh_options, grown.known};
+        known = {&before->model, before->grown.forest.key, before->mesh_options,
+                 grown.reused_species};
     }
     document.mesh_options = mesh;
     if (mesh.method == MeshMethod::Boxes) {
@@ -65,7 +66,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     const auto document = std::make_shared<ForestDocument>();
     document->scene = loaded.scene;
     document->parse_seconds = parsing.seconds();
-    KnownForest before;
+    PreviousForest before;
     if (known != nullptr) {
         before = {&known->scene, &known->grown};
     }

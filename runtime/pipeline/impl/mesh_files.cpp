@@ -27,11 +27,11 @@ std::string beside(const std::string& path, const std::string& name) {
 }
 
 /// A material file that could be read.
-struct Library {
+struct MaterialLibrary {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
-    FileId file = kNoFile; // added for its first diagnostic
+    FileId file = kNoFile; // kNoFile until its first diagnostic
 };
 
 /// Reads a picture; `max_bytes`: of the file and its texels.
@@ -80,7 +80,7 @@ public:
 
     void run(const Project& project) {
         for (const ObjName& name : mesh_.libraries) {
-            Library library{beside(path_, name.name), {}, {}};
+            MaterialLibrary library{beside(path_, name.name), {}, {}};
             Result<std::string> read =
                 project.host.read_named_file(library.path, {kMaxSourceBytes, left()});
             if (!read) {
@@ -126,8 +126,8 @@ private:
         return budget_.left - std::min(budget_.left, held_);
     }
 
-    /// Reports at the place of `name` in `text`: a warning, or an error if it needs too much
-    /// memory.
+    /// Reports `error` at the place of `name` in `text`, as an error if a limit of memory is
+    /// reached, else as a warning.
     void report(const std::string& path,
                 const std::string& text,
                 FileId& file,
@@ -167,14 +167,14 @@ private:
     /// The picture of a material; an empty path if it has none.
     struct FoundPicture {
         std::string path;
-        Library* library = nullptr;
+        MaterialLibrary* library = nullptr;
         const MaterialPicture* picture = nullptr;
     };
     FoundPicture find(const ObjName& material) {
         if (material.name.empty()) {
             return {};
         }
-        for (Library& library : libraries_) {
+        for (MaterialLibrary& library : libraries_) {
             const auto found = library.materials.find(material.name);
             if (found == library.materials.end()) {
                 continue;
@@ -193,7 +193,7 @@ private:
     }
 
     void read(const FoundPicture& found, const Project& project) {
-        Library& library = *found.library;
+        MaterialLibrary& library = *found.library;
         const MaterialPicture& names = *found.picture;
         const ObjName& first = names.file.name.empty() ? names.relief : names.file;
         std::shared_ptr<const Texture> colour = load(library, names.file, project);
@@ -223,7 +223,7 @@ private:
         }
     }
 
-    std::shared_ptr<const Texture> add_opacity(Library& library,
+    std::shared_ptr<const Texture> add_opacity(MaterialLibrary& library,
                                                const MaterialPicture& names,
                                                const std::shared_ptr<const Texture>& colour,
                                                const Project& project) {
@@ -255,7 +255,7 @@ private:
 
     /// Null without a name, and after a warning.
     std::shared_ptr<const Texture>
-    load(Library& library, const ObjName& name, const Project& project) {
+    load(MaterialLibrary& library, const ObjName& name, const Project& project) {
         if (name.name.empty()) {
             return nullptr;
         }
@@ -281,10 +281,10 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes not in the budget: the text of the files, the mesh
+    std::uint64_t held_; // bytes that the budget does not count: texts of files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
-    std::vector<Library> libraries_;
+    std::vector<MaterialLibrary> libraries_;
 };
 
 } // namespace

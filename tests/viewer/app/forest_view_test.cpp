@@ -512,13 +512,13 @@ TEST_CASE("another scene is opened without options, heroes and painting of the f
     CHECK(species.definitions.empty());
     CHECK(species.cache.seed == 0);
     CHECK(forest.document()->grown.forest.species[0].stages[0].generations == 2);
-    CHECK_FALSE(forest.document()->grown.known[0]);
+    CHECK_FALSE(forest.document()->grown.reused_species[0]);
     CHECK_FALSE(forest.is_unsaved());
     CHECK_FALSE(forest.failed());
     // Heroes of a scene in another folder are not those of the scene before it.
     forest.open(first.scene);
     REQUIRE(viewed.until_trees(50));
-    CHECK_FALSE(forest.document()->grown.known[0]);
+    CHECK_FALSE(forest.document()->grown.reused_species[0]);
 }
 
 TEST_CASE("dropped files show plants and forests in turn") {
