@@ -29,8 +29,8 @@ struct CompileOutcome {
                                      const CompileOptions& options,
                                      Diagnostics& diagnostics);
 
-/// Applies the `#set` statements of `ast`, which has no constants, to the settings of compiled
-/// code. Error: a setting does not fit the code. Mistakes in the statements become diagnostics.
+/// Applies the `#set` statements of `ast` to the settings of compiled code. Mistakes in them become
+/// diagnostics. Error: a setting does not fit the code. Precondition: `ast` defines no constants.
 [[nodiscard]] Result<void> change_settings(
     Ast& ast, Names& names, const SourceMap& sources, Bytecode& bytecode, Diagnostics& diagnostics);
 

@@ -165,8 +165,9 @@ struct BytecodeProduction {
 /// A constant that is drawn when the derivation starts.
 struct BytecodeGlobal {
     std::string name;
-    std::uint32_t instruction = 0;   // computes the value: Emit, End
-    std::uint32_t draw_position = 0; // number of its first range among #define, #param, #w
+    std::uint32_t instruction = 0; // computes the value: Emit, End
+    /// Index of its first random range among the ranges of all #define, #param and #w.
+    std::uint32_t draw_position = 0;
     std::uint32_t draw_count = 0;
     bool has_bounds = false; // true for a #param
     float minimum = 0.0F;
@@ -194,7 +195,7 @@ struct Bytecode {
     std::uint32_t group_count = 0;
     WordTemplate axiom;
     std::uint32_t axiom_site = kNone;
-    std::uint32_t axiom_draw_position = 0; // number of the axiom's first range
+    std::uint32_t axiom_draw_position = 0; // index of the axiom's first range, as draw_position
     bool uses_steps = false;               // some expression calls steps()
 
     /// The productions of a stage.

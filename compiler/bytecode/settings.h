@@ -50,8 +50,8 @@ struct TurtleTraits {
     bool width_is_relative = false;     // the width is radius / length of a segment
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     float taper = 1.0F;                  // initial tip radius / base radius
-    float first_turn = 0.0F;             // degrees to the left of +Y, of the first heading
-    std::uint16_t first_colour = 0;      // index, where a word begins
+    float first_turn = 0.0F;             // initial heading, degrees to the left of +Y
+    std::uint16_t first_colour = 0;      // initial colour, an index of the palette
     float leaf_droop = 0.0F;             // bending of leaves by gravity, 0 to 1, without an option
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;

@@ -164,7 +164,7 @@ private:
         return true;
     }
 
-    /// Checks the rows by themselves; has_places() checks that each word begins a run.
+    /// Checks each row of template_places; has_places() checks that each word begins a run.
     bool places() {
         const std::vector<PlaceRun>& runs = bytecode_.template_places;
         for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -68,12 +68,12 @@ struct ProgramWord {
     SourceSpan span;
 };
 
-/// A PatternItem with its bytes in the file of the production.
+/// A PatternItem with the range of its text, arguments included, in the file of the production.
 struct ProgramPatternItem {
     PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
     std::uint32_t first_formal = 0;
-    std::uint32_t begin = 0; // with the arguments
+    std::uint32_t begin = 0;
     std::uint32_t end = 0;
 };
 
@@ -122,7 +122,8 @@ struct Constant {
     NameId name = kNoName;
     SourceSpan span;
     bool is_param = false;
-    bool is_random = false; // drawn when a derivation starts: globals[global]; else `value`
+    /// Its value is globals[global], drawn when a derivation starts; otherwise it is `value`.
+    bool is_random = false;
     bool is_used = false;
     float value = 0.0F;
     std::uint32_t global = kNone;

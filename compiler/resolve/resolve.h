@@ -26,7 +26,7 @@ struct ResolveOutcome {
                                      const CompileOptions& options,
                                      Diagnostics& diagnostics);
 
-/// Applies the `#set` statements of `ast`, which has no constants, to `settings`.
+/// Applies the `#set` statements of `ast` to `settings`. Precondition: `ast` defines no constants.
 void resolve_settings(
     Ast& ast, Names& names, const SourceMap& sources, Settings& settings, Diagnostics& diagnostics);
 

@@ -272,7 +272,7 @@ bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
     CallNode call;
-    if (!begin_call({}, call)) { // after a reported character
+    if (!begin_call({}, call)) { // no module takes the arguments: already reported
         return static_cast<std::uint32_t>(text.find(')', open)) + 1;
     }
     call.name_end = place_in_list(scanned_.span(name_end, name_end)).end;

@@ -252,7 +252,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
         derive.cancelled = options.cancelled;
         Derivation derivation(bytecode, derive);
         if (derivation.derive()) {
-            outcome.derived = derivation.end();
+            outcome.derivation_end = derivation.end();
             break;
         }
         if (k > 0) {
@@ -262,7 +262,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
         if (!turtle.feed(derivation.word()) && !turtle.finish()) {
             recorder.end_hero(turtle.drawn());
         }
-        outcome.drawn = turtle.end();
+        outcome.drawing_end = turtle.end();
     }
     if (outcome.ok()) {
         recorder.finish();
@@ -281,7 +281,7 @@ CacheOutcome make_instance_cache(const Bytecode& bytecode, const CacheOptions& o
     return catch_out_of_memory([&] { return record_heroes(bytecode, options); },
                                [] {
                                    CacheOutcome outcome;
-                                   outcome.drawn.stop = Stop::OutOfMemory;
+                                   outcome.drawing_end.stop = Stop::OutOfMemory;
                                    return outcome;
                                });
 }

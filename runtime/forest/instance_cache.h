@@ -98,17 +98,17 @@ struct CacheOptions {
     std::uint32_t threads = 0;
     Limits limits;                               // of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
-    std::vector<float> mesh_lengths;             // as TurtleOptions
+    std::vector<float> mesh_lengths;             // as in TurtleOptions
     const std::atomic<bool>* cancelled = nullptr;
 };
 
 struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
-    DerivationEnd derived;
-    DrawingEnd drawn;       // with the faults of all heroes
+    DerivationEnd derivation_end;
+    DrawingEnd drawing_end; // with the faults of all heroes
     std::uint32_t hero = 0; // the last one begun
 
-    [[nodiscard]] bool ok() const { return !derived.stop && !drawn.stop; }
+    [[nodiscard]] bool ok() const { return !derivation_end.stop && !drawing_end.stop; }
 };
 
 /// Derives and draws the heroes. `bytecode` is of an instanced system

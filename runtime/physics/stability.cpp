@@ -35,7 +35,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
         Symmetric sum = added[b];
         sum.xx -= arm.y * gravity;
         sum.zz -= arm.y * gravity;
-        const Symmetric beyond = sum; // without the joint's spring
+        const Symmetric without_spring = sum;
         sum.add_diagonal(body.spring);
         if (sum.trace() <= 0.0 || !is_positive(sum)) {
             if (sum.trace() == 0.0 && body.spring == 0.0 && body.mass == 0.0) {
@@ -46,7 +46,8 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
         if (body.parent != kNoSegment && !own_load) {
             // k - k P^-1 k = k P^-1 (P - k)
             const Rows inverted = rows_of(inverse(sum));
-            added[body.parent] += scaled(symmetric_product(inverted, rows_of(beyond)), body.spring);
+            added[body.parent] +=
+                scaled(symmetric_product(inverted, rows_of(without_spring)), body.spring);
         }
     }
     return true;

@@ -238,7 +238,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.cancelled = project.host.cancelled;
     CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache);
     if (const std::optional<Stop> stop =
-            report_drawing(outcome.derived, outcome.drawn, grammar, step)) {
+            report_drawing(outcome.derivation_end, outcome.drawing_end, grammar, step)) {
         return step.end(*stop);
     }
     stage.cache = std::move(outcome.cache);

@@ -31,7 +31,7 @@ enum class PlacementMethod : std::uint8_t {
     Jittered,     // one in each square of `spacing`
     UniformCells, // independent places of `density`
     PoissonCells, // no two closer than `spacing`, hardly room for one more
-    DensityCells, // a picture, by ranks of places
+    DensityCells, // a picture: a place has a tree if its rank is below the grey there
 };
 
 /// Whether adjacent regions of the method fit together, without gaps or duplicates.

@@ -88,22 +88,22 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
         return checked.error();
     }
     Terrain terrain(region);
-    double scale = 1.0 / options.feature;
-    double height = 1.0;
+    double frequency = 1.0 / options.feature;
+    double amplitude = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
         // each octave is shifted within the noise: otherwise their zeros would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
-        terrain.octaves_.push_back({scale, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
+        terrain.octaves_.push_back({frequency, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),
-                                    static_cast<float>(words[2] >> 24U), height});
-        sum += height;
-        terrain.slope_step_ = std::max(kMinSlopeStep, kSlopePart / scale);
-        scale *= options.lacunarity;
-        height *= options.gain;
+                                    static_cast<float>(words[2] >> 24U), amplitude});
+        sum += amplitude;
+        terrain.slope_step_ = std::max(kMinSlopeStep, kSlopePart / frequency);
+        frequency *= options.lacunarity;
+        amplitude *= options.gain;
     }
     for (Octave& octave : terrain.octaves_) {
-        octave.height *= 0.5 * options.height / sum; // noise is -1 to 1
+        octave.amplitude *= 0.5 * options.height / sum; // noise is -1 to 1
     }
     terrain.base_ = options.base + 0.5 * options.height;
     return terrain;
@@ -141,9 +141,9 @@ double Terrain::noise_height(double x, double z) const {
     double height = 0.0;
     for (const Octave& octave : octaves_) {
         const float noise =
-            stb_perlin_noise3(wrapped(x * octave.scale + octave.shift_x), octave.layer,
-                              wrapped(z * octave.scale + octave.shift_z), 0, 0, 0);
-        height += octave.height * std::clamp(static_cast<double>(noise), -1.0, 1.0);
+            stb_perlin_noise3(wrapped(x * octave.frequency + octave.shift_x), octave.layer,
+                              wrapped(z * octave.frequency + octave.shift_z), 0, 0, 0);
+        height += octave.amplitude * std::clamp(static_cast<double>(noise), -1.0, 1.0);
     }
     return height;
 }

@@ -69,11 +69,11 @@ public:
 
 private:
     struct Octave {
-        double scale = 0.0; // cells per metre
+        double frequency = 0.0; // noise cells per metre
         double shift_x = 0.0;
         double shift_z = 0.0;
-        float layer = 0.0F; // third coordinate in the noise
-        double height = 0.0;
+        float layer = 0.0F;     // third coordinate in the noise
+        double amplitude = 0.0; // m
     };
 
     explicit Terrain(const Region& region) : region_(region) {}

@@ -59,7 +59,7 @@ glm::dvec3 interpolated(const Ends<glm::vec3>& ends, double part) {
     return glm::dvec3(ends[0]) + part * (glm::dvec3(ends[1]) - glm::dvec3(ends[0]));
 }
 
-/// Precondition: use_shorter_turn().
+/// Precondition: use_shorter_turn(ends) was called.
 glm::dquat interpolated(const Ends<glm::quat>& ends, double part) {
     return glm::normalize(glm::dquat(ends[0]) * (1.0 - part) + glm::dquat(ends[1]) * part);
 }

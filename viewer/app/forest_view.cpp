@@ -247,7 +247,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
     if (is_coarse_) {
         frame.samples = 1;
-        frame.max_triangles = std::min(frame.max_triangles, coarse_triangles_);
+        frame.max_triangles = std::min(frame.max_triangles, max_coarse_triangles_);
     }
     if (!draw_frame(frame)) {
         return false;
@@ -262,9 +262,9 @@ void ForestView::picture_shown(double draw_seconds) {
     if (!is_coarse_) {
         is_slow_ = draw_seconds > kSlowPicture;
     } else if (draw_seconds > kSlowPicture) {
-        coarse_triangles_ = std::max(coarse_triangles_ / 2, kMinTriangles);
+        max_coarse_triangles_ = std::max(max_coarse_triangles_ / 2, kMinTriangles);
     } else if (draw_seconds < 0.25 * kSlowPicture) {
-        coarse_triangles_ = std::min(coarse_triangles_ * 2, settings.max_triangles);
+        max_coarse_triangles_ = std::min(max_coarse_triangles_ * 2, settings.max_triangles);
     }
     if (!std::exchange(logs_next_frame_, false)) {
         return;

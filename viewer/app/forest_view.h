@@ -105,8 +105,8 @@ public:
     void end_stroke();
     void undo();
     void redo();
-    /// Saves painted trees in the file of the scene shown and reports the result. Another scene
-    /// that was opened since and has errors stays as it is.
+    /// Saves painted trees in the file of the scene shown and reports the result. A scene with
+    /// errors that was opened since is not written.
     void save();
 
     /// Last forest without errors; null: none yet.
@@ -150,7 +150,7 @@ private:
     bool used_tool_ = false; // since the last picture
     bool is_slow_ = false;   // last picture at full quality
     bool is_coarse_ = false;
-    std::uint64_t coarse_triangles_ = 200'000;
+    std::uint64_t max_coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;
     ForestViewStats stats_;
 

@@ -13,12 +13,12 @@ constexpr std::uint32_t kSide = 64; // cells along X and Z
 } // namespace
 
 std::uint32_t AddedTrees::cell_of(const glm::vec3& place) const {
-    const auto part = [](double at, double size) {
+    const auto index_along = [](double at, double size) {
         return static_cast<std::uint32_t>(std::clamp(at / size, 0.0, 1.0 - 1e-9) *
                                           static_cast<double>(kSide));
     };
-    return part(static_cast<double>(place.z) - region_.z, region_.depth) * kSide +
-           part(static_cast<double>(place.x) - region_.x, region_.width);
+    return index_along(static_cast<double>(place.z) - region_.z, region_.depth) * kSide +
+           index_along(static_cast<double>(place.x) - region_.x, region_.width);
 }
 
 bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {

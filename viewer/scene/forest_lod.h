@@ -41,13 +41,13 @@ struct LodOptions {
 
 /// Max displacement of trees by wind; bounds swayed() of shaders/forest.glsl.
 struct Sway {
-    float of_height = 0.0F; // m per metre of the tree's height
-    float of_width = 0.0F;
-    float flutter = 0.0F; // m
+    float height_factor = 0.0F; // m per metre of the tree's height
+    float width_factor = 0.0F;  // m per metre of its width
+    float flutter = 0.0F;       // m
 
     /// m, of a tree in m.
     [[nodiscard]] float displacement(float height, float width) const {
-        return of_height * height + of_width * width + flutter;
+        return height_factor * height + width_factor * width + flutter;
     }
 };
 [[nodiscard]] Sway sway_in(const Wind& wind);

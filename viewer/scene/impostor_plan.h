@@ -1,5 +1,5 @@
-// ImpostorPlan: contents of the impostor atlas: some trees of each form, and for the horizon a
-// cluster, a cell full of trees, of each form. gl/ draws them.
+// ImpostorPlan: contents of the impostor atlas. Each form has some single trees and, for the
+// horizon, a cluster: a cell full of trees. gl/ draws them.
 #pragma once
 
 #include "viewer/scene/forest_lod.h"

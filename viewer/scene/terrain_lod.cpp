@@ -83,9 +83,11 @@ void TerrainLod::select(const Frustum& frustum) {
         }
     }
     const std::uint32_t top = levels_ - 1;
-    const double node = static_cast<double>(cell(top)) * kNodeCells;
+    const double node_size = static_cast<double>(cell(top)) * kNodeCells;
     const auto view_distance = static_cast<double>(range(top));
-    const auto index = [&](double at) { return static_cast<std::int64_t>(std::floor(at / node)); };
+    const auto index = [&](double at) {
+        return static_cast<std::int64_t>(std::floor(at / node_size));
+    };
     for (std::int64_t z = index(static_cast<double>(eye_.z) - view_distance);
          z <= index(static_cast<double>(eye_.z) + view_distance); ++z) {
         for (std::int64_t x = index(static_cast<double>(eye_.x) - view_distance);

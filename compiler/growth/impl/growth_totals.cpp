@@ -129,10 +129,10 @@ private:
 
 SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations) {
     const Bytecode& bytecode = classes.bytecode();
-    const bool sequences =
+    const bool has_sequence_rules =
         std::any_of(bytecode.productions.begin(), bytecode.productions.end(),
                     [](const BytecodeProduction& p) { return p.predecessor.count != 1; });
-    if (classes.depends_on_age() || sequences ||
+    if (classes.depends_on_age() || has_sequence_rules ||
         bytecode.settings.rewriting == RewritingMode::Cyclic) {
         return {};
     }

@@ -46,7 +46,7 @@ struct Known : UnknownDomain<KnownValue> {
         return logical && decides ? known(arithmetic::truth(opcode == Opcode::Or)) : KnownValue{};
     }
     bool take(KnownValue /*x*/, const std::uint32_t* /*at*/) const {
-        --work; // Emit and Test compute nothing
+        --work; // enter() has counted an Emit or Test, which compute nothing
         return false;
     }
 };

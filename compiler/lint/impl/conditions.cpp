@@ -60,14 +60,14 @@ public:
                 }
                 const std::size_t here = count(point);
                 // One production on both sides leaves out the value on purpose: `x != 2`.
-                if (here == 0 && !gap_ && count(below) != 0 && count(above) != 0 &&
+                if (here == 0 && !gap_reported_ && count(below) != 0 && count(above) != 0 &&
                     first(below) != first(above)) {
-                    gap_ = true;
+                    gap_reported_ = true;
                     report_gap(point, axis, first(below), first(above), diagnostics);
                 }
-                if (here == 2 && !overlap_ && count(below) == 1 && count(above) == 1 &&
+                if (here == 2 && !overlap_reported_ && count(below) == 1 && count(above) == 1 &&
                     first(below) != first(above)) {
-                    overlap_ = true;
+                    overlap_reported_ = true;
                     report_overlap(point, axis, diagnostics);
                 }
             }
@@ -224,8 +224,8 @@ private:
     const CheckInput& input_;
     SymbolId symbol_;
     const RuleTable& table_;
-    bool gap_ = false; // reported
-    bool overlap_ = false;
+    bool gap_reported_ = false;
+    bool overlap_reported_ = false;
 };
 
 } // namespace

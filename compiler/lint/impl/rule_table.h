@@ -34,7 +34,7 @@ struct RuleTable {
                                                        std::vector<std::uint32_t> productions);
 
 /// The module at a point as an author would write it: `A(2, y)`. Parameters that no condition reads
-/// have their names in `production`.
+/// are written as their names in `production`.
 [[nodiscard]] std::string module_at(const CheckInput& input,
                                     const Production& production,
                                     SymbolId symbol,

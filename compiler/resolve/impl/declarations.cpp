@@ -24,21 +24,22 @@ bool is_picture(std::string_view file) {
 
 } // namespace
 
-void DeclarationResolver::bad(SourceSpan span, std::string message) {
+void DeclarationResolver::report_bad_declaration(SourceSpan span, std::string message) {
     resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
 }
 
 /// Checks that a statement names one module; with `names letters` it may name several.
 bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
     if (list.count == 0) {
-        bad(statement, fmt::format("`{}` names no module", keyword));
+        report_bad_declaration(statement, fmt::format("`{}` names no module", keyword));
         return false;
     }
     const auto& letters = resolution_.letter_files;
     const bool is_letters =
         std::find(letters.begin(), letters.end(), list.span.file) != letters.end();
     if (list.count > 1 && !is_letters) {
-        bad(list.span, fmt::format("`{}` takes one module, not {}", keyword, list.count));
+        report_bad_declaration(list.span,
+                               fmt::format("`{}` takes one module, not {}", keyword, list.count));
         return false;
     }
     return true;
@@ -52,10 +53,10 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
-    // Formals carry no information, numbers do.
-    const bool has_formals =
+    // Formals can be dropped without loss; numbers may have a meaning.
+    const bool has_only_formals =
         resolution_.sources.text(parentheses).find_first_of("0123456789") == std::string_view::npos;
-    error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_formals});
+    error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_only_formals});
     return false;
 }
 
@@ -78,7 +79,8 @@ void DeclarationResolver::object(const ObjectNode& node) {
                 bind(module, std::move(picture));
                 continue;
             }
-            bad(module.name_span, fmt::format("`{}` cannot draw an object", name));
+            report_bad_declaration(module.name_span,
+                                   fmt::format("`{}` cannot draw an object", name));
         } else if (binding) {
             bind(module, *binding);
         }
@@ -170,9 +172,10 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
     const SymbolKind kind =
         kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
     if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
-        bad(module.name_span, considers
-                                  ? "brackets count in any case: contexts follow the branches"
-                                  : "brackets cannot be ignored: contexts follow the branches");
+        report_bad_declaration(module.name_span,
+                               considers
+                                   ? "brackets count in any case: contexts follow the branches"
+                                   : "brackets cannot be ignored: contexts follow the branches");
         return;
     }
     const auto add = [&](NameId name, SourceSpan span) {

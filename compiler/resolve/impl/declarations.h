@@ -27,7 +27,7 @@ private:
                        NameSplitter& splitter,
                        SplitReport& splits);
     [[nodiscard]] bool check_bare(const ModuleView& module, const char* statement);
-    void bad(SourceSpan span, std::string message);
+    void report_bad_declaration(SourceSpan span, std::string message);
     [[nodiscard]] bool is_one_name(ModuleList list, SourceSpan statement, const char* keyword);
 
     Resolution& resolution_;

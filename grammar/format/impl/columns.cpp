@@ -50,7 +50,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
         }
         // Columns must not break a line.
         const bool too_long = row.first_line <= kColumns && row.first_line + added > kColumns;
-        if (too_long || row.head + added + row.first_module > kColumns) {
+        if (too_long || row.head + added + row.first_module_width > kColumns) {
             row.cells.fill(0);
         }
     }
@@ -98,13 +98,13 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
                                 piece.break_class == BreakClass::Fine && end_column <= kColumns);
         const std::uint32_t width = piece.width + (piece.blank_before ? 1U : 0U);
         end_column += width;
-        row.first_module += in_first_module ? width : 0;
+        row.first_module_width += in_first_module ? width : 0;
         row.head = in_head ? end_column : row.head;
         row.first_line = in_first_line ? end_column : row.first_line;
         row.several_lines = row.several_lines || piece.several_lines;
     }
     row.several_lines = reader.skip_rest() || row.several_lines;
-    const bool too_long = row.head + row.first_module > kColumns ||
+    const bool too_long = row.head + row.first_module_width > kColumns ||
                           (row.first_line > kColumns && (row.head > kLongHead || !has_outer_place));
     row.list_below = row.list_below || (has_modules && too_long);
     row.end = static_cast<std::uint32_t>(reader.offset());

@@ -24,7 +24,7 @@ struct LayoutRow {
     std::uint32_t column = 0;       // first column
     std::uint32_t head = 0;         // end column of the part before the modules, or of all
     std::uint32_t first_line = 0;   // end column of the author's first line
-    std::uint32_t first_module = 0; // columns that must follow the head on its line
+    std::uint32_t first_module_width = 0; // columns of the first module, on the line of the head
     std::array<std::uint32_t, kCells - 1> cells{}; // widths, then blanks to add
     std::uint8_t cell_count = 1;
     StatementShape shape = StatementShape::Other;

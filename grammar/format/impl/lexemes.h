@@ -35,8 +35,8 @@ struct Lexeme {
     std::string_view text;
     std::uint32_t newlines_before = 0;
     bool blank_before = false;
-    bool opens_call = false;   // Left: of a function call
-    bool opens_bounds = false; // Left: the `{` after the value of a `#param`
+    bool opens_call = false;   // for Left: the `(` of a function call
+    bool opens_bounds = false; // for Left: the `{` after the value of a `#param`
 };
 
 /// The form of a statement for its layout.

@@ -21,7 +21,7 @@ struct ForestKind {
     std::uint64_t trees = 0;
 };
 
-/// Instances with one number in one cell.
+/// All copies of one instance in one cell.
 struct ForestGroup {
     std::uint32_t instance = 0; // number among all kinds
     std::uint64_t first = 0;    // instances in all groups before

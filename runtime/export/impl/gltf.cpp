@@ -75,13 +75,15 @@ private:
     /// part has a material of its own.
     void put_primitives() {
         json_.array("meshes").object().member("name", "plant").array("primitives");
-        const std::size_t attributes = data_.first_view(GltfArray::Indices);
+        const std::size_t attribute_count = data_.first_view(GltfArray::Indices);
         std::size_t written = 0;
         for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
             if (mesh_.parts[i].index_count >= 3) {
                 json_.object();
                 put_attributes(json_, data_, 0, data_.coloured[i]);
-                json_.member("indices", attributes + written).member("material", written).end();
+                json_.member("indices", attribute_count + written)
+                    .member("material", written)
+                    .end();
                 ++written;
             }
         }

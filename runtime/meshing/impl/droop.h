@@ -22,8 +22,8 @@ public:
 
 private:
     std::vector<float> rows_;           // distances from the base, rising from 0
-    std::vector<float> turn_parts_;     // of the whole turn, there
-    std::vector<std::uint32_t> row_of_; // of each vertex
+    std::vector<float> turn_parts_;     // part of the whole turn reached at each row
+    std::vector<std::uint32_t> row_of_; // row of each vertex
 };
 
 } // namespace lsys

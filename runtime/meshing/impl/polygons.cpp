@@ -104,7 +104,7 @@ void project(std::span<const glm::vec3> corners,
 struct Piece {
     std::uint64_t first_item = 0;
     std::uint64_t item_count = 0;
-    std::vector<std::uint32_t> triangles;    // by corners of the polygon
+    std::vector<std::uint32_t> triangles;    // three corners of their polygon per triangle
     std::vector<std::uint32_t> index_counts; // of each polygon; 0 where it has no area
     std::uint64_t vertex_count = 0;
     std::uint64_t first_vertex = 0; // in the block of the group

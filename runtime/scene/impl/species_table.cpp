@@ -208,7 +208,7 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
     reader.finish();
 }
 
-void read_one(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
+void read_one_species(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
     SceneSpecies& species = scene.species.emplace_back();
     PlacementSpecies& placed = scene.placement.species.emplace_back();
     SpeciesReader from{TableReader(&table, "[[species]]", diagnostics), species, placed};
@@ -291,7 +291,7 @@ void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagno
         return;
     }
     for (const SceneValue& item : list.items) {
-        read_one(item, scene, diagnostics);
+        read_one_species(item, scene, diagnostics);
     }
     check_names(list, scene, diagnostics);
     check_shares(list, scene, diagnostics);

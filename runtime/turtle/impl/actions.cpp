@@ -65,8 +65,8 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
     // Turns of the first heading also move the second one, if any module follows it.
     const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
                                    !any_has(bytecode, TurtleInfo::ChangesAngle);
-    std::vector<Action> of_symbol;
-    of_symbol.reserve(symbol_count);
+    std::vector<Action> symbol_actions;
+    symbol_actions.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
         Action action = action_of(symbol, bytecode.settings);
@@ -80,11 +80,11 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             table.mesh_files.push_back(symbol.mesh_file);
         }
         table.reads_text = table.reads_text || symbol.turtle == TurtleOperation::ParameterBegin;
-        of_symbol.push_back(action);
+        symbol_actions.push_back(action);
     }
     table.by_code.reserve(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
-        Action action = of_symbol[static_cast<std::size_t>(bytecode.symbol_of(code))];
+        Action action = symbol_actions[static_cast<std::size_t>(bytecode.symbol_of(code))];
         action.stored = bytecode.stored_parameters(code);
         if (code >= symbol_count && action.given != 0) {
             const std::uint32_t first = bytecode.folded[code - symbol_count].first_constant;
