@@ -107,7 +107,7 @@ ExitStatus make_meshes(Run& run) {
         ground.threads = run.command.run.threads;
         ground.pictures = run.grown.ground;
         // A baked mesh has tangents only where all its parts have some.
-        ground.tangents = run.grown.ground.normals != nullptr || run.target.kind == Kind::Mesh;
+        ground.tangents = run.grown.ground.normals != nullptr || run.target.kind == OutputKind::Mesh;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);
         if (!made) {
             return report_error(made.error(), run.console);
