@@ -235,6 +235,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
+    add_tree_height(app, command.overrides.height);
     constexpr std::uint64_t kMaxStages = 10'000;
     add_parsed(app, "--frames", command.frames, integer(0, kMaxStages),
                "Write N stages of a growing domination forest as numbered files")

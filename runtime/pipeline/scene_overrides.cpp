@@ -17,6 +17,11 @@ void take(const std::optional<Value>& option, Target& target) {
     }
 }
 
+void note_written(bool heroes, bool rho, SceneSpecies& species) {
+    species.written.heroes = species.written.heroes || heroes;
+    species.written.rho = species.written.rho || rho;
+}
+
 } // namespace
 
 bool SceneOverrides::changes_placement() const {
@@ -33,6 +38,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         take(overrides.cache_cap, species.cache.cap);
         take(overrides.tolerance, species.cache.tolerance);
         take(overrides.rho, species.rho);
+        note_written(overrides.heroes.has_value(), overrides.rho.has_value(), species);
+        species.written.cap = species.written.cap || overrides.cache_cap.has_value();
         const GrammarOptions& grammar = overrides.grammar;
         species.dialect.text = grammar.dialect.empty() ? species.dialect.text : grammar.dialect;
         species.system.text = grammar.system.empty() ? species.system.text : grammar.system;
@@ -56,6 +63,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         SceneSpecies& species = scene.species[i];
+        if (overrides.height) {
+            scene.placement.species[i].min_height = overrides.height->min;
+            scene.placement.species[i].max_height = overrides.height->max;
+            species.height_span = {}; // no longer the value of the scene
+        }
         const auto found = overrides.species.find(species.name);
         if (found == overrides.species.end()) {
             continue;
@@ -63,6 +75,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         const SpeciesOverrides& own = found->second;
         take(own.heroes, species.cache.heroes);
         take(own.rho, species.rho);
+        note_written(own.heroes.has_value(), own.rho.has_value(), species);
         PlacementSpecies& placed = scene.placement.species[i];
         take(own.share, placed.share);
         take(own.min_scale, placed.min_scale);
@@ -74,6 +87,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             placed.max_height = std::max(placed.max_height, placed.min_height);
         }
     }
+    take(overrides.variety, scene.goal.variety);
+    take(overrides.memory, scene.goal.max_bytes);
     take(overrides.terrain, scene.terrain.kind);
     take(overrides.hill_height, scene.terrain.noise.height);
     take(overrides.hill_spacing, scene.terrain.noise.feature);
