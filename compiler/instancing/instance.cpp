@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -46,32 +47,44 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     return system;
 }
 
-std::optional<std::string> list_instanced(const Program& program,
-                                          const Names& names,
-                                          const SourceMap& sources,
-                                          float rho,
-                                          Diagnostics& diagnostics) {
+std::optional<std::uint64_t> list_instanced(const Program& program,
+                                            const Names& names,
+                                            const SourceMap& sources,
+                                            float rho,
+                                            const std::optional<FormPage>& page,
+                                            const std::function<bool(std::string_view)>& put,
+                                            Diagnostics& diagnostics) {
     const std::optional<Branches> branches = find_branches(program, names, diagnostics);
     if (!branches) {
         return std::nullopt;
     }
-    std::vector<std::uint32_t> counts(program.productions.size(), 0);
+    std::vector<std::size_t> counts(program.productions.size(), 0);
     for (const BranchSite& site : branches->sites) {
         ++counts[site.production];
     }
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > kMaxListedBranches) {
-            const Production& production = program.productions[i];
-            Diagnostic& diagnostic = diagnostics.add(
-                DiagnosticCode::TooManyForms, production.name_span,
-                fmt::format("production `{}` has {} branches that can be taken, so 2^{} forms",
-                            names.text(production.name), counts[i], counts[i]));
-            diagnostic.notes.emplace_back(fmt::format(
-                "forms are listed up to 2^{}; deriving never lists them", kMaxListedBranches));
-            return std::nullopt;
-        }
+    const FormPage shown = page.value_or(FormPage{});
+    const auto most = std::max_element(counts.begin(), counts.end());
+    const std::uint64_t last = last_form(most == counts.end() ? 0 : *most);
+    if (shown.first > last) {
+        return last;
     }
-    return list_branches(program, *branches, names, sources, rho);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (page || last_form(counts[i]) < shown.count) {
+            continue;
+        }
+        const Production& production = program.productions[i];
+        Diagnostic note = make_diagnostic(
+            DiagnosticCode::TooManyForms, production.name_span,
+            fmt::format("production `{}` has {} branches that can be taken, so 2^{} forms, of "
+                        "which the first {} are listed",
+                        names.text(production.name), counts[i], counts[i], shown.count));
+        note.help.emplace_back(
+            fmt::format("`--first {} --rows {}` lists the next ones", shown.count, shown.count));
+        note.severity = Severity::Note;
+        diagnostics.add(std::move(note));
+    }
+    list_branches(program, *branches, names, sources, rho, shown, put);
+    return last;
 }
 
 } // namespace lsys

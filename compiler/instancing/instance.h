@@ -8,11 +8,16 @@
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
+
+/// Forms of a production that a listing shows unless more are asked for.
+inline constexpr std::uint64_t kFormsOfPage = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
@@ -28,12 +33,25 @@ struct InstancedSystem {
                                                                float rho,
                                                                Diagnostics& diagnostics);
 
-/// The 2^n forms of each production with their probabilities. Returns nothing, after a report, if
-/// the system cannot be instanced or a production has more than 12 branches.
-[[nodiscard]] std::optional<std::string> list_instanced(const Program& program,
-                                                        const Names& names,
-                                                        const SourceMap& sources,
-                                                        float rho,
-                                                        Diagnostics& diagnostics);
+/// The forms of each production that a listing shows, by their number (docs/language.md section
+/// 9.2).
+struct FormPage {
+    std::uint64_t first = 0;
+    std::uint64_t count = kFormsOfPage;
+};
+
+/// Lists forms of each production with their probabilities; hands the text to `put` in pieces,
+/// until it returns false. If `page` is not set, shows the first page and notes each production
+/// that has more forms. Time and memory follow the forms that are shown. Returns the largest number
+/// of a form, 2^n - 1 or 2^64 - 1; where that is below `page.first`, nothing is listed. Returns
+/// nothing, after a report, if the system cannot be instanced.
+[[nodiscard]] std::optional<std::uint64_t>
+list_instanced(const Program& program,
+               const Names& names,
+               const SourceMap& sources,
+               float rho,
+               const std::optional<FormPage>& page,
+               const std::function<bool(std::string_view)>& put,
+               Diagnostics& diagnostics);
 
 } // namespace lsys

@@ -4,6 +4,7 @@
 #include "grammar/ast/ast_dump.h"
 #include "grammar/format/tokens.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/dump_heroes.h"
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
@@ -15,7 +16,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lsys::lsc {
@@ -45,8 +49,33 @@ std::string find_conflict(const DumpCommand& command) {
     if (command.height) {
         return "only a drawn plant has a height, so --height goes with --stage skeleton or mesh";
     }
-    if (command.rho && command.stage != DumpStage::Instanced) {
-        return "only --stage instanced has a probability, so --rho does not go with another stage";
+    const bool instances = command.stage == DumpStage::Instanced ||
+                           command.stage == DumpStage::Heroes || command.stage == DumpStage::Cache;
+    if (command.rho && !instances) {
+        return "only --stage instanced, heroes and cache have a probability, so --rho does not go "
+               "with another stage";
+    }
+    if ((command.first || command.rows) && command.stage != DumpStage::Instanced) {
+        return "--first and --rows show forms of productions, which --stage instanced lists";
+    }
+    if (command.heroes && (!instances || command.stage == DumpStage::Instanced)) {
+        return "--heroes goes with --stage heroes and cache";
+    }
+    if ((command.cache_cap || command.tolerance) && command.stage != DumpStage::Cache) {
+        return "--cache-cap and --instance-tolerance go with --stage cache";
+    }
+    if (command.stage == DumpStage::Instanced && command.count) {
+        return "--count prints the number of modules; --rows N is the number of forms of --stage "
+               "instanced";
+    }
+    if (command.stage == DumpStage::Heroes || command.stage == DumpStage::Cache) {
+        if (command.count && command.stage == DumpStage::Cache) {
+            return "--count prints the number of modules, which --stage cache does not show";
+        }
+        return command.all || command.stream || command.origins || saves
+                   ? "--stage heroes and cache are of the last words, so --all, --stream, "
+                     "--origins, --steps, --save-state and --from do not go with them"
+                   : "";
     }
     if (command.origins && command.count) {
         return "--count prints no modules, so --origins does not go with it";
@@ -115,12 +144,47 @@ ExitStatus report_missing_program(const DumpCommand& command, const Console& con
 
 ExitStatus
 dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console& console) {
+    std::optional<FormPage> page;
+    if (command.first || command.rows) {
+        page.emplace();
+        page->first = command.first.value_or(page->first);
+        page->count = command.rows.value_or(page->count);
+    }
+    std::optional<Output> output; // opened by the first piece: a refused system replaces no file
+    Result<void> written;
+    const auto put = [&](std::string_view text) {
+        if (!output) {
+            Result<Output> opened = Output::open(command.output, console);
+            if (!opened) {
+                written = opened.error();
+                return false;
+            }
+            output.emplace(std::move(opened.value()));
+        }
+        written = output->write(text);
+        return bool(written) && !console.interrupted();
+    };
     Diagnostics diagnostics;
-    const std::optional<std::string> list =
+    const std::optional<std::uint64_t> last =
         list_instanced(*grammar.program, grammar.names, *grammar.sources,
-                       command.rho.value_or(kSceneRho), diagnostics);
+                       command.rho.value_or(kSceneRho), page, put, diagnostics);
     const ExitStatus shown = console.show(diagnostics, *grammar.sources);
-    return list ? more_severe(shown, write_stage(command, *list, console)) : shown;
+    if (!last) {
+        return shown;
+    }
+    if (page && page->first > *last) {
+        return report_error(Error{fmt::format("--first {}: no production has so many forms; the "
+                                              "last one is {}",
+                                              page->first, *last)},
+                            console);
+    }
+    if (console.interrupted()) {
+        return ExitStatus::Interrupted;
+    }
+    if (written) {
+        written = output->commit();
+    }
+    return more_severe(shown, report_result(written, console));
 }
 
 /// Writes `lines` lines; `append(line, text)` appends line number `line` to `text`.
@@ -191,6 +255,9 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
     if (command.stage == DumpStage::Tokens || command.stage == DumpStage::Ast) {
         return dump_syntax(command, console);
     }
+    if (command.stage == DumpStage::Cache) {
+        return dump_cache(command, console);
+    }
     Grammar grammar;
     const ExitStatus status = console.take(
         load_grammar(command.file, command.grammar, make_project(console, command.run)), grammar);
@@ -208,6 +275,11 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
             return report_missing_program(command, console);
         }
         return dump_instanced(command, grammar, console);
+    case DumpStage::Heroes:
+        if (!grammar.program) {
+            return lacks_program(command, console);
+        }
+        return dump_heroes(command, grammar, console);
     case DumpStage::Bytecode:
         return write_stage(command, disassemble(grammar.bytecode), console);
     case DumpStage::Skeleton:
@@ -216,6 +288,7 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
         return dump_plant(command, grammar, console);
     case DumpStage::Tokens:
     case DumpStage::Ast:
+    case DumpStage::Cache:
     case DumpStage::Word:
         break;
     }

@@ -1,7 +1,9 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_set.h"
 #include "runtime/export/export_forest.h"
+#include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/placement/domination.h"
 #include "runtime/program/files.h"
@@ -349,6 +351,12 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
             console.take(load_scene(command.files, command.overrides, project), loaded);
         status != ExitStatus::Ok) {
         return status;
+    }
+    if (!command.check) {
+        if (const ExitStatus status = console.take(choose_instancing(loaded, project));
+            status != ExitStatus::Ok) {
+            return status;
+        }
     }
     const Scene& scene = loaded.scene;
     const bool grows = scene.placement.method == PlacementMethod::Domination;

@@ -5,6 +5,7 @@
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
+#include "runtime/scene/scene.h"
 #include "runtime/turtle/turtle.h"
 
 #include <CLI/CLI.hpp>
@@ -61,6 +62,38 @@ void add_compile(CLI::App& app, CompileCommand& command) {
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
+/// Options of --stage instanced, heroes and cache.
+void add_dump_instancing(CLI::App& app, DumpCommand& command) {
+    const char* const group = "Instances";
+    add_parsed(app, "--rho", command.rho, fraction,
+               "For --stage instanced, heroes and cache: probability that a branch is an instance "
+               "(default 0.6)")
+        ->type_name("P")
+        ->group(group);
+    constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+    add_parsed(app, "--first", command.first, integer(0, kAny),
+               "For --stage instanced: the first form to list of each production (default 0)")
+        ->type_name("K")
+        ->group(group);
+    add_parsed(app, "--rows", command.rows, integer(1, kAny),
+               "For --stage instanced: number of forms to list of each production (default 4096)")
+        ->type_name("N")
+        ->group(group);
+    add_parsed(app, "--heroes", command.heroes, integer(1, kMaxHeroes),
+               "For --stage heroes and cache: plants derived in full (default 10)")
+        ->type_name("H")
+        ->group(group);
+    add_parsed(app, "--cache-cap", command.cache_cap,
+               integer(0, std::numeric_limits<std::uint32_t>::max()),
+               "For --stage cache: maximum number of branches per key; 0: no limit (default 0)")
+        ->type_name("N")
+        ->group(group);
+    add_parsed(app, "--instance-tolerance", command.tolerance, fraction,
+               "For --stage cache: relative difference of values that share a key (default 0)")
+        ->type_name("T")
+        ->group(group);
+}
+
 void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -75,20 +108,22 @@ void add_dump(CLI::App& app, DumpCommand& command) {
          {"bytecode", DumpStage::Bytecode},
          {"word", DumpStage::Word},
          {"skeleton", DumpStage::Skeleton},
-         {"mesh", DumpStage::Mesh}},
-        "Output of a compiler stage, the derived word, its skeleton or its mesh (default word)");
-    add_parsed(app, "--rho", command.rho, fraction,
-               "For --stage instanced: probability that a branch is an instance (default 0.6)")
-        ->type_name("P");
+         {"mesh", DumpStage::Mesh},
+         {"heroes", DumpStage::Heroes},
+         {"cache", DumpStage::Cache}},
+        "Output of a compiler stage, the derived word, its skeleton or its mesh, the words of the "
+        "heroes of a forest or the branches recorded from them (default word)");
     app.add_flag("--all", command.all, "Print every generation, one per line");
     app.add_flag("--count", command.count,
-                 "Print the number of modules, from the growth matrix where possible");
+                 "Print the number of modules, from the growth matrix where possible; of --stage "
+                 "heroes for each hero");
     app.add_flag("--stream", command.stream,
                  "Derive without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--origins", command.origins,
                  "Print the origin of each module or part of the skeleton: production or axiom, "
                  "place, generation");
     add_mesh(app, command.mesh);
+    add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
@@ -109,7 +144,8 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --all --count tree.lsys\n"
                "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
                "          lsc dump --from half.lss tree.lsys\n"
-               "          lsc dump --stage skeleton --origins tree.lsys");
+               "          lsc dump --stage skeleton --origins tree.lsys\n"
+               "          lsc dump --stage heroes --heroes 2 tree.lsys");
 }
 
 void add_export(CLI::App& app, ExportCommand& command) {
@@ -199,6 +235,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
+    add_tree_height(app, command.overrides.height);
     constexpr std::uint64_t kMaxStages = 10'000;
     add_parsed(app, "--frames", command.frames, integer(0, kMaxStages),
                "Write N stages of a growing domination forest as numbered files")

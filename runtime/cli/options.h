@@ -41,7 +41,9 @@ enum class DumpStage : std::uint8_t {
     Bytecode,
     Word,
     Skeleton,
-    Mesh
+    Mesh,
+    Heroes,
+    Cache
 };
 
 struct DumpCommand {
@@ -57,7 +59,12 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
-    std::optional<float> rho; // of --stage instanced
+    std::optional<float> rho;           // of --stage instanced, heroes and cache
+    std::optional<std::uint64_t> first; // form of --stage instanced
+    std::optional<std::uint64_t> rows;  // forms of --stage instanced
+    std::optional<std::uint32_t> heroes;
+    std::optional<std::uint32_t> cache_cap;
+    std::optional<float> tolerance;
     bool origins = false;
     std::optional<std::uint32_t> steps; // generations of this run
     std::string save_state;

@@ -61,11 +61,6 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
 /// 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
-/// Counts trees with different segments, regardless of their instances: number, lengths and places
-/// of the segments in the coordinates of the tree, compared by second moments to one part in a
-/// million. Trees of one species that differ only in age count once if their segments are equal.
-[[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
-
 struct ForestStatsOptions {
     bool different_trees = false; // takes about 100 bytes per tree
     std::uint32_t threads = 0;

@@ -29,6 +29,9 @@ public:
         if (cache_.slots.empty()) {
             cache_.slots.emplace_back();
             variants_.emplace_back();
+            if (options_.keep_keys) {
+                cache_.keys.emplace_back().place = place;
+            }
         }
         ++cache_.slots[0].recorded;
         start(0, place, drawn);
@@ -173,16 +176,20 @@ private:
         }
         add(place.sides);
         add(place.colour);
-        if (branch.id < options_.depends_on_vertical.size() &&
-            options_.depends_on_vertical[branch.id]) {
+        InstanceKey values;
+        values.has_vertical = branch.id < options_.depends_on_vertical.size() &&
+                              options_.depends_on_vertical[branch.id];
+        if (values.has_vertical) {
             // Rise of the heading and of the right axis.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);
             const glm::dvec3 up = place.frame * glm::dvec3(0.0, 0.0, 1.0);
             constexpr double kDegrees = 180.0 / std::numbers::pi;
-            add_real(branch.id,
-                     static_cast<float>(std::asin(std::clamp(heading.y, -1.0, 1.0)) * kDegrees));
-            add_real(branch.id, static_cast<float>(std::atan2(right.y, up.y) * kDegrees));
+            values.elevation =
+                static_cast<float>(std::asin(std::clamp(heading.y, -1.0, 1.0)) * kDegrees);
+            values.roll = static_cast<float>(std::atan2(right.y, up.y) * kDegrees);
+            add_real(branch.id, values.elevation);
+            add_real(branch.id, values.roll);
         }
         const auto [known, is_new] =
             slot_of_key_.emplace(key_, static_cast<std::uint32_t>(cache_.slots.size()));
@@ -191,6 +198,11 @@ private:
             slot.id = branch.id;
             slot.age = branch.age;
             variants_.emplace_back();
+            if (options_.keep_keys) {
+                values.formals.assign(branch.formals.begin(), branch.formals.end());
+                values.place = place;
+                cache_.keys.push_back(std::move(values));
+            }
         }
         return known->second;
     }

@@ -67,6 +67,15 @@ struct InstanceSlot {
     std::uint64_t dropped = 0;  // not kept because of the cap
 };
 
+/// The values of a key besides id and age, as the first branch of the key has them.
+struct InstanceKey {
+    std::vector<float> formals; // used in the text of the branch, by position in the predecessor
+    TurtlePlace place;          // without position, frame and order
+    bool has_vertical = false;  // whether elevation and roll are part of the key
+    float elevation = 0.0F;     // degrees, of the heading
+    float roll = 0.0F;          // degrees, about the heading
+};
+
 struct InstanceCache {
     Skeleton skeleton; // of all heroes, one after the other
     std::vector<Instance> instances;
@@ -75,6 +84,7 @@ struct InstanceCache {
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
     std::vector<InstanceFork> forks; // where the skeleton lacks a branch
+    std::vector<InstanceKey> keys;   // by slot; empty unless CacheOptions::keep_keys
     std::uint32_t heroes = 0;
 
     /// Memory without the skeleton.
@@ -95,6 +105,7 @@ struct CacheOptions {
     float tolerance = 0.0F;
     /// Per id: whether the drawing depends on the up direction, which is then part of the key.
     std::vector<bool> depends_on_vertical;
+    bool keep_keys = false; // fills InstanceCache::keys
     std::uint32_t threads = 0;
     Limits limits;                               // of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton

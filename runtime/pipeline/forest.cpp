@@ -7,6 +7,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/impl/variety_note.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/plant_size.h"
@@ -35,18 +36,29 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
 }
 
-/// `diagnostics` without the notes on equal plants if the species has a single hero.
-Diagnostics notes_for(const SceneSpecies& species, Diagnostics diagnostics) {
-    if (species.cache.heroes != 1) {
-        return diagnostics;
-    }
+/// Places of axioms whose notes on equal plants have been given: path and offset.
+using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
+
+/// Takes notes on equal plants out of `diagnostics`: all where the scene asks for one plant or
+/// `is_wanted` is false, else those that have been given for the place. Returns whether there were
+/// any.
+bool drop_notes(const SceneSpecies& species,
+                bool is_wanted,
+                const std::string& path,
+                NotedAxioms& noted,
+                Diagnostics& diagnostics) {
     Diagnostics left;
+    bool found = false;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
-        if (diagnostic.code != DiagnosticCode::NoVariety) {
+        const bool is_note = diagnostic.code == DiagnosticCode::NoVariety;
+        found = found || is_note;
+        if (!is_note || (species.cache.heroes != 1 && is_wanted &&
+                         noted.emplace(path, diagnostic.span.begin).second)) {
             left.add(diagnostic);
         }
     }
-    return left;
+    diagnostics = std::move(left);
+    return found;
 }
 
 /// The scene of a list of grammars.
@@ -186,11 +198,15 @@ struct GrownStage {
     Settings settings;      // of the grammar
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
+    AxiomPlace axiom;
+    bool may_take = false; // some branch can be taken from recorded ones
 };
 
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                const std::string& path,
                                std::optional<std::uint32_t> generations,
+                               bool is_first,
+                               NotedAxioms& noted,
                                const Project& project,
                                FileBudget& budget) {
     Step step(project);
@@ -215,10 +231,13 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     GrownStage grown;
     ForestStage& stage = grown.stage;
     stage.generations = generations.value_or(grammar.bytecode.generations.value_or(0));
+    grown.axiom.span = grammar.program->axiom.span;
+    grown.axiom.sources = grammar.sources;
     Diagnostics diagnostics;
     std::optional<InstancedSystem> system = compile_instanced(
         std::move(*grammar.program), grammar.names, *grammar.sources, species.rho, diagnostics);
-    if (!step.diagnose(notes_for(species, std::move(diagnostics)), grammar.sources) || !system) {
+    grown.axiom.is_noted = drop_notes(species, is_first, path, noted, diagnostics);
+    if (!step.diagnose(std::move(diagnostics), grammar.sources) || !system) {
         return step.end(Stop::Diagnosed);
     }
     grammar.program.reset();
@@ -254,15 +273,16 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
             return step.end_too_large(*stop, "the pipe model");
         }
     }
-    const bool any_hit = std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
-                                     [](const InstanceSlot& slot) { return slot.hits != 0; });
-    if (system->kind_count != 0 && species.rho > 0.0F && !any_hit) {
-        step.messages.add_info(
-            fmt::format("{}: no branch was ever taken, because no two have equal keys, so "
-                        "instancing adds nothing; --instance-tolerance lets them differ",
-                        species.name));
-    }
+    grown.may_take = system->kind_count != 0 && species.rho > 0.0F;
     return step.done(std::move(grown));
+}
+
+/// Whether some branch of a stage was taken from recorded ones.
+bool has_hits(const ForestSpecies& species) {
+    return std::any_of(species.stages.begin(), species.stages.end(), [](const ForestStage& stage) {
+        return std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
+                           [](const InstanceSlot& slot) { return slot.hits != 0; });
+    });
 }
 
 /// Scales the heroes of a species to the `#set height` of its grammar, if any: tree 0 of the last
@@ -385,6 +405,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     }
     const Stopwatch growing;
     grown.forest.key = scene.placement.key;
+    NotedAxioms noted;
     std::set<const Texture*> known_pictures; // already counted in the budget
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
@@ -407,6 +428,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         if (reused) {
             messages = previous.grown->messages[*reused];
             step.messages.append(messages);
+            grown.axioms.push_back(previous.grown->axioms[*reused]);
             made.stages = previous.grown->forest.species[*reused].stages;
             made.height = previous.grown->forest.species[*reused].height;
             meshes = previous.grown->user_meshes[*reused];
@@ -429,7 +451,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 budget.give_back(mesh.byte_count());
             }
             meshes.clear();
-            Outcome<GrownStage> stage = grow_stage(species, path, generations, project, budget);
+            Outcome<GrownStage> stage =
+                grow_stage(species, path, generations, i == 0, noted, project, budget);
             messages.append(stage.messages());
             step.messages.append(stage.messages());
             if (!stage) {
@@ -439,11 +462,27 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             made.stages.push_back(std::move(last.stage));
             meshes = std::move(last.user_meshes);
         }
-        if (!size_heroes(last.settings, species.height_span.file != kNoFile, made)) {
+        AxiomPlace& axiom = grown.axioms.emplace_back(last.axiom);
+        if (last.may_take && !has_hits(made)) {
+            axiom.is_noted = true;
+            Messages note;
+            note.add_info(
+                fmt::format("{}: no branch was ever taken, because no two have equal keys, so "
+                            "instancing adds nothing; --instance-tolerance lets them differ",
+                            species.name));
+            messages.append(note);
+            step.messages.append(std::move(note));
+        }
+        const std::size_t index = grown.forest.species.size() - 1;
+        const bool wants_height = scene.placement.species[index].max_height > 0.0F;
+        if (!size_heroes(last.settings, wants_height, made)) {
             const std::string message =
                 fmt::format("{}: its plants are flat, so they cannot be given a height", made.name);
             if (species.height_span.file != kNoFile) {
                 return fail_at(species.height_span, Error{message}, loaded, step);
+            }
+            if (wants_height) { // an option
+                return step.fail("--height: " + message);
             }
             step.diagnose(make_diagnostic(DiagnosticCode::BadSetting, last.height_span, message),
                           last.sources);
@@ -526,6 +565,7 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
     if (std::string note = placement_note(grown.placed); !note.empty()) {
         step.messages.add_info(std::move(note));
     }
+    note_variety(scene, grown, step);
     return step.done();
 }
 

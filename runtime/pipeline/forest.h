@@ -28,9 +28,18 @@ struct LoadedScene {
     std::string folder;                       // base of relative paths in the scene
 };
 
+/// The axiom of a grammar, for notes on its plants.
+struct AxiomPlace {
+    SourceSpan span;
+    std::shared_ptr<const SourceMap> sources; // of `span`
+    /// A note says already that its plants are alike, or that no branch is ever taken.
+    bool is_noted = false;
+};
+
 /// A forest and the ground that it stands on.
 struct GrownForest {
     Forest forest;
+    std::vector<AxiomPlace> axioms;                 // by species
     std::vector<std::vector<UserMesh>> user_meshes; // by species
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;

@@ -45,6 +45,11 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     return {};
 }
 
+void note_written(bool heroes, bool rho, SceneSpecies& species) {
+    species.written.heroes = species.written.heroes || heroes;
+    species.written.rho = species.written.rho || rho;
+}
+
 } // namespace
 
 bool SceneOverrides::changes_placement() const {
@@ -61,6 +66,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         replace_if_set(overrides.cache_cap, species.cache.cap);
         replace_if_set(overrides.tolerance, species.cache.tolerance);
         replace_if_set(overrides.rho, species.rho);
+        note_written(overrides.heroes.has_value(), overrides.rho.has_value(), species);
+        species.written.cap = species.written.cap || overrides.cache_cap.has_value();
         const GrammarOptions& grammar = overrides.grammar;
         species.dialect.text = grammar.dialect.empty() ? species.dialect.text : grammar.dialect;
         species.system.text = grammar.system.empty() ? species.system.text : grammar.system;
@@ -84,6 +91,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         SceneSpecies& species = scene.species[i];
+        if (overrides.height) {
+            scene.placement.species[i].min_height = overrides.height->min;
+            scene.placement.species[i].max_height = overrides.height->max;
+            species.height_span = {}; // no longer the value of the scene
+        }
         const auto found = overrides.species.find(species.name);
         if (found == overrides.species.end()) {
             continue;
@@ -91,6 +103,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         const SpeciesOverrides& own = found->second;
         replace_if_set(own.heroes, species.cache.heroes);
         replace_if_set(own.rho, species.rho);
+        note_written(own.heroes.has_value(), own.rho.has_value(), species);
         PlacementSpecies& placed = scene.placement.species[i];
         replace_if_set(own.share, placed.share);
         replace_if_set(own.min_scale, placed.min_scale);
@@ -102,6 +115,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             placed.max_height = std::max(placed.max_height, placed.min_height);
         }
     }
+    replace_if_set(overrides.variety, scene.goal.variety);
+    replace_if_set(overrides.memory, scene.goal.max_bytes);
     replace_if_set(overrides.terrain, scene.terrain.kind);
     replace_if_set(overrides.hill_height, scene.terrain.noise.height);
     replace_if_set(overrides.hill_spacing, scene.terrain.noise.feature);

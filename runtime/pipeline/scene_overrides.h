@@ -24,6 +24,14 @@ struct ForestTile {
     friend bool operator==(const ForestTile&, const ForestTile&) = default;
 };
 
+/// Heights of trees in m, above 0.
+struct HeightRange {
+    float min = 0.0F;
+    float max = 0.0F; // not below min
+
+    friend bool operator==(const HeightRange&, const HeightRange&) = default;
+};
+
 /// Values of one species.
 struct SpeciesOverrides {
     std::optional<double> share;
@@ -45,6 +53,9 @@ struct SceneOverrides {
     std::optional<float> rho;
     std::optional<std::uint32_t> cache_cap;
     std::optional<float> tolerance;
+    std::optional<HeightRange> height;   // of the trees of every species
+    std::optional<double> variety;       // InstancingGoal::variety
+    std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
     std::optional<float> size;     // m, side of a square with its corner at the origin

@@ -125,6 +125,29 @@ void add_height(CLI::App& app, std::optional<float>& height) {
         ->group("Grammar");
 }
 
+void add_tree_height(CLI::App& app, std::optional<HeightRange>& height) {
+    const auto range = [](const std::string& text) -> Result<HeightRange> {
+        const std::size_t comma = text.find(',');
+        const Result<float> min = parse_number(text.substr(0, comma), kMinHeight, kMaxHeight);
+        const Result<float> max = comma == std::string::npos ? min
+                                                             : parse_number(text.substr(comma + 1),
+                                                                            kMinHeight, kMaxHeight);
+        if (!min || !max) {
+            return min ? max.error() : min.error();
+        }
+        if (max.value() < min.value()) {
+            return Error{fmt::format("`{}` is not a min and a max height: {} is above {}", text,
+                                     min.value(), max.value())};
+        }
+        return HeightRange{min.value(), max.value()};
+    };
+    add_parsed(app, "--height", height, range,
+               "Height of full-grown trees, or their range (default: `height` of the species, "
+               "`#set height`, else as drawn)")
+        ->type_name("METRES|MIN,MAX")
+        ->group("Placement");
+}
+
 void add_run_limits(CLI::App& app, RunOptions& run) {
     run.limits.max_bytes = half_of_memory();
     add_parsed(app, "--max-memory", run.limits.max_bytes, parse_size,

@@ -88,6 +88,8 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
 /// The height of the plant, in m.
 void add_height(CLI::App& app, std::optional<float>& height);
+/// Heights of the trees of a forest: METRES, or MIN,MAX.
+void add_tree_height(CLI::App& app, std::optional<HeightRange>& height);
 /// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
 // One of them, which forests have too.

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace lsys {
@@ -104,6 +105,24 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
     add_parsed(app, "--instance-tolerance", overrides.tolerance, fraction,
                "Relative difference of values that share a key (default 0)")
         ->type_name("T")
+        ->group(group);
+    const auto share = [](const std::string& text) -> Result<double> {
+        const Result<float> parsed = parse_number(text, 0.0F, 1.0F);
+        if (!parsed) {
+            return parsed.error();
+        }
+        return std::stod(fmt::format("{}", parsed.value())); // as written: 0.99 is not 0.99F
+    };
+    add_parsed(
+        app, "--variety", overrides.variety, share,
+        "Choose --heroes, --rho and --cache-cap so that this share of trees is different, in "
+        "the least memory")
+        ->type_name("V")
+        ->group(group);
+    add_parsed(app, "--memory", overrides.memory, parse_size,
+               "Memory of the heroes and their branches, without meshes: the limit of --variety; "
+               "alone as many different trees as fit")
+        ->type_name("SIZE")
         ->group(group);
 }
 

@@ -63,6 +63,22 @@ struct SceneDefinition {
     SourceSpan span; // of the name
 };
 
+/// What choose_instancing() (runtime/pipeline/instancing_choice.h) looks for.
+struct InstancingGoal {
+    double variety = 0.0;        // least share of trees that differ, 0 to 1; 0: as many as fit
+    std::uint64_t max_bytes = 0; // of all heroes and their branches; 0: no limit
+
+    [[nodiscard]] bool is_set() const { return variety > 0.0 || max_bytes != 0; }
+    friend bool operator==(const InstancingGoal&, const InstancingGoal&) = default;
+};
+
+/// Values that the author of a scene or command line wrote, so that nothing else chooses them.
+struct WrittenInstancing {
+    bool heroes = false;
+    bool rho = false;
+    bool cap = false;
+};
+
 struct SceneSpecies {
     std::string name; // unique
     SceneFile grammar;
@@ -76,7 +92,8 @@ struct SceneSpecies {
     std::vector<std::uint32_t> stages;
     float years_of_stage = 0.0F; // 0: one stage
     float rho = kSceneRho;
-    CacheOptions cache;     // only heroes, seed, cap and tolerance are set
+    CacheOptions cache; // only heroes, seed, cap and tolerance are set
+    WrittenInstancing written;
     SourceSpan span;        // of `[[species]]`
     SourceSpan height_span; // of the value of `height`; kNoFile: none
 };
@@ -86,7 +103,8 @@ struct Scene {
     std::vector<SceneSpecies> species; // at least one
     /// Has the key, the region of the terrain and one entry per `species`; no density_map.
     PlacementOptions placement;
-    Painting painting;     // changes by hand
+    Painting painting; // changes by hand
+    InstancingGoal goal;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // of `[placement]`; kNoFile if missing
 };

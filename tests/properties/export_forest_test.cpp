@@ -1,5 +1,6 @@
 // Forests as files: counts, limits, and bytes that do not depend on threads.
 #include "runtime/export/export_forest.h"
+#include "runtime/forest/different_trees.h"
 #include "tests/support/forest.h"
 #include "tests/support/lsc_run.h"
 #include "tests/support/mesh_checks.h"

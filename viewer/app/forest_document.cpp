@@ -1,5 +1,6 @@
 #include "viewer/app/forest_document.h"
 
+#include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 
@@ -44,6 +45,26 @@ Outcome<void> make_model(const ViewOptions& options,
     return step.done();
 }
 
+/// Takes heroes, rho and cache cap that were chosen for the same goal and species, so that an edit of
+/// a window does not search again. Returns whether `before` is such a scene.
+bool keep_choice(const Scene& before, Scene& scene) {
+    if (!scene.goal.is_set() || before.goal != scene.goal ||
+        before.species.size() != scene.species.size()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const SceneSpecies& from = before.species[i];
+        SceneSpecies& to = scene.species[i];
+        if (from.name != to.name || from.grammar.path != to.grammar.path) {
+            return false;
+        }
+        to.cache.heroes = to.written.heroes ? to.cache.heroes : from.cache.heroes;
+        to.rho = to.written.rho ? to.rho : from.rho;
+        to.cache.cap = to.written.cap ? to.cache.cap : from.cache.cap;
+    }
+    return true;
+}
+
 /// `edits` and `known` may be null.
 Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
                                               const SceneOverrides* edits,
@@ -61,6 +82,11 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (edits != nullptr) {
         if (const Result<void> applied = apply(*edits, loaded.scene); !applied) {
             return step.fail(applied.error());
+        }
+    }
+    if (known == nullptr || !keep_choice(known->scene, loaded.scene)) {
+        if (!step.take(choose_instancing(loaded, project))) {
+            return step.end();
         }
     }
     const auto document = std::make_shared<ForestDocument>();

@@ -214,8 +214,8 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
     }
     if (options.is_forest && options.plant_height) {
-        return UsageError{"--height scales a plant, not a forest",
-                          "write `height = [min, max]` for each species of a scene"};
+        options.overrides.height = {*options.plant_height, *options.plant_height};
+        options.plant_height.reset();
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};

@@ -1,10 +1,11 @@
 #include "compiler/instancing/impl/instancing_pass.h"
 #include "compiler/program/module_text.h"
-#include "grammar/base/contract.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,9 @@
 namespace lsys {
 
 namespace {
+
+constexpr std::size_t kFormBits = 64;
+constexpr std::size_t kPieceOfListing = std::size_t{1} << 18;
 
 /// The shortest decimal that reads back as this binary32, as the author wrote it.
 double as_written(float number) {
@@ -24,23 +28,28 @@ public:
            const Branches& branches,
            const Names& names,
            const SourceMap& sources,
-           float rho)
+           float rho,
+           const FormPage& page,
+           const std::function<bool(std::string_view)>& put)
         : program_(program), branches_(branches), names_(names), sources_(sources),
-          rho_(as_written(rho)) {}
+          rho_(as_written(rho)), page_(page), put_(put) {}
 
-    std::string run() {
+    void run() {
         out_ = fmt::format("#w : @(0,0) {} $;\n", text_of(program_.axiom.span));
         std::size_t site = 0;
         const std::vector<double> chances = probabilities();
-        for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
+        bool wanted = true;
+        for (std::uint32_t i = 0; i < program_.productions.size() && wanted; ++i) {
             const std::size_t begin = site;
             while (site < branches_.sites.size() && branches_.sites[site].production == i) {
                 ++site;
             }
-            forms(program_.productions[i], chances[i],
-                  std::span(branches_.sites).subspan(begin, site - begin));
+            wanted = forms(program_.productions[i], chances[i],
+                           std::span(branches_.sites).subspan(begin, site - begin));
         }
-        return std::move(out_);
+        if (wanted) {
+            static_cast<void>(put_(out_));
+        }
     }
 
 private:
@@ -64,17 +73,27 @@ private:
         return sources_.file(span.file).text().substr(span.begin, span.end - span.begin);
     }
 
-    void forms(const Production& production, double chance, std::span<const BranchSite> sites) {
-        LSYS_CHECK(sites.size() <= kMaxListedBranches);
-        const std::uint32_t count = 1U << sites.size();
-        for (std::uint32_t form = 0; form < count; ++form) {
-            std::uint32_t taken = 0;
-            for (std::uint32_t c = 0; c < sites.size(); ++c) {
-                taken += (form >> c & 1U) == 0 ? 1U : 0U;
+    /// Whether form `form` takes branch `number`. Branches from 64 on have no bit in the number of a
+    /// form, so the forms that can be asked for take them all.
+    [[nodiscard]] static bool takes(std::uint64_t form, std::size_t number) {
+        return number >= kFormBits || (form >> number & 1U) == 0;
+    }
+
+    /// Returns false if the list has been ended.
+    bool forms(const Production& production, double chance, std::span<const BranchSite> sites) {
+        const std::uint64_t last = last_form(sites.size());
+        if (page_.first > last || page_.count == 0) {
+            return true;
+        }
+        const std::uint64_t end = page_.first + std::min(page_.count - 1, last - page_.first);
+        for (std::uint64_t form = page_.first;; ++form) {
+            std::size_t taken = 0;
+            for (std::size_t c = 0; c < sites.size(); ++c) {
+                taken += takes(form, c) ? 1U : 0U;
             }
-            const auto recorded = static_cast<std::uint32_t>(sites.size()) - taken;
             const double probability =
-                chance * std::pow(rho_, taken) * std::pow(1.0 - rho_, recorded);
+                chance * std::pow(rho_, static_cast<double>(taken)) *
+                std::pow(1.0 - rho_, static_cast<double>(sites.size() - taken));
             const std::string_view name = names_.text(production.name);
             const bool rewrites = production.stage == Stage::Rewrite;
             out_ += rewrites ? fmt::format("#{}.{}", name, form)
@@ -87,17 +106,26 @@ private:
             out_ += " : ";
             successor(production.successor, form, sites);
             out_ += ";\n";
+            if (out_.size() >= kPieceOfListing) {
+                if (!put_(out_)) {
+                    return false;
+                }
+                out_.clear();
+            }
+            if (form == end) {
+                return true;
+            }
         }
     }
 
-    void successor(const ProgramWord& word, std::uint32_t form, std::span<const BranchSite> sites) {
+    void successor(const ProgramWord& word, std::uint64_t form, std::span<const BranchSite> sites) {
         const std::string_view text = sources_.file(word.file).text();
         std::vector<std::string> before(word.module_count);
         std::vector<std::string> after(word.module_count);
         for (const BranchSite& site : sites) {
-            const bool takes = (form >> site.number & 1U) == 0;
-            before[site.open] += fmt::format("{}({},#)", takes ? '<' : '@', site.id);
-            after[site.close] = takes ? ">" : "$";
+            const bool is_taken = takes(form, site.number);
+            before[site.open] += fmt::format("{}({},#)", is_taken ? '<' : '@', site.id);
+            after[site.close] = is_taken ? ">" : "$";
         }
         std::uint32_t end = word.span.begin; // end of the previous module
         for (std::uint32_t i = 0; i < word.module_count; ++i) {
@@ -130,17 +158,25 @@ private:
     const Names& names_;
     const SourceMap& sources_;
     double rho_;
+    FormPage page_;
+    const std::function<bool(std::string_view)>& put_;
     std::string out_;
 };
 
 } // namespace
 
-std::string list_branches(const Program& program,
-                          const Branches& branches,
-                          const Names& names,
-                          const SourceMap& sources,
-                          float rho) {
-    return Lister(program, branches, names, sources, rho).run();
+std::uint64_t last_form(std::size_t branch_count) {
+    return branch_count >= kFormBits ? ~std::uint64_t{0} : (std::uint64_t{1} << branch_count) - 1;
+}
+
+void list_branches(const Program& program,
+                   const Branches& branches,
+                   const Names& names,
+                   const SourceMap& sources,
+                   float rho,
+                   const FormPage& page,
+                   const std::function<bool(std::string_view)>& put) {
+    Lister(program, branches, names, sources, rho, page, put).run();
 }
 
 } // namespace lsys

@@ -3,17 +3,17 @@
 #pragma once
 
 #include "compiler/instancing/impl/branches.h"
+#include "compiler/instancing/instance.h"
 #include "compiler/program/program.h"
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <functional>
+#include <string_view>
 
 namespace lsys {
-
-/// Maximum number of branches of a production whose 2^n forms are listed.
-inline constexpr std::uint32_t kMaxListedBranches = 12;
 
 /// Replaces the `[` of each valid branch by a module SaveBranch, whose parameters say whether a
 /// recorded branch is taken, the age, the id, and the formals that the branch uses. All modules
@@ -21,13 +21,18 @@ inline constexpr std::uint32_t kMaxListedBranches = 12;
 /// draw of its own. Precondition: rho in [0, 1].
 void instance_branches(Program& program, const Branches& branches, float rho);
 
-/// The 2^n forms of each production with their probabilities, `@(id,#)[...]$` where a branch is
-/// recorded and `<(id,#)[...]>` where it is taken. Precondition: no production has more than
-/// kMaxListedBranches; `program` has not been instanced.
-[[nodiscard]] std::string list_branches(const Program& program,
-                                        const Branches& branches,
-                                        const Names& names,
-                                        const SourceMap& sources,
-                                        float rho);
+/// The last number of a form, 2^n - 1 for n branches, or 2^64 - 1 for more than 64.
+[[nodiscard]] std::uint64_t last_form(std::size_t branch_count);
+
+/// Lists forms [first, first + count) of each production that has them, with their probabilities,
+/// `@(id,#)[...]$` where a branch is recorded and `<(id,#)[...]>` where it is taken. `put` takes the
+/// text in pieces; false ends the list. Precondition: `program` has not been instanced.
+void list_branches(const Program& program,
+                   const Branches& branches,
+                   const Names& names,
+                   const SourceMap& sources,
+                   float rho,
+                   const FormPage& page,
+                   const std::function<bool(std::string_view)>& put);
 
 } // namespace lsys

@@ -1,149 +1,15 @@
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/json_writer.h"
+#include "runtime/forest/different_trees.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace lsys {
 
 namespace {
-
-/// Moments of the segments of an instance, seen from its entry, weighted by length. The sum over
-/// the instances of a tree depends on its segments alone.
-struct Moments {
-    std::uint64_t segments = 0;
-    double length = 0.0;
-    glm::dvec3 first{0.0};
-    std::array<double, 6> second{}; // xx, yy, zz, xy, yz, zx
-    double thickness = 0.0;         // of radii, by length
-
-    void add(const glm::dvec3& at, double weight) {
-        length += weight;
-        first += weight * at;
-        const std::array<double, 6> squares{at.x * at.x, at.y * at.y, at.z * at.z,
-                                            at.x * at.y, at.y * at.z, at.z * at.x};
-        for (std::size_t i = 0; i < squares.size(); ++i) {
-            second[i] += weight * squares[i];
-        }
-    }
-};
-
-Moments moments_of(const InstanceCache& cache, const Instance& instance) {
-    Moments moments;
-    const glm::dquat back = glm::conjugate(instance.frame);
-    for (std::uint32_t r = 0; r < instance.range_count; ++r) {
-        const DrawnRange& range = cache.ranges[instance.first_range + r];
-        for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
-            const Segment& segment = cache.skeleton.segments[i];
-            const auto length = static_cast<double>(segment.length);
-            ++moments.segments;
-            for (const glm::vec3& end : {segment.base, tip(segment)}) {
-                moments.add(back * (glm::dvec3(end) - instance.position), 0.5 * length);
-            }
-            moments.thickness += length * static_cast<double>(segment.base_radius);
-        }
-        for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
-            const PlacedObject& object = cache.skeleton.objects[i];
-            ++moments.segments;
-            moments.add(back * (glm::dvec3(object.position) - instance.position),
-                        static_cast<double>(std::abs(object.size)));
-        }
-        for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {
-            const Polygon& polygon = cache.skeleton.polygons[i];
-            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
-                const glm::vec3& corner = cache.skeleton.corners[polygon.first_corner + c];
-                ++moments.segments;
-                moments.add(back * (glm::dvec3(corner) - instance.position), 1.0);
-            }
-        }
-    }
-    return moments;
-}
-
-/// Adds the moments `own` of an instance at `branch`, whose scale is 1.
-void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
-    const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(branch.rotation)));
-    const glm::dvec3 at(branch.position);
-    const std::array<double, 6>& s = own.second;
-    const glm::dmat3 second = turn *
-                              glm::dmat3(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]) *
-                              glm::transpose(turn);
-    const glm::dvec3 first = turn * own.first;
-    tree.segments += own.segments;
-    tree.length += own.length;
-    tree.thickness += own.thickness;
-    tree.first += first + own.length * at;
-    constexpr std::array<std::array<int, 2>, 6> kAxes{
-        {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
-    for (std::size_t i = 0; i < kAxes.size(); ++i) {
-        const auto [a, b] = kAxes[i];
-        tree.second[i] +=
-            second[b][a] + first[a] * at[b] + at[a] * first[b] + own.length * at[a] * at[b];
-    }
-}
-
-/// Compares to one part in a million of the largest moment.
-bool alike(const Moments& a, const Moments& b) {
-    constexpr double kPart = 1e-6;
-    const auto near = [](double x, double y, double size) {
-        return std::abs(x - y) <= kPart * size;
-    };
-    if (a.segments != b.segments || !near(a.length, b.length, a.length) ||
-        !near(a.thickness, b.thickness, a.thickness)) {
-        return false;
-    }
-    const double square = a.second[0] + a.second[1] + a.second[2];
-    const double size = std::sqrt(square * a.length);
-    for (int i = 0; i < 3; ++i) {
-        if (!near(a.first[i], b.first[i], size)) {
-            return false;
-        }
-    }
-    for (std::size_t i = 0; i < a.second.size(); ++i) {
-        if (!near(a.second[i], b.second[i], square)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-struct TreeLook {
-    std::uint32_t species = 0;
-    Moments moments;
-};
-
-std::uint64_t count_different(std::vector<TreeLook>& looks) {
-    const auto before = [](const TreeLook& a, const TreeLook& b) {
-        return std::tuple(a.species, a.moments.segments, a.moments.second[0]) <
-               std::tuple(b.species, b.moments.segments, b.moments.second[0]);
-    };
-    std::sort(looks.begin(), looks.end(), before);
-    std::uint64_t count = 0;
-    std::vector<std::size_t> near; // representatives that further trees may equal
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-        const TreeLook& look = looks[i];
-        const auto& s = look.moments.second;
-        const double reach = 2e-6 * (s[0] + s[1] + s[2]);
-        std::erase_if(near, [&](std::size_t other) {
-            return looks[other].species != look.species ||
-                   looks[other].moments.segments != look.moments.segments ||
-                   looks[other].moments.second[0] < s[0] - reach;
-        });
-        const bool known = std::any_of(near.begin(), near.end(), [&](std::size_t other) {
-            return alike(looks[other].moments, look.moments);
-        });
-        if (!known) {
-            near.push_back(i);
-            ++count;
-        }
-    }
-    return count;
-}
 
 struct KeyCounts {
     std::uint64_t slots = 0;
@@ -215,34 +81,6 @@ void put_species(JsonWriter& json,
 }
 
 } // namespace
-
-std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads) {
-    std::map<const InstanceCache*, std::vector<Moments>> of_caches;
-    for (const ForestSpecies& species : forest.species) {
-        for (const ForestStage& stage : species.stages) {
-            std::vector<Moments>& moments = of_caches[&stage.cache];
-            for (const Instance& instance : stage.cache.instances) {
-                moments.push_back(moments_of(stage.cache, instance));
-            }
-        }
-    }
-    std::vector<TreeLook> looks(forest.trees.size());
-    for_each_piece(forest, threads, [&](std::uint64_t, std::span<const Tree> trees) {
-        for (const Tree& tree : trees) {
-            const InstanceCache& cache = forest.cache_of(tree);
-            const std::vector<Moments>& moments = of_caches.at(&cache);
-            TreeLook& look = looks[static_cast<std::size_t>(&tree - forest.trees.data())];
-            look.species = tree.species;
-            Tree alone;
-            alone.number = tree.number;
-            TreeExpander expander(cache, forest.key);
-            expander.expand(alone, [&](const BranchInstance& branch) {
-                add(look.moments, moments[branch.instance], branch);
-            });
-        }
-    });
-    return count_different(looks);
-}
 
 std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions& options) {
     const Forest& forest = scene.forest;

@@ -1,3 +1,4 @@
+#include "grammar/base/names.h"
 #include "runtime/scene/impl/table_reader.h"
 #include "runtime/scene/impl/tables.h"
 
@@ -47,6 +48,54 @@ struct SpeciesReader {
     }
 };
 
+/// The text of a value of `#set`; none for other kinds of values.
+std::optional<std::string> setting_text(const SceneValue& value) {
+    switch (value.kind) {
+    case SceneValueKind::Text:
+        return value.text;
+    case SceneValueKind::Integer:
+        return fmt::format("{}", value.integer);
+    case SceneValueKind::Real:
+        return fmt::format("{}", value.real);
+    default:
+        return std::nullopt;
+    }
+}
+
+/// Reads one key of `[species.settings]`: a number, a text, or a list of numbers.
+void read_setting(const SceneEntry& entry, SpeciesReader& from) {
+    if (!is_identifier(entry.key)) {
+        from.reader.report_bad_value(entry.key_span,
+                                     fmt::format("`{}` is not the name of a setting", entry.key));
+        return;
+    }
+    if (entry.key == "seed") {
+        from.reader.report_bad_value(entry.key_span, "plants of a forest have seeds of their own")
+            .help.emplace_back("write `seed` in `[[species]]`, the seed of the first hero");
+        return;
+    }
+    std::optional<std::string> text = setting_text(entry.value);
+    if (entry.value.kind == SceneValueKind::List && !entry.value.items.empty()) {
+        text.emplace();
+        for (const SceneValue& item : entry.value.items) {
+            const std::optional<std::string> one = setting_text(item);
+            if (!one) {
+                text.reset();
+                break;
+            }
+            *text += (text->empty() ? "" : " ") + *one;
+        }
+    }
+    if (!text) {
+        Diagnostic& error = from.reader.report_bad_value(
+            entry.value.span,
+            fmt::format("`{}` must be a number, a text, or a list of these", entry.key));
+        error.label = fmt::format("this is {}", kind_text(entry.value.kind));
+        return;
+    }
+    from.species.settings.emplace_back(entry.key, std::move(*text));
+}
+
 void read_grammar(SpeciesReader& from) {
     if (auto grammar = from.reader.file("grammar")) {
         from.species.grammar = std::move(*grammar);
@@ -69,6 +118,11 @@ void read_grammar(SpeciesReader& from) {
         from.species.name = std::move(*name);
     } else if (from.reader.has("name")) {
         from.species.name.clear(); // the bad name was reported
+    }
+    if (const SceneValue* const settings = from.reader.table("settings")) {
+        for (const SceneEntry& entry : settings->entries) {
+            read_setting(entry, from);
+        }
     }
     if (const SceneValue* const define = from.reader.table("define")) {
         for (const SceneEntry& entry : define->entries) {
@@ -149,6 +203,8 @@ void read_cache(SpeciesReader& from) {
     cache.cap = from.integer("cache_cap", {0, kMaxInteger32}, cache.cap);
     cache.tolerance = from.number("tolerance", {0.0, 1.0, false, {}}, cache.tolerance);
     from.species.rho = from.number("rho", {0.0, 1.0, false, {}}, from.species.rho);
+    from.species.written = {from.reader.has("heroes"), from.reader.has("rho"),
+                            from.reader.has("cache_cap")};
 }
 
 void read_place(SpeciesReader& from) {

@@ -67,6 +67,8 @@ constexpr KeyPlace kPlaces[] = {
     {"trees", "[painted]"},
     {"erased", "[painted]"},
     {"key", "the file, above its tables"},
+    {"variety", "the file, above its tables"},
+    {"memory", "the file, above its tables"},
 };
 
 /// The shortest text that reads back equal; whole numbers with commas.

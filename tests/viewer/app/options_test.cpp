@@ -77,10 +77,11 @@ TEST_CASE("an option of forests shows a grammar as a forest") {
     CHECK_FALSE(parsed<ViewOptions>({"tree.lsys", "-s", "3", "-D", "a=1"}).is_forest);
 }
 
-TEST_CASE("a plant has a height, a forest has none") {
+TEST_CASE("a plant has a height, and so have the trees of a forest") {
     CHECK(parsed<ViewOptions>({"tree.lsys", "--height", "12.5"}).plant_height == 12.5F);
     CHECK_FALSE(parsed<ViewOptions>({"tree.lsys"}).plant_height);
-    CHECK(parsed<UsageError>({"wood.toml", "--height", "3"}).message ==
-          "--height scales a plant, not a forest");
+    const auto forest = parsed<ViewOptions>({"wood.toml", "--height", "3"});
+    CHECK_FALSE(forest.plant_height);
+    CHECK(forest.overrides.height == lsys::HeightRange{3.0F, 3.0F});
     CHECK_FALSE(parsed<UsageError>({"tree.lsys", "--height", "0"}).message.empty());
 }

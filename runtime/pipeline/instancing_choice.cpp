@@ -1,0 +1,355 @@
+#include "runtime/pipeline/instancing_choice.h"
+
+#include "grammar/base/counted_text.h"
+#include "runtime/forest/different_trees.h"
+#include "runtime/pipeline/step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kNoBytes = std::numeric_limits<std::uint64_t>::max();
+// The default first: the first of several that are equal is taken.
+constexpr std::array<float, 9> kRhos{0.6F, 0.5F, 0.7F, 0.4F, 0.8F, 0.3F, 0.2F, 0.1F, 0.0F};
+constexpr std::array<std::uint32_t, 16> kHeroes{1,  2,  3,  4,  6,  8,   12,  16,
+                                                24, 32, 48, 64, 96, 128, 192, 256};
+static_assert(kHeroes.back() == kMaxChosenHeroes);
+constexpr std::array<std::uint32_t, 12> kCaps{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+/// Steps of kHeroes without further different trees after which more heroes are not tried.
+constexpr int kIdleSteps = 4;
+
+struct Choice {
+    std::uint32_t heroes = 0;
+    float rho = 0.0F;
+    std::uint32_t cap = 0;
+    std::uint64_t bytes = kNoBytes;
+    std::uint64_t different = 0; // trees
+    std::uint32_t most_variants = 0;
+
+    [[nodiscard]] bool is_set() const { return bytes != kNoBytes; }
+};
+
+std::string size_text(std::uint64_t bytes) {
+    constexpr double kKiB = 1024.0;
+    const auto size = static_cast<double>(bytes);
+    // Rounded up, so that the number can be given to --memory.
+    return size < kKiB * kKiB ? fmt::format("{:.1f}K", std::ceil(size / kKiB * 10.0) / 10.0)
+                              : fmt::format("{:.1f}M", std::ceil(size / kKiB / kKiB * 10.0) / 10.0);
+}
+
+std::string options_text(const Choice& choice) {
+    std::string text = fmt::format("--heroes {} --rho {}", choice.heroes, choice.rho);
+    if (choice.cap != 0) {
+        text += fmt::format(" --cache-cap {}", choice.cap);
+    }
+    return text;
+}
+
+/// The search for one species.
+class Search {
+public:
+    Search(const LoadedScene& loaded,
+           std::size_t species,
+           std::vector<Tree> trees,
+           const Project& project)
+        : project_(project), trees_(std::move(trees)), one_(loaded) {
+        one_.scene.species = {loaded.scene.species[species]};
+        one_.scene.placement.species = {loaded.scene.placement.species[species]};
+        one_.scene.terrain = {};
+        one_.scene.density_map = {};
+        one_.scene.painting = {};
+        for (Tree& tree : trees_) {
+            tree.species = 0;
+        }
+    }
+
+    /// Fills `least`, `within` and `most`. `budget`: bytes of `within`. `most_bytes`: where the
+    /// search for `least` ends.
+    Outcome<void> run(std::uint64_t budget, std::uint64_t most_bytes) {
+        Step step(project_);
+        const SceneSpecies& species = one_.scene.species.front();
+        const WrittenInstancing& written = species.written;
+        const std::vector<float> rhos =
+            written.rho ? std::vector{species.rho} : std::vector(kRhos.begin(), kRhos.end());
+        const std::vector<std::uint32_t> heroes = written.heroes
+                                                      ? std::vector{species.cache.heroes}
+                                                      : std::vector(kHeroes.begin(), kHeroes.end());
+        for (const float rho : rhos) {
+            std::uint64_t shapes = 0;
+            int idle = 0;
+            for (const std::uint32_t count : heroes) {
+                Choice choice{count, rho, written.cap ? species.cache.cap : 0};
+                if (!step.take(try_choice(choice, budget))) {
+                    return step.end();
+                }
+                if (!choice.is_set() || choice.bytes >= least.bytes || choice.bytes > most_bytes ||
+                    choice.different >= needed) {
+                    break; // more heroes take more memory
+                }
+                idle = choice.different > shapes ? 0 : idle + 1;
+                shapes = std::max(shapes, choice.different);
+                if (idle == kIdleSteps) {
+                    break;
+                }
+            }
+        }
+        if (least.is_set() && !written.cap) {
+            for (const std::uint32_t cap : kCaps) {
+                Choice choice = least;
+                choice.cap = cap;
+                const std::uint64_t bytes = least.bytes;
+                if (cap >= least.most_variants) {
+                    break;
+                }
+                if (!step.take(try_choice(choice, budget))) {
+                    return step.end();
+                }
+                if (least.bytes < bytes) {
+                    break; // a larger cap takes more memory
+                }
+            }
+        }
+        return step.done();
+    }
+
+    /// Whether whole heroes of several seeds differ.
+    Outcome<bool> has_different_heroes() {
+        Step step(project_);
+        constexpr std::uint32_t kSeeds = 4;
+        SceneSpecies& species = one_.scene.species.front();
+        species.cache.heroes = kSeeds;
+        species.rho = 0.0F;
+        GrownForest grown;
+        Step quiet(project_);
+        if (!quiet.take(grow_species(one_, project_, {}), grown)) {
+            return quiet.end();
+        }
+        grown.forest.trees.assign(trees_.begin(), trees_.end());
+        const std::uint64_t shapes = std::max<std::size_t>(species.stages.size(), 1);
+        return step.done(count_different_trees(grown.forest, project_.threads) > shapes);
+    }
+
+    [[nodiscard]] std::uint64_t tree_count() const { return trees_.size(); }
+    [[nodiscard]] const std::string& name() const { return one_.scene.species.front().name; }
+
+    std::uint64_t needed = 0; // different trees
+    Choice least;             // least memory with all that are needed
+    Choice within;            // most different trees within the budget
+    Choice most;              // most different trees of all
+
+private:
+    /// Fills `choice`, and keeps it if it is better than those before. Leaves it unset if a limit
+    /// of the project or the grammar does not allow it.
+    Outcome<void> try_choice(Choice& choice, std::uint64_t budget) {
+        Step step(project_);
+        SceneSpecies& species = one_.scene.species.front();
+        species.cache.heroes = choice.heroes;
+        species.rho = choice.rho;
+        species.cache.cap = choice.cap;
+        choice.bytes = kNoBytes;
+        Outcome<GrownForest> outcome = grow_species(one_, project_, {});
+        if (!outcome) {
+            return outcome.stop() == Stop::Cancelled ? Outcome<void>(step.end(Stop::Cancelled))
+                                                     : step.done();
+        }
+        Forest& forest = outcome.value().forest;
+        choice.bytes = 0;
+        for (const ForestStage& stage : forest.species.front().stages) {
+            choice.bytes += stage.cache.byte_count() + stage.cache.skeleton.byte_count();
+            for (std::size_t i = 1; i < stage.cache.slots.size(); ++i) {
+                choice.most_variants =
+                    std::max(choice.most_variants, stage.cache.slots[i].variant_count);
+            }
+        }
+        if (choice.bytes >= least.bytes) {
+            return step.done();
+        }
+        forest.trees.assign(trees_.begin(), trees_.end());
+        choice.different = count_different_trees(forest, project_.threads);
+        const auto is_more = [](const Choice& a, const Choice& b) {
+            return !b.is_set() || a.different > b.different ||
+                   (a.different == b.different && a.bytes < b.bytes);
+        };
+        most = is_more(choice, most) ? choice : most;
+        if (choice.bytes <= budget && is_more(choice, within)) {
+            within = choice;
+        }
+        if (choice.different >= needed) {
+            least = choice;
+        }
+        return step.done();
+    }
+
+    const Project& project_;
+    std::vector<Tree> trees_;
+    LoadedScene one_; // with this species alone, on flat ground
+};
+
+/// Least number of different trees of `count` that is the share `variety`.
+std::uint64_t share_of(double variety, std::uint64_t count) {
+    return static_cast<std::uint64_t>(std::ceil(variety * static_cast<double>(count) - 1e-9));
+}
+
+double part_of(std::uint64_t part, std::uint64_t all) {
+    return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
+}
+
+/// Places the trees, whose places depend on no hero; by species.
+Outcome<std::vector<std::vector<Tree>>>
+place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bool>& is_noted) {
+    Step step(project);
+    LoadedScene cheap = loaded;
+    cheap.scene.goal = {};
+    for (SceneSpecies& species : cheap.scene.species) {
+        species.cache.heroes = 1; // without notes on variety
+        species.rho = species.written.rho ? species.rho : 0.0F;
+    }
+    Step quiet(project); // the forest itself gives these messages again
+    GrownForest grown;
+    if (!quiet.take(grow_species(cheap, project, {}), grown) ||
+        !quiet.take(place_forest(cheap.scene, project, grown))) {
+        return quiet.end();
+    }
+    std::vector<std::vector<Tree>> trees(cheap.scene.species.size());
+    for (const Tree& tree : grown.forest.trees) {
+        trees[tree.species].push_back(tree);
+    }
+    for (const AxiomPlace& axiom : grown.axioms) {
+        is_noted.push_back(axiom.is_noted);
+    }
+    return step.done(std::move(trees));
+}
+
+/// The nearest goals that can be had, as help.
+std::string nearest_goals(const std::vector<Search>& searches, const InstancingGoal& goal) {
+    std::uint64_t bytes = 0;
+    bool all_least = true;
+    bool all_within = true;
+    double least_part = 1.0;
+    double most_part = 1.0;
+    std::string least;
+    std::string within;
+    for (const Search& search : searches) {
+        const auto add = [&](const Choice& choice, std::string& text) {
+            text += text.empty() ? "" : "; ";
+            text += searches.size() > 1 ? search.name() + ": " : std::string();
+            text += options_text(choice);
+        };
+        all_least = all_least && search.least.is_set();
+        all_within = all_within && search.within.is_set();
+        if (search.least.is_set()) {
+            bytes += search.least.bytes;
+            add(search.least, least);
+        }
+        if (search.within.is_set()) {
+            least_part =
+                std::min(least_part, part_of(search.within.different, search.tree_count()));
+            add(search.within, within);
+        }
+        most_part = std::min(most_part, part_of(search.most.different, search.tree_count()));
+    }
+    const auto floor_text = [](double part) {
+        return fmt::format("{}", std::floor(part * 1e4 + 1e-9) / 1e4);
+    };
+    if (all_least) {
+        std::string text = fmt::format("`--memory {}` is enough ({})", size_text(bytes), least);
+        if (all_within) {
+            text += fmt::format(", or `--variety {}` for this memory ({})", floor_text(least_part),
+                                within);
+        }
+        return text;
+    }
+    if (goal.max_bytes != 0 && all_within) {
+        return fmt::format("`--variety {}` can be had in this memory ({})", floor_text(least_part),
+                           within);
+    }
+    return fmt::format("`--variety {}` is the most that can be had", floor_text(most_part));
+}
+
+void apply(const Choice& choice, SceneSpecies& species) {
+    species.cache.heroes = choice.heroes;
+    species.rho = choice.rho;
+    species.cache.cap = choice.cap;
+}
+
+} // namespace
+
+Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
+    Step step(project);
+    const InstancingGoal goal = loaded.scene.goal;
+    if (!goal.is_set()) {
+        return step.done();
+    }
+    std::vector<std::vector<Tree>> trees;
+    std::vector<bool> is_noted;
+    if (!step.take(place_trees_of(loaded, project, is_noted), trees)) {
+        return step.end();
+    }
+    const std::uint64_t budget =
+        goal.max_bytes == 0 ? kNoBytes - 1 : goal.max_bytes / loaded.scene.species.size();
+    const std::string wanted = goal.variety > 0.0
+                                   ? fmt::format("--variety {}", goal.variety)
+                                   : fmt::format("--memory {}", size_text(goal.max_bytes));
+    std::vector<Search> searches;
+    std::uint64_t bytes = 0;
+    bool is_met = true;
+    for (std::size_t s = 0; s < trees.size(); ++s) {
+        SceneSpecies& species = loaded.scene.species[s];
+        Search& search = searches.emplace_back(loaded, s, std::move(trees[s]), project);
+        search.needed =
+            goal.variety > 0.0 ? share_of(goal.variety, search.tree_count()) : search.tree_count();
+        const std::uint64_t shapes = std::max<std::size_t>(species.stages.size(), 1);
+        if (goal.variety > 0.0 && is_noted[s] && search.needed > shapes) {
+            Outcome<bool> is_random = search.has_different_heroes();
+            bool differs = false;
+            if (!step.take(std::move(is_random), differs)) {
+                return step.end();
+            }
+            if (!differs) {
+                return step.fail(fmt::format(
+                    "{}: nothing that `{}` derives is left to chance, so all its plants are equal, "
+                    "whatever heroes and rho are",
+                    wanted, species.name));
+            }
+        }
+        // With a share, `least` is looked for beyond the budget, to name it.
+        const std::uint64_t most_bytes = goal.variety > 0.0 ? kNoBytes : budget;
+        if (!step.take(search.run(budget, most_bytes))) {
+            return step.end();
+        }
+        const Choice& chosen = goal.variety > 0.0 ? search.least : search.within;
+        is_met = is_met && chosen.is_set();
+        bytes += chosen.is_set() ? chosen.bytes : 0;
+    }
+    if (!is_met || (goal.max_bytes != 0 && bytes > goal.max_bytes)) {
+        const bool both = goal.variety > 0.0 && goal.max_bytes != 0;
+        Step::Ended ended = step.fail(fmt::format(
+            "{}{}: no choice of heroes, rho and cache cap gives that", wanted,
+            both ? fmt::format(" --memory {}", size_text(goal.max_bytes)) : std::string()));
+        ended.messages.add_help(nearest_goals(searches, goal));
+        return ended;
+    }
+    for (std::size_t s = 0; s < searches.size(); ++s) {
+        const Search& search = searches[s];
+        const Choice& chosen = goal.variety > 0.0 ? search.least : search.within;
+        apply(chosen, loaded.scene.species[s]);
+        step.messages.add_info(fmt::format(
+            "{}: chose {}: {} of {} different, {}", search.name(), options_text(chosen),
+            chosen.different, counted(search.tree_count(), "tree"), size_text(chosen.bytes)));
+    }
+    return step.done();
+}
+
+} // namespace lsys
