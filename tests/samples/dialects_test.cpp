@@ -232,7 +232,61 @@ struct TextRule {
     std::string value;
 };
 
+/// A text of up to `count` symbols that ends in a letter, some with a parameter.
+std::string random_text(std::mt19937& random, std::size_t count) {
+    const std::string letters = "ABF";
+    std::string text;
+    for (std::size_t i = 1 + random() % count; i > 0; --i) {
+        text += i > 1 && random() % 3 == 0 ? '+' : letters[random() % letters.size()];
+        if (i > 1 && random() % 4 == 0) {
+            text += "(" + std::to_string(3 + random() % 5) + ")";
+        }
+    }
+    return text;
+}
+
 } // namespace
+
+TEST_CASE("the rules of Carey's generator replace text, with parameters") {
+    std::mt19937 random(7);
+    const std::vector<std::string> keys{"A", "B", "F", "AB", "+F"};
+    std::size_t compared = 0;
+    for (int round = 0; round < 60; ++round) {
+        std::vector<TextRule> rules;
+        for (const std::string& key : keys) {
+            if (random() % 2 == 0) {
+                rules.push_back({key, random_text(random, 3)});
+            }
+        }
+        if (rules.empty()) {
+            continue;
+        }
+        std::string word = random_text(random, 4);
+        std::string file = "axiom: " + word + "\ngenerations: 5\n";
+        for (const TextRule& rule : rules) {
+            file += rule.key + "=" + rule.value + "\n";
+        }
+        std::string wanted = word + "\n";
+        for (std::size_t i = 0; i < 5; ++i) {
+            const TextRule& rule = rules[i % rules.size()];
+            word = with_replaced(word, rule.key, rule.value);
+            wanted += word + "\n";
+        }
+        INFO(file);
+        const ScratchFolder folder;
+        lsys::tests::write_text(folder / "a.rules", file);
+        const LscRun run = run_lsc({"dump", "--all", "-q", folder / "a.rules"}, "");
+        INFO(run.err);
+        CHECK(run.status == 0);
+        CHECK(run.out == wanted);
+        const LscRun count = run_lsc({"dump", "--count", "-q", folder / "a.rules"}, "");
+        const auto modules =
+            std::ranges::count_if(word, [](char c) { return c == '+' || (c >= 'A' && c <= 'Z'); });
+        CHECK(count.out == std::to_string(modules) + "\n");
+        ++compared;
+    }
+    CHECK(compared > 50);
+}
 
 TEST_CASE("a note says when the order of L3D's rules matters, and only then") {
     std::mt19937 random(11);

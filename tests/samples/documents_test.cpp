@@ -274,7 +274,7 @@ TEST_CASE("Naderi's slides: one value for all keys of a generation") {
         ++values[value];
     }
     CHECK(values.size() == 3);
-    // The text of the slide with its brackets, `^{*}` as `^*`, is longer: its size counts characters.
+    // The text of the slide with its brackets, `^{*}` as `^*`, is longer; characters are counted.
     const lsys::tests::ScratchFolder folder;
     lsys::tests::write_text(folder / "printed.l++", R"(5
 15

@@ -2,6 +2,7 @@
 // generator's form; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
 // several symbols, ratios are normalised.
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/carey/parameters.h"
 #include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"
 #include "grammar/dialects/impl/frontends.h"
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -53,33 +56,88 @@ void write_axiom(const CareyFile& file,
     }
 }
 
-void write_rule(const CareyRule& rule,
-                std::size_t number,
-                bool chosen,
-                const ParseContext& context,
-                CareyWriter& writer,
-                Translation& translation) {
-    translation.put("#r" + std::to_string(number) + " : ", rule.left);
-    writer.write(rule.left, CareyText::Left);
-    translation.put(" : ", rule.left);
-    if (rule.ratio) {
-        const std::string_view ratio = context.sources.text(*rule.ratio);
-        if (!is_number(ratio, "-")) {
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax, *rule.ratio,
-                                    "`" + shown(ratio) + "` is no ratio");
-        }
+/// How a rule stands among the others.
+struct RulePlace {
+    std::size_t number = 0;
+    bool chosen = false;   // its left side has other rules
+    std::string condition; // of its turn; empty: `rewriting cyclic` gives it one
+};
+
+/// Writes the condition and the probability of a rule.
+void write_choice(const CareyRule& rule,
+                  const RulePlace& place,
+                  const ParseContext& context,
+                  Translation& translation) {
+    if (!place.chosen) {
+        translation.put(place.condition.empty() ? "*" : place.condition, rule.left);
+        return;
     }
-    if (!chosen) {
-        translation.put("*", rule.left);
-    } else if (rule.ratio) {
+    translation.put(place.condition.empty() ? "" : place.condition + " ", rule.left);
+    if (rule.ratio) {
         translation.put("~ ", *rule.ratio);
         translation.copy(*rule.ratio, context.sources);
     } else {
         translation.put("~ 1", rule.left);
     }
+}
+
+/// Writes a rule as a production whose left side ends in a module with `parameters` parameters,
+/// which its right side hands on.
+void write_production(const CareyRule& rule,
+                      const RulePlace& place,
+                      std::size_t parameters,
+                      const ParseContext& context,
+                      CareyWriter& writer,
+                      Translation& translation) {
+    std::string formals;
+    for (std::size_t i = 1; i <= parameters; ++i) {
+        formals += (i == 1 ? "(x" : ", x") + std::to_string(i);
+    }
+    formals += parameters == 0 ? "" : ")";
+    const std::string name =
+        std::to_string(place.number) + (parameters == 0 ? "" : "p" + std::to_string(parameters));
+    translation.put("#r" + name + " : ", rule.left);
+    writer.write(rule.left, CareyText::Left);
+    translation.put(formals + " : ", rule.left);
+    write_choice(rule, place, context, translation);
     translation.put(" : ", rule.left);
     writer.write(rule.right, CareyText::Right);
+    if (parameters > 0) {
+        translation.put(formals, rule.right);
+    }
     translation.put(";\n", {rule.right.file, rule.right.end, rule.right.end});
+}
+
+void write_rules(const CareyFile& file,
+                 const ParseContext& context,
+                 CareyWriter& writer,
+                 const LeftParameters& parameters,
+                 Translation& translation) {
+    std::map<std::string, std::size_t> alternatives;
+    std::map<std::string, std::size_t> turns; // in the order of the file
+    std::vector<std::string> left_sides;
+    for (const CareyRule& rule : file.rules) {
+        left_sides.push_back(without_blanks(context.sources.text(rule.left)));
+        ++alternatives[left_sides.back()];
+        turns.emplace(left_sides.back(), turns.size());
+    }
+    for (std::size_t i = 0; i < file.rules.size(); ++i) {
+        const CareyRule& rule = file.rules[i];
+        if (rule.ratio && !is_number(context.sources.text(*rule.ratio), "-")) {
+            context.diagnostics.add(DiagnosticCode::ForeignSyntax, *rule.ratio,
+                                    "`" + shown(context.sources.text(*rule.ratio)) +
+                                        "` is no ratio");
+        }
+        RulePlace place{i + 1, alternatives[left_sides[i]] > 1, {}};
+        if (parameters.any && turns.size() > 1) {
+            place.condition = "mod(step(), " + std::to_string(turns.size()) +
+                              ") == " + std::to_string(turns[left_sides[i]]);
+        }
+        write_production(rule, place, 0, context, writer, translation);
+        for (const std::size_t count : parameters.of_rule[i]) {
+            write_production(rule, place, count, context, writer, translation);
+        }
+    }
 }
 
 } // namespace
@@ -93,14 +151,19 @@ std::string_view recognise_carey(std::string_view text) {
 
 void translate_carey(const DialectRow& row, const ParseContext& context, Translation& translation) {
     const CareyFile file = read_carey(translation.file(), context);
-    std::map<std::string, std::size_t> alternatives;
+    std::set<std::string> left_sides;
     bool any_choice = false;
     for (const CareyRule& rule : file.rules) {
-        any_choice =
-            ++alternatives[without_blanks(context.sources.text(rule.left))] > 1 || any_choice;
+        const bool is_new =
+            left_sides.insert(without_blanks(context.sources.text(rule.left))).second;
+        any_choice = any_choice || !is_new;
     }
+    const LeftParameters parameters = find_left_parameters(file, context);
+    // A module with parameters and one without are rewritten in the same turn, which a cyclic
+    // rewriting of modules does not do.
     translation.put("#set turtle " + std::string(row.turtle) +
-                    ";\n#set names letters;\n#set rewriting cyclic;\n");
+                    ";\n#set names letters;\n#set rewriting " +
+                    (parameters.any ? "leftmost" : "cyclic") + ";\n");
     if (any_choice) {
         translation.put("#set weights any;\n");
     }
@@ -108,11 +171,7 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
     write_settings(file, context, translation);
     write_axiom(file, context, writer, translation);
     translation.put("\n");
-    for (std::size_t i = 0; i < file.rules.size(); ++i) {
-        const CareyRule& rule = file.rules[i];
-        const bool chosen = alternatives[without_blanks(context.sources.text(rule.left))] > 1;
-        write_rule(rule, i + 1, chosen, context, writer, translation);
-    }
+    write_rules(file, context, writer, parameters, translation);
 }
 
 } // namespace lsys

@@ -1,7 +1,6 @@
 #include "grammar/dialects/carey/writer.h"
 
 #include "grammar/ast/reports.h"
-#include "grammar/base/utf8.h"
 
 #include <algorithm>
 
@@ -54,36 +53,27 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
     return true;
 }
 
-/// The forest generator replaces text: a left side also matches the symbol before a parenthesis,
-/// which then stands behind the replacement, and within parentheses.
-void CareyWriter::check_matches(const LetterModule& module, const std::string& before) {
+/// Reports a left side that matches within parentheses, as the forest generator replaces text.
+void CareyWriter::check_arguments(const LetterModule& module) {
     const std::string_view arguments = context_.sources.text(module.arguments);
     for (const std::string& left : left_sides_) {
-        const std::size_t common = std::min(left.size(), before.size());
-        const bool at_symbol =
-            !left.empty() && std::string_view(left).substr(left.size() - common) ==
-                                 std::string_view(before).substr(before.size() - common);
-        if (at_symbol || arguments.find(left) != std::string_view::npos) {
-            Diagnostic& error = context_.diagnostics.add(
+        if (arguments.find(left) != std::string_view::npos) {
+            context_.diagnostics.add(
                 DiagnosticCode::ForeignFeature, join(module.span, module.arguments),
                 "the left side `" + shown(left) + "` matches a part of this module only");
-            error.help.emplace_back(
-                "a symbol that is to be rewritten cannot have a parameter; give it another name");
             return;
         }
     }
 }
 
-void CareyWriter::write_arguments(const LetterModule& module,
-                                  CareyText kind,
-                                  const std::string& before) {
+void CareyWriter::write_arguments(const LetterModule& module, CareyText kind) {
     const std::string_view text = context_.sources.text(module.arguments);
     if (kind == CareyText::Left) {
         context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.arguments,
                                  "a left side with parentheses is not supported");
         return;
     }
-    check_matches(module, before);
+    check_arguments(module);
     if (without_blanks(text) == "(#)" && kind == CareyText::Right) {
         translation_.put("(step() + 1)", module.arguments);
         return;
@@ -98,20 +88,11 @@ void CareyWriter::write_arguments(const LetterModule& module,
 }
 
 void CareyWriter::write(SourceSpan text, CareyText kind) {
-    std::string before; // the last symbols, as far back as a left side may reach
-    std::size_t max_length = 1;
-    for (const std::string& left : left_sides_) {
-        max_length = std::max(max_length, left.size());
-    }
     read_letter_modules(text, context_, [&](const LetterModule& module) {
         if (!check_symbol(module)) {
             return;
         }
         const bool has_arguments = module.arguments.begin != module.arguments.end;
-        append_utf8(module.character, before);
-        if (before.size() > 4 * max_length) {
-            before.erase(0, before.size() - max_length);
-        }
         if (module.character == U'#' && kind == CareyText::Right && !has_arguments) {
             context_.diagnostics.add(DiagnosticCode::ForeignQuirk, module.span,
                                      "outside of parentheses the forest generator writes the age "
@@ -121,8 +102,7 @@ void CareyWriter::write(SourceSpan text, CareyText kind) {
         }
         write_letter(module, context_, translation_);
         if (has_arguments) {
-            write_arguments(module, kind, before);
-            before.clear();
+            write_arguments(module, kind);
         }
     });
 }

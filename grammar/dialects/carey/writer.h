@@ -25,8 +25,8 @@ public:
 
 private:
     bool check_symbol(const LetterModule& module);
-    void write_arguments(const LetterModule& module, CareyText kind, const std::string& before);
-    void check_matches(const LetterModule& module, const std::string& before);
+    void write_arguments(const LetterModule& module, CareyText kind);
+    void check_arguments(const LetterModule& module);
 
     const ParseContext& context_;
     Translation& translation_;

@@ -1,0 +1,180 @@
+#include "grammar/dialects/carey/parameters.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/base/utf8.h"
+#include "grammar/dialects/carey/writer.h"
+#include "grammar/dialects/impl/letter_modules.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// A symbol and its number of parameters.
+using Form = std::pair<char32_t, std::size_t>;
+
+struct TextModule {
+    Form form;
+    SourceSpan span; // with the parameters
+};
+
+struct TextRule {
+    const CareyRule* rule = nullptr;
+    std::vector<TextModule> left;
+    std::vector<TextModule> right;
+};
+
+class ParameterWalk {
+public:
+    ParameterWalk(const CareyFile& file, const ParseContext& context)
+        : context_(context), quiet_{context.sources, context.names, ignored_, context.load} {
+        for (const CareyRule& rule : file.rules) {
+            rules_.push_back({&rule, modules_of(rule.left), modules_of(rule.right)});
+        }
+        for (const CareySetting& setting : file.settings) {
+            if (setting.key->name == "axiom") {
+                meet_all(modules_of(setting.value));
+            }
+        }
+        for (const TextRule& rule : rules_) {
+            meet_all(rule.right);
+        }
+    }
+
+    LeftParameters walk() {
+        LeftParameters found;
+        found.of_rule.resize(rules_.size());
+        while (!forms_.empty()) {
+            const TextModule module = forms_.back();
+            forms_.pop_back();
+            for (std::size_t i = 0; i < rules_.size(); ++i) {
+                if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
+                    found.of_rule[i].push_back(module.form.second);
+                    found.any = true;
+                }
+            }
+        }
+        for (std::vector<std::size_t>& counts : found.of_rule) {
+            std::sort(counts.begin(), counts.end());
+        }
+        return found;
+    }
+
+private:
+    std::vector<TextModule> modules_of(SourceSpan text) {
+        std::vector<TextModule> modules;
+        const bool is_valid = read_letter_modules(text, quiet_, [&](const LetterModule& module) {
+            const std::string_view arguments = context_.sources.text(module.arguments);
+            const auto count =
+                arguments.empty()
+                    ? std::size_t{0}
+                    : static_cast<std::size_t>(std::ranges::count(arguments, ',')) + 1;
+            modules.push_back({{module.character, count}, join(module.span, module.arguments)});
+        });
+        return is_valid ? modules : std::vector<TextModule>();
+    }
+
+    static bool ends_in(const std::vector<TextModule>& left, char32_t symbol) {
+        return !left.empty() && left.back().form.first == symbol &&
+               std::ranges::all_of(
+                   left, [](const TextModule& module) { return module.form.second == 0; });
+    }
+
+    void meet(const TextModule& module) {
+        if (module.form.second != 0 && met_.insert(module.form).second) {
+            forms_.push_back(module);
+        }
+    }
+
+    void meet_all(const std::vector<TextModule>& modules) {
+        for (std::size_t i = 0; i < modules.size(); ++i) {
+            meet(modules[i]);
+            for (const TextRule& rule : rules_) {
+                if (modules[i].form.second != 0 && matches(rule.left, modules, i)) {
+                    note(rule, modules[i]);
+                }
+            }
+        }
+    }
+
+    /// Whether a left side stands before the parameters of module `last`.
+    static bool matches(const std::vector<TextModule>& left,
+                        const std::vector<TextModule>& modules,
+                        std::size_t last) {
+        if (!ends_in(left, modules[last].form.first) || left.size() > last + 1) {
+            return false;
+        }
+        const auto begin = modules.begin() + static_cast<std::ptrdiff_t>(last + 1 - left.size());
+        return std::equal(
+            left.begin(), left.end() - 1, begin,
+            [](const TextModule& a, const TextModule& b) { return a.form == b.form; });
+    }
+
+    /// Hands the parameters of a module to the last symbol of the rule's right side; returns false
+    /// after reporting that it cannot have them.
+    bool follow(const TextRule& rule, const TextModule& module) {
+        if (takes_parameters(rule)) {
+            meet({{rule.right.back().form.first, module.form.second}, module.span});
+            return true;
+        }
+        const std::string problem =
+            rule.right.empty() ? std::string("the symbol before it")
+                               : "`" + shown(context_.sources.text(rule.right.back().span)) + "`";
+        Diagnostic& error = context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
+                                                     "the rule `" + text_of(rule) +
+                                                         "` leaves this parameter behind " +
+                                                         problem + ", which cannot take it");
+        error.labels.push_back({rule.rule->right, "replaces text, and the parameter stays"});
+        error.help.emplace_back("give the symbol with the parameter a name that no rule rewrites");
+        return false;
+    }
+
+    /// Whether the last module of the right side can have parameters beside its own.
+    static bool takes_parameters(const TextRule& rule) {
+        if (rule.right.empty() || rule.right.back().form.second != 0) {
+            return false;
+        }
+        const char32_t symbol = rule.right.back().form.first;
+        return symbol >= 0x80 ||
+               std::string_view("[]{}.#").find(static_cast<char>(symbol)) == std::string_view::npos;
+    }
+
+    void note(const TextRule& rule, const TextModule& module) {
+        if (!takes_parameters(rule)) {
+            return; // an error
+        }
+        const std::string_view whole = context_.sources.text(module.span);
+        const std::string parameters(whole.substr(std::min(whole.find('('), whole.size())));
+        Diagnostic& note = context_.diagnostics.add(
+            DiagnosticCode::ParameterStays, module.span,
+            "rules replace text: `" + text_of(rule) + "` makes `" +
+                shown(without_blanks(context_.sources.text(rule.rule->right)) + parameters) +
+                "` of this module");
+        note.help.emplace_back("a symbol that no rule rewrites keeps its parameter");
+    }
+
+    [[nodiscard]] std::string text_of(const TextRule& rule) const {
+        return shown(without_blanks(context_.sources.text(rule.rule->left)) + "=" +
+                     without_blanks(context_.sources.text(rule.rule->right)));
+    }
+
+    const ParseContext& context_;
+    Diagnostics ignored_;
+    ParseContext quiet_;
+    std::vector<TextRule> rules_;
+    std::set<Form> met_;
+    std::vector<TextModule> forms_; // met, and not followed yet
+};
+
+} // namespace
+
+LeftParameters find_left_parameters(const CareyFile& file, const ParseContext& context) {
+    return ParameterWalk(file, context).walk();
+}
+
+} // namespace lsys

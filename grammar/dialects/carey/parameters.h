@@ -1,0 +1,25 @@
+// Parameters that the rules of a .rules file leave behind. The forest generator replaces text: the
+// rule `F=FF` makes `FF(2)` of `F(2)`.
+#pragma once
+
+#include "grammar/ast/parse_context.h"
+#include "grammar/dialects/carey/reader.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsys {
+
+/// By rule of the file: the numbers of parameters, rising, that can stand behind its left side.
+struct LeftParameters {
+    std::vector<std::vector<std::size_t>> of_rule;
+    bool any = false;
+};
+
+/// Follows the parameters of axiom and right sides through the rules. Reports as a note what
+/// becomes of them, and as an error what no module can hold. Mistakes within the texts are left to
+/// the CareyWriter.
+[[nodiscard]] LeftParameters find_left_parameters(const CareyFile& file,
+                                                  const ParseContext& context);
+
+} // namespace lsys
