@@ -1,5 +1,7 @@
 #include "runtime/pipeline/scene_overrides.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +17,24 @@ void take(const std::optional<Value>& option, Target& target) {
     if (option) {
         target = static_cast<Target>(*option);
     }
+}
+
+/// A message about options of stages that say nothing; empty if there are none.
+std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) {
+    const bool has_stages =
+        std::any_of(scene.species.begin(), scene.species.end(),
+                    [](const SceneSpecies& each) { return each.stages.size() > 1; });
+    if (!overrides.stages.empty() && overrides.grammar.generations) {
+        return "--stages and -n do not go together: both say how many generations trees have";
+    }
+    if (!has_stages && (overrides.start || overrides.years_of_stage)) {
+        return fmt::format("{}: no species has several stages; name them by --stages 1,2,3",
+                           overrides.start ? "--starting-stage" : "--years-of-stage");
+    }
+    if (overrides.years_of_stage && scene.placement.method != PlacementMethod::Domination) {
+        return "--years-of-stage: plants have an age with --placement domination alone";
+    }
+    return {};
 }
 
 } // namespace
@@ -41,6 +61,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             species.stages = {*overrides.grammar.generations};
             species.years_of_stage = 0.0F;
         }
+        if (!overrides.stages.empty()) {
+            species.stages = overrides.stages;
+        }
+        take(overrides.start, species.start);
+        take(overrides.years_of_stage, species.years_of_stage);
         for (const Definition& definition : overrides.grammar.definitions) {
             const auto same = [&](const SceneDefinition& each) {
                 return each.name == definition.name;
@@ -84,7 +109,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     take(overrides.count, placement.count);
     take(overrides.spacing, placement.spacing);
     take(overrides.density, placement.density);
-    take(overrides.years, placement.years);
+    const bool dominates = placement.method == PlacementMethod::Domination;
+    take(overrides.years, dominates ? placement.years : placement.later);
     if (!overrides.density_map.empty()) {
         scene.density_map.path = std::filesystem::absolute(overrides.density_map).string();
     }
@@ -104,6 +130,10 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         if (scene.terrain.kind != TerrainKind::HeightMap) {
             scene.terrain.region = placement.region;
         }
+    }
+    settle_stages(scene);
+    if (const std::string conflict = stage_conflict(overrides, scene); !conflict.empty()) {
+        return Error{conflict};
     }
     return {};
 }

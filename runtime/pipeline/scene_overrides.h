@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -47,11 +48,14 @@ struct SceneOverrides {
     std::optional<float> tolerance;
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
-    std::optional<float> size;     // m, side of a square with its corner at the origin
-    std::optional<double> spacing; // m
-    std::optional<double> density; // places per square metre
-    std::string density_map;       // absolute, or relative to the working folder
-    std::optional<std::uint32_t> years;
+    std::optional<float> size;          // m, side of a square with its corner at the origin
+    std::optional<double> spacing;      // m
+    std::optional<double> density;      // places per square metre
+    std::string density_map;            // absolute, or relative to the working folder
+    std::optional<std::uint32_t> years; // of domination; of other methods: stages since the start
+    std::vector<std::uint32_t> stages;  // for all species: generations, rising; empty: none
+    std::optional<StageStart> start;    // for all species
+    std::optional<float> years_of_stage;
     std::optional<ForestTile> tile;
     std::optional<TerrainKind> terrain;
     std::optional<double> hill_height;  // m
@@ -68,7 +72,8 @@ struct SceneOverrides {
 };
 
 /// Replaces values of `scene`. Overrides of several sources are applied one after the other, the
-/// strongest last. Error: a tile of a placement without tiles.
+/// strongest last. Errors: a tile of a placement without tiles; a stage at the start, or years of
+/// a stage, without stages.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Sets `method` and those of its values that the method of `scene` does not read, for about as
