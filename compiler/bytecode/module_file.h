@@ -23,7 +23,8 @@ namespace lsys {
 //      to DivideAngle, were added without a new version.
 //   5  The contents of version 4, with all of these; traits of the turtle.
 //   6  Height and pipe model of the plant; springs from the elasticity, and the load of a joint.
-inline constexpr std::uint32_t kModuleFileVersion = 6;
+//   7  Segments that are boxes, among the traits of the turtle.
+inline constexpr std::uint32_t kModuleFileVersion = 7;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
@@ -41,7 +42,7 @@ static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Settings> == 30, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<TurtleTraits> == 9, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 10, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<FoldedModule> == 2, LSYS_VERSION_MATTERS);

@@ -42,9 +42,9 @@ struct InstanceMeshes {
 
 /// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
 /// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
-/// the heroes. MeshOptions::segments is ignored; max_bytes limits the result. Returns as make_mesh()
-/// does; also Failed for MeshMethod::Boxes, since a branch and its parent are one surface there,
-/// which cannot be cut.
+/// the heroes. Boxes are joined within an instance; where an instance begins they are cut, and the
+/// closed surface of the branch begins within its parent. MeshOptions::segments is ignored;
+/// max_bytes limits the result. Returns as make_mesh() does.
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

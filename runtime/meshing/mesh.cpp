@@ -16,8 +16,9 @@ namespace {
 
 std::optional<Stop> build(const Skeleton& skeleton,
                           const std::vector<UserMesh>& user_meshes,
-                          const MeshOptions& options,
+                          const MeshOptions& wanted,
                           Mesh& mesh) {
+    const MeshOptions options = resolved(wanted, skeleton);
     MeshBuilder builder(options, mesh);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
@@ -25,6 +26,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
         return builder.finish();
     }
     switch (options.method) {
+    case MeshMethod::Default: // resolved
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
         if (options.segments && !builder.stop()) {
@@ -44,6 +46,19 @@ std::optional<Stop> build(const Skeleton& skeleton,
 }
 
 } // namespace
+
+MeshOptions resolved(const MeshOptions& options, const Skeleton& skeleton) {
+    MeshOptions all = options;
+    if (all.method == MeshMethod::Default) {
+        all.method = skeleton.box_segments ? MeshMethod::Boxes : MeshMethod::Tubes;
+    }
+    const std::uint32_t plain = skeleton.box_segments ? 0 : kSubdivisions;
+    all.subdivisions = all.subdivisions.value_or(all.grooves > 0.0F ? kGrooveSubdivisions : plain);
+    if (all.grooves > 0.0F && all.method == MeshMethod::Tubes && all.sides == 0) {
+        all.sides = kGrooveSides;
+    }
+    return all;
+}
 
 std::optional<Stop> make_mesh(const Skeleton& skeleton,
                               const std::vector<UserMesh>& user_meshes,

@@ -409,6 +409,7 @@ SkeletonGrowth& SkeletonGrowth::operator=(SkeletonGrowth&&) noexcept = default;
 void SkeletonGrowth::pose(double part, Skeleton& out) const {
     out.mesh_files = state_->after.mesh_files;
     out.l3d_compatible_surface = state_->after.l3d_compatible_surface;
+    out.box_segments = state_->after.box_segments;
     if (part <= 0.0) {
         State::copy_drawing(state_->before, out);
     } else if (part >= 1.0) {

@@ -34,6 +34,7 @@ struct Segment {
     std::uint8_t sides = 0;            // corners of its cross-section, as the author asked for
     bool linked = false;               // it begins where its parent ends
     bool forked = false;               // branches that are drawn elsewhere begin at its end
+    bool cut = false;                  // it begins within its parent, with a surface of its own
 };
 
 /// Something of the object library, drawn from `position` along the frame's +Y.
@@ -65,6 +66,7 @@ struct Skeleton {
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    bool box_segments = false;           // boxes, unless another method is asked for
     // Origins of the modules that drew them, a polygon's of its `{`; empty unless the turtle was
     // fed with origins.
     LargeVector<Origin> segment_origins;

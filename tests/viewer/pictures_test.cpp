@@ -129,7 +129,7 @@ TEST_CASE("plants look as they did") {
         {"wireframe", {LSYS_SOURCE_DIR "/tests/viewer/ternary.lsys", "--wireframe"}},
         {"skeleton-lines", {sample("abop-1-24d"), "--style", "none", "--lines", "skeleton"}},
         {"turtle-path", {sample("teach-bending"), "--lines", "path"}},
-        {"boxes", {sample("sys-figure-1"), "--method", "boxes"}},
+        {"boxes", {sample("sys-figure-1"), "--subdivisions", "2"}},
         {"near",
          {sample("carey-type-0"), "--camera", "eye 2,1.2,2 target 0,1.5,0 fov 60", "--bark-noise",
           "0.3"}},

@@ -260,7 +260,7 @@ void draw_mesh(PlantViewSettings& settings) {
     }
     MeshOptions& mesh = settings.mesh;
     int method = static_cast<int>(mesh.method);
-    if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
+    if (ImGui::Combo("Method", &method, "Default\0Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t max,
@@ -277,6 +277,16 @@ void draw_mesh(PlantViewSettings& settings) {
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
     ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Grooves", &mesh.grooves, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    constexpr std::uint32_t kMaxSubdivisions = 5;
+    std::uint32_t subdivisions = mesh.subdivisions.value_or(kSubdivisions);
+    if (mesh.method == MeshMethod::Boxes) {
+        const std::uint32_t before = subdivisions;
+        slide("Subdivisions", subdivisions, kMaxSubdivisions, "%u");
+        if (subdivisions != before) {
+            mesh.subdivisions = subdivisions;
+        }
+    }
     ImGui::SliderFloat("Droop", &mesh.droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 

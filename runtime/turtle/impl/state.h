@@ -72,6 +72,7 @@ struct Turtle::State {
         traits = settings.traits;
         has_tropism = settings.has_tropism;
         skeleton.l3d_compatible_surface = traits.l3d_compatible_surface;
+        skeleton.box_segments = traits.box_segments;
         has_second_heading = any_has(bytecode, TurtleInfo::SecondHeading);
         begin();
     }
