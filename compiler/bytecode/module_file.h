@@ -23,7 +23,7 @@ namespace lsys {
 //      to DivideAngle, were added without a new version.
 //   5  The contents of version 4, with all of these; traits of the turtle.
 //   6  Height and pipe model of the plant; springs from the elasticity, and the load of a joint.
-//   7  Droop of leaves.
+//   7  Droop of leaves, and segments that are boxes, among the traits of the turtle.
 inline constexpr std::uint32_t kModuleFileVersion = 7;
 
 #define LSYS_VERSION_MATTERS                                                                       \

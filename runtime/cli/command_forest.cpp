@@ -3,6 +3,7 @@
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/forest_growth.h"
 #include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/placement/domination.h"
@@ -109,7 +110,8 @@ ExitStatus make_meshes(Run& run) {
         ground.threads = run.command.run.threads;
         ground.pictures = run.grown.ground;
         // A baked mesh has tangents only where all its parts have some.
-        ground.tangents = run.grown.ground.normals != nullptr || run.target.kind == OutputKind::Mesh;
+        ground.tangents =
+            run.grown.ground.normals != nullptr || run.target.kind == OutputKind::Mesh;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);
         if (!made) {
             return report_error(made.error(), run.console);
@@ -294,6 +296,34 @@ ExitStatus print_stats(const Run& run) {
     return report_result(run.console.write(text), run.console);
 }
 
+/// Writes a forest whose trees have stages in `frames` of them, from the start to the last.
+ExitStatus write_stages(Run& run) {
+    Outcome<ForestGrowth> begun = ForestGrowth::begin(run.scene, run.grown, run.project);
+    if (!begun) {
+        run.console.show(begun.messages());
+        return status_of(begun.stop());
+    }
+    ForestGrowth growth = std::move(begun.value());
+    for (std::uint32_t frame = 0; frame < run.command.frames; ++frame) {
+        // Whole stages: a file holds no tree between two of them.
+        const GrowthMoment moment{
+            moment_of_frame(frame, run.command.frames, growth.last_year()).generation, 0.0};
+        const TreeHeight no_height = [](const Tree& /*tree*/) { return 0.0F; };
+        ExitStatus status =
+            run.console.take(growth.trees(moment, no_height, run.project, run.grown.forest.trees));
+        const std::string path = numbered_path(run.command.output, frame + 1);
+        status = status == ExitStatus::Ok ? write_forest(run, path) : status;
+        if (status != ExitStatus::Ok) {
+            report_complete_frames(run.command.output, frame, run.command.frames, run.console);
+            return status;
+        }
+        run.console.detail(fmt::format("{}: {} of {} stages after the start, {} plants", path,
+                                       moment.generation, growth.last_year(),
+                                       run.grown.forest.trees.size()));
+    }
+    return ExitStatus::Ok;
+}
+
 /// Writes the forest of `frames` evenly spaced years, including the last.
 ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
@@ -360,9 +390,10 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     }
     const Scene& scene = loaded.scene;
     const bool grows = scene.placement.method == PlacementMethod::Domination;
-    if (command.frames != 0 && !grows) {
-        return report_error(
-            Error{"--frames shows a forest that grows, which is --placement domination"}, console);
+    if (command.frames != 0 && last_year(scene) == 0 && !grows) {
+        return report_error(Error{"--frames shows a forest that grows, which is --placement "
+                                  "domination, or one of several --stages"},
+                            console);
     }
     Run run{command, console, project, target.value(), scene, {}, {}, {}};
     ExitStatus status = console.take(grow_species(loaded, project, {}), run.grown);
@@ -375,12 +406,12 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
             return status;
         }
     }
-    if (command.frames != 0) {
+    if (command.frames != 0 && grows) {
         status = write_years(run);
     } else {
         status = console.take(place_forest(scene, project, run.grown));
         if (status == ExitStatus::Ok) {
-            status = write_forest(run, command.output);
+            status = command.frames != 0 ? write_stages(run) : write_forest(run, command.output);
         }
     }
     if (status == ExitStatus::Ok && command.stats) {

@@ -238,19 +238,11 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_tree_height(app, command.overrides.height);
     constexpr std::uint64_t kMaxStages = 10'000;
     add_parsed(app, "--frames", command.frames, integer(0, kMaxStages),
-               "Write N stages of a growing domination forest as numbered files")
+               "Write N moments of a forest that grows, by domination or through its stages, as "
+               "numbered files")
         ->type_name("N")
         ->group("Placement");
-    add_parsed(app, "--sides", command.mesh.sides, integer(kMinSides, kMaxSides),
-               "Sides of each cross-section (default: the grammar's)")
-        ->type_name("N")
-        ->group("Mesh");
-    constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", command.mesh.level, integer(0, kMaxLevel),
-               "Level of detail, 0 is the finest (default 0)")
-        ->type_name("K")
-        ->group("Mesh");
-    add_droop(app, command.mesh.droop);
+    add_mesh(app, command.mesh);
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);

@@ -5,6 +5,7 @@
 #include "runtime/base/workers.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -102,6 +103,36 @@ Skeleton number_items(const InstanceCache& cache) {
         object.parent = number++;
     }
     return skeleton;
+}
+
+/// Cuts the heroes' boxes where an instance begins, so that no surface belongs to two of them.
+void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
+    for (const Instance& instance : cache.instances) {
+        const std::span<const DrawnRange> ranges =
+            std::span(cache.ranges).subspan(instance.first_range, instance.range_count);
+        const auto contains = [&](std::uint32_t segment) {
+            const auto after = std::upper_bound(
+                ranges.begin(), ranges.end(), segment,
+                [](std::uint32_t each, const DrawnRange& r) { return each < r.begin.segments; });
+            return after != ranges.begin() && segment < std::prev(after)->end.segments;
+        };
+        for (const DrawnRange& range : ranges) {
+            for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
+                Segment& segment = skeleton.segments[i];
+                if (!segment.linked || (segment.parent >= range.begin.segments &&
+                                        segment.parent < range.end.segments)) {
+                    continue;
+                }
+                if (segment.parent == kNoSegment || !contains(segment.parent)) {
+                    segment.linked = false;
+                    segment.cut = true;
+                    if (segment.parent != kNoSegment) {
+                        skeleton.segments[segment.parent].forked = true;
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// Triangles of each segment, object and polygon, in the order of the mesh.
@@ -267,14 +298,16 @@ std::optional<Stop> build(const InstanceCache& cache,
                           MeshOptions options,
                           InstanceMeshes& meshes) {
     const Skeleton& heroes = cache.skeleton;
-    if (options.method == MeshMethod::Boxes ||
-        std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
-            kMax) {
+    if (std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
+        kMax) {
         return Stop::Failed;
     }
     options.segments = true;
-    const std::optional<Stop> stop =
-        make_mesh(number_items(cache), user_meshes, options, meshes.mesh);
+    Skeleton skeleton = number_items(cache);
+    if (resolved(options, skeleton).method == MeshMethod::Boxes) {
+        cut_instances(cache, skeleton);
+    }
+    const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, options, meshes.mesh);
     return stop ? stop : list_instances(cache, options, meshes);
 }
 

@@ -40,11 +40,11 @@ struct InstanceMeshes {
     }
 };
 
-/// A triangle belongs to all instances that contain its segment, object or polygon. Where a branch
-/// is left out, its parent ends as if the branch were there. Droop and bark noise are those of the
-/// heroes. MeshOptions::segments is ignored; max_bytes limits the result. Returns as make_mesh()
-/// does; also Failed for MeshMethod::Boxes, which makes a branch and its parent one surface that
-/// cannot be cut.
+/// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
+/// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
+/// the heroes. Boxes are joined within an instance; where an instance begins they are cut, and the
+/// closed surface of the branch begins within its parent. MeshOptions::segments is ignored;
+/// max_bytes limits the result. Returns as make_mesh() does.
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

@@ -18,8 +18,9 @@ namespace {
 
 std::optional<Stop> build(const Skeleton& skeleton,
                           const std::vector<UserMesh>& user_meshes,
-                          const MeshOptions& options,
+                          const MeshOptions& wanted,
                           Mesh& mesh) {
+    const MeshOptions options = resolved(wanted, skeleton);
     MeshBuilder builder(options, mesh);
     std::vector<FilePictures> pictures;
     for (const UserMesh& user_mesh : user_meshes) {
@@ -32,6 +33,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
         return builder.finish();
     }
     switch (options.method) {
+    case MeshMethod::Default: // resolved
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
         if (options.segments && !builder.stop()) {
@@ -51,6 +53,19 @@ std::optional<Stop> build(const Skeleton& skeleton,
 }
 
 } // namespace
+
+MeshOptions resolved(const MeshOptions& options, const Skeleton& skeleton) {
+    MeshOptions all = options;
+    if (all.method == MeshMethod::Default) {
+        all.method = skeleton.box_segments ? MeshMethod::Boxes : MeshMethod::Tubes;
+    }
+    const std::uint32_t plain = skeleton.box_segments ? 0 : kSubdivisions;
+    all.subdivisions = all.subdivisions.value_or(all.grooves > 0.0F ? kGrooveSubdivisions : plain);
+    if (all.grooves > 0.0F && all.method == MeshMethod::Tubes && all.sides == 0) {
+        all.sides = kGrooveSides;
+    }
+    return all;
+}
 
 std::optional<Stop> make_mesh(const Skeleton& skeleton,
                               const std::vector<UserMesh>& user_meshes,

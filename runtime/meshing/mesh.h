@@ -66,13 +66,18 @@ struct Mesh {
 };
 
 enum class MeshMethod : std::uint8_t {
+    Default,   // Boxes for Skeleton::box_segments, else Tubes
     Tubes,     // linked tubes along axes, joints shared
     Cylinders, // one closed cylinder per segment (Crankshaw 2019)
     Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (report of the .sys forest)
 };
 
+inline constexpr std::uint32_t kSubdivisions = 2;
+inline constexpr std::uint32_t kGrooveSides = 32;
+inline constexpr std::uint32_t kGrooveSubdivisions = 3;
+
 struct MeshOptions {
-    MeshMethod method = MeshMethod::Tubes;
+    MeshMethod method = MeshMethod::Default;
     /// 0 is the finest; each level has about half the sides of the one before, and fewer rings.
     std::uint32_t level = 0;
     /// Sides of every cross-section; 0: those of the skeleton.
@@ -87,9 +92,16 @@ struct MeshOptions {
     /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
     /// none.
     float bark_noise = 0.0F;
+    /// Depth of grooves along the stem, as a part of the radius; 0: none. Tubes without `sides` then
+    /// have kGrooveSides, boxes without `subdivisions` kGrooveSubdivisions. A tube has a groove for
+    /// each four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box with fewer than two
+    /// vertices per groove is as thick as grooves leave it on average.
+    float grooves = 0.0F;
     /// Bending of leaves by gravity, 0 (none) to 1 (they hang); not set: that of the skeleton.
     std::optional<float> droop = std::nullopt;
-    std::uint32_t subdivisions = 2; // Boxes: steps of smoothing
+    /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for
+    /// Skeleton::box_segments and kSubdivisions for others.
+    std::optional<std::uint32_t> subdivisions = std::nullopt;
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint32_t threads = 0; // 0: as many as the machine has
 
@@ -117,6 +129,9 @@ struct UserMesh {
     [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };
+
+/// `options` with the method, subdivisions and sides that they mean for `skeleton`.
+[[nodiscard]] MeshOptions resolved(const MeshOptions& options, const Skeleton& skeleton);
 
 /// Makes `mesh` from `skeleton`. `user_meshes`: meshes of Skeleton::mesh_files, in order. The
 /// result does not depend on the number of threads. Returns nothing when it is done, else the

@@ -420,7 +420,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         }
         ForestSpecies& made = grown.forest.species.emplace_back();
         made.name = species.name;
-        made.years_of_stage = species.years_of_stage;
+        made.years_of_stage = years_of_stage(scene, grown.forest.species.size() - 1);
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
         Messages& messages = grown.messages.emplace_back();
         const std::optional<std::size_t> reused =

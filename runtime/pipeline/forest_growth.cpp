@@ -5,34 +5,69 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace lsys {
+
+namespace {
+
+/// Trees of a forest whose trees have stages, so many stages after the start.
+LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
+                              std::span<const Tree> start,
+                              std::uint32_t stages) {
+    LargeVector<Tree> trees(start.begin(), start.end());
+    for (Tree& tree : trees) {
+        if (tree.age != 0) { // 0: the last stage, of painted trees
+            constexpr auto kYears = static_cast<std::uint32_t>(kYearsOfFreeStage);
+            const std::uint32_t last = species[tree.species].stages - 1;
+            const std::uint32_t stage = std::min(tree.age / kYears + stages, last);
+            tree.age = static_cast<std::uint16_t>(kYears * stage + 1);
+        }
+    }
+    return trees;
+}
+
+} // namespace
 
 struct ForestGrowth::State {
     const Scene& scene;
     const Terrain& terrain;
     PlacementOptions options;
-    Domination domination;
-    LargeVector<Tree> before; // of the year before domination.year(); empty in year 0
-    LargeVector<Tree> after;  // of domination.year()
+    std::optional<Domination> domination;
+    LargeVector<Tree> start;  // without domination: painted, at the stages where they start
+    LargeVector<Tree> before; // of the year before that of `domination`; empty in year 0
+    LargeVector<Tree> after;  // of the year of `domination`
 
-    State(const Scene& source, const Terrain& ground, PlacementOptions placement, Domination begun)
-        : scene(source), terrain(ground), options(std::move(placement)),
-          domination(std::move(begun)), after(domination.trees()) {}
+    State(const Scene& source, const Terrain& ground, PlacementOptions placement)
+        : scene(source), terrain(ground), options(std::move(placement)) {}
 
     [[nodiscard]] Result<void> go_to(std::uint32_t year, const Project& project) {
-        while (domination.year() < year) {
+        while (domination->year() < year) {
             if (project.is_cancelled()) {
                 return Error{"interrupted"};
             }
-            if (const Result<void> done = domination.step(); !done) {
+            if (const Result<void> done = domination->step(); !done) {
                 return Error{
-                    fmt::format("year {}: {}", domination.year() + 1, done.error().message),
+                    fmt::format("year {}: {}", domination->year() + 1, done.error().message),
                     done.error().kind};
             }
-            before = std::exchange(after, domination.trees());
+            before = std::exchange(after, domination->trees());
         }
+        return {};
+    }
+
+    [[nodiscard]] Result<void> begin_again() {
+        Result<Domination> begun = Domination::begin(options, terrain);
+        if (!begun) {
+            return Error{fmt::format("placement: {}", begun.error().message), begun.error().kind};
+        }
+        domination.emplace(std::move(begun.value()));
+        before.clear();
+        after = domination->trees();
         return {};
     }
 };
@@ -43,24 +78,27 @@ ForestGrowth::ForestGrowth(ForestGrowth&&) noexcept = default;
 ForestGrowth& ForestGrowth::operator=(ForestGrowth&&) noexcept = default;
 
 Outcome<ForestGrowth>
-ForestGrowth::begin(const Scene& scene, const Terrain& terrain, const Project& project) {
+ForestGrowth::begin(const Scene& scene, const GrownForest& grown, const Project& project) {
     Step step(project);
-    if (scene.placement.method != PlacementMethod::Domination) {
-        return step.fail("only a forest placed by domination grows; set `method = \"domination\"` "
-                         "or --placement domination");
-    }
     PlacementOptions options = scene.placement;
     options.threads = project.threads;
-    Result<Domination> begun = Domination::begin(options, terrain);
-    if (!begun) {
-        return step.fail(fmt::format("placement: {}", begun.error().message));
+    auto state = std::make_unique<State>(scene, *grown.terrain, std::move(options));
+    if (scene.placement.method == PlacementMethod::Domination) {
+        if (const Result<void> begun = state->begin_again(); !begun) {
+            return step.fail(begun.error());
+        }
+    } else if (lsys::last_year(scene) == 0) {
+        return step.fail(
+            "no tree grows: a forest grows by `method = \"domination\"` or --placement "
+            "domination, or through the `stages` of its species, or --stages");
+    } else {
+        state->start = grown.forest.trees;
     }
-    return step.done(ForestGrowth(
-        std::make_unique<State>(scene, terrain, std::move(options), std::move(begun.value()))));
+    return step.done(ForestGrowth(std::move(state)));
 }
 
 std::uint32_t ForestGrowth::last_year() const {
-    return state_->options.years;
+    return lsys::last_year(state_->scene);
 }
 
 Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
@@ -68,20 +106,27 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
                                   const Project& project,
                                   LargeVector<Tree>& trees) {
     Step step(project);
-    const std::uint32_t year = moment.generation + (moment.part > 0.0 ? 1 : 0);
-    if (moment.generation + 1 < state_->domination.year()) {
-        Outcome<ForestGrowth> again = begin(state_->scene, state_->terrain, project);
-        if (!again) {
-            step.messages.append(std::move(again.messages()));
-            return step.end(again.stop());
-        }
-        state_ = std::move(again.value().state_);
-    }
     State& state = *state_;
+    if (!state.domination) {
+        const std::vector<PlacementSpecies>& species = state.options.species;
+        const LargeVector<Tree> before = trees_later(species, state.start, moment.generation);
+        trees =
+            moment.part > 0.0
+                ? trees_between(before, trees_later(species, state.start, moment.generation + 1),
+                                moment.part, height_of)
+                : before;
+        return step.done();
+    }
+    const std::uint32_t year = moment.generation + (moment.part > 0.0 ? 1 : 0);
+    if (moment.generation + 1 < state.domination->year()) {
+        if (const Result<void> begun = state.begin_again(); !begun) {
+            return step.fail(begun.error());
+        }
+    }
     if (const Result<void> done = state.go_to(year, project); !done) {
         return step.fail(done.error());
     }
-    const double part = moment.generation == state.domination.year() ? 1.0 : moment.part;
+    const double part = moment.generation == state.domination->year() ? 1.0 : moment.part;
     trees = trees_between(state.before, state.after, part, height_of);
     apply_painting(state.scene.painting, state.options.region, state.terrain, trees);
     return step.done();

@@ -1,4 +1,5 @@
-// ForestGrowth: a forest placed by domination, at any moment of its years.
+// ForestGrowth: a forest over its years, in steps as small as wanted. A forest placed by domination
+// has years; of another placement, whose trees have stages, a year is one stage.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -13,15 +14,17 @@ namespace lsys {
 
 class ForestGrowth {
 public:
-    /// Starts with the seedlings of year 0. `scene` and `terrain` outlive the growth. Stop::Failed:
-    /// another placement method, or errors of Domination::begin().
+    /// Starts with the seedlings of year 0, or with the trees of `grown` at the stages where they
+    /// start. `scene` and the terrain of `grown` outlive the growth; `grown` has its trees.
+    /// Stop::Failed: a placement of trees without stages, or errors of Domination::begin().
     [[nodiscard]] static Outcome<ForestGrowth>
-    begin(const Scene& scene, const Terrain& terrain, const Project& project);
+    begin(const Scene& scene, const GrownForest& grown, const Project& project);
     ~ForestGrowth();
     ForestGrowth(ForestGrowth&&) noexcept;
     ForestGrowth& operator=(ForestGrowth&&) noexcept;
 
-    /// The years that the scene asks for.
+    /// The last year: last_year() of the scene. In the last year of stages every tree has reached
+    /// its last one.
     [[nodiscard]] std::uint32_t last_year() const;
     /// Advances to `moment`, which is not after the last year, and writes the trees of `moment` to
     /// `trees`, painting applied: at whole years those of place_forest() with that number of years,

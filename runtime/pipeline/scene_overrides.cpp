@@ -45,6 +45,24 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     return {};
 }
 
+/// A message about options of stages that say nothing; empty if there are none.
+std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) {
+    const bool has_stages =
+        std::any_of(scene.species.begin(), scene.species.end(),
+                    [](const SceneSpecies& each) { return each.stages.size() > 1; });
+    if (!overrides.stages.empty() && overrides.grammar.generations) {
+        return "--stages and -n do not go together: both say how many generations trees have";
+    }
+    if (!has_stages && (overrides.start || overrides.years_of_stage)) {
+        return fmt::format("{}: no species has several stages; name them by --stages 1,2,3",
+                           overrides.start ? "--starting-stage" : "--years-of-stage");
+    }
+    if (overrides.years_of_stage && scene.placement.method != PlacementMethod::Domination) {
+        return "--years-of-stage: plants have an age with --placement domination alone";
+    }
+    return {};
+}
+
 void note_written(bool heroes, bool rho, SceneSpecies& species) {
     species.written.heroes = species.written.heroes || heroes;
     species.written.rho = species.written.rho || rho;
@@ -76,6 +94,11 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             species.stages = {*overrides.grammar.generations};
             species.years_of_stage = 0.0F;
         }
+        if (!overrides.stages.empty()) {
+            species.stages = overrides.stages;
+        }
+        replace_if_set(overrides.start, species.start);
+        replace_if_set(overrides.years_of_stage, species.years_of_stage);
         for (const Definition& definition : overrides.grammar.definitions) {
             const auto same = [&](const SceneDefinition& each) {
                 return each.name == definition.name;
@@ -130,7 +153,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     replace_if_set(overrides.count, placement.count);
     replace_if_set(overrides.spacing, placement.spacing);
     replace_if_set(overrides.density, placement.density);
-    replace_if_set(overrides.years, placement.years);
+    const bool dominates = placement.method == PlacementMethod::Domination;
+    replace_if_set(overrides.years, dominates ? placement.years : placement.later);
     if (!overrides.density_map.empty()) {
         scene.density_map.path = std::filesystem::absolute(overrides.density_map).string();
     }
@@ -150,6 +174,10 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         if (scene.terrain.kind != TerrainKind::HeightMap) {
             scene.terrain.region = placement.region;
         }
+    }
+    settle_stages(scene);
+    if (const std::string conflict = stage_conflict(overrides, scene); !conflict.empty()) {
+        return Error{conflict};
     }
     return {};
 }

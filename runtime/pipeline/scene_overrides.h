@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -58,11 +59,14 @@ struct SceneOverrides {
     std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
-    std::optional<float> size;     // m, side of a square with its corner at the origin
-    std::optional<double> spacing; // m
-    std::optional<double> density; // places per square metre
-    std::string density_map;       // absolute, or relative to the working folder
-    std::optional<std::uint32_t> years;
+    std::optional<float> size;          // m, side of a square with its corner at the origin
+    std::optional<double> spacing;      // m
+    std::optional<double> density;      // places per square metre
+    std::string density_map;            // absolute, or relative to the working folder
+    std::optional<std::uint32_t> years; // of domination; of other methods: stages since the start
+    std::vector<std::uint32_t> stages;  // for all species: generations, rising; empty: none
+    std::optional<StageStart> start;    // for all species
+    std::optional<float> years_of_stage;
     std::optional<ForestTile> tile;
     std::optional<TerrainKind> terrain;
     std::optional<double> hill_height;  // m
@@ -83,7 +87,7 @@ struct SceneOverrides {
 
 /// Replaces values of `scene`. To combine several overrides, apply one after the other, the
 /// strongest last. Errors: a tile of a placement without tiles; normals or a tile of the ground
-/// without a picture of it.
+/// without a picture of it; a stage at the start, or years of a stage, without stages.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Sets `method`, and the values that `method` reads but the method of `scene` does not, for about

@@ -4,11 +4,13 @@
 #include "runtime/placement/impl/crowding.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
+#include "runtime/placement/impl/tree_maker.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <span>
@@ -262,6 +264,16 @@ Result<void> Domination::step() {
     return {};
 }
 
+std::uint16_t Domination::age_of(const ForestPlant& plant, const TreeMaker& maker) const {
+    const PlacementSpecies& species = options_.species[plant.species];
+    if (species.stages <= 1 || plant.number >= options_.count) {
+        return plant.age;
+    }
+    const float ahead =
+        static_cast<float>(maker.start_of(plant.number, plant.species)) * species.years_of_stage;
+    return static_cast<std::uint16_t>(plant.age + static_cast<std::uint32_t>(std::ceil(ahead)));
+}
+
 LargeVector<Tree> Domination::trees() const {
     const TreeMaker maker(options_, *terrain_);
     LargeVector<Tree> trees(plants_.size());
@@ -275,7 +287,7 @@ LargeVector<Tree> Domination::trees() const {
             tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
                              plant.place.y};
             tree.scale *= plant.radius / open[std::min<std::size_t>(plant.age, open.size() - 1)];
-            tree.age = plant.age;
+            tree.age = age_of(plant, maker);
             trees[i] = tree;
         }
     });

@@ -28,6 +28,8 @@ struct ForestPlant {
 };
 static_assert(sizeof(ForestPlant) <= 32);
 
+class TreeMaker; // runtime/placement/impl/tree_maker.h
+
 class Domination {
 public:
     /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Options
@@ -46,11 +48,14 @@ public:
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
     /// The living plants as trees, in the same order. A tree's scale is the drawn one times the
     /// ratio of its radius to that of a plant of its age and full vigour that was never dominated.
+    /// A tree of year 0 whose species has several stages is older by the years of the stages before
+    /// that at which it starts; seedlings start at the first stage.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 
 private:
     Domination(const PlacementOptions& options, const Terrain& terrain);
+    [[nodiscard]] std::uint16_t age_of(const ForestPlant& plant, const TreeMaker& maker) const;
 
     PlacementOptions options_;
     const Terrain* terrain_;

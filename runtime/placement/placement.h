@@ -20,6 +20,11 @@ namespace lsys {
 
 inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
 inline constexpr std::uint32_t kMaxYears = 10'000;
+/// Age of a plant per stage where plants do not compete: ages are odd, since age 0 means the last
+/// stage.
+inline constexpr float kYearsOfFreeStage = 2.0F;
+/// Limit of the years that all stages of a species take, so that ages have 16 bits.
+inline constexpr float kMaxStageYears = 40'000.0F;
 
 enum class PlacementMethod : std::uint8_t {
     Uniform,     // `count` independent places
@@ -49,6 +54,9 @@ struct SpeciesGrowth {
     float seed_distance = 20.0F;  // m, max
 };
 
+/// Stage at which a plant starts: the first one, or one that is drawn, all with equal chances.
+enum class StageStart : std::uint8_t { First, Random };
+
 struct PlacementSpecies {
     double share = 1.0; // of the trees, relative to other species that can live at a place
     float min_scale = 1.0F;
@@ -61,6 +69,9 @@ struct PlacementSpecies {
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees
     SpeciesGrowth growth;
+    std::uint32_t stages = 1; // 1: ages of trees tell no stage
+    StageStart start = StageStart::Random;
+    float years_of_stage = 0.0F; // Domination: above 0 where there are several stages
 };
 
 struct PlacementOptions {
@@ -74,7 +85,8 @@ struct PlacementOptions {
     const GreyMap* density_map = nullptr;
     std::optional<Region> map_region; // extent of the map, black outside; none: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t threads = 0;        // 0: as many as the machine has
+    std::uint32_t later = 0;   // other methods: stages that trees have passed since the start
+    std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
 struct PlacementReport {

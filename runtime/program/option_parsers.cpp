@@ -168,7 +168,8 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         {{"tubes", MeshMethod::Tubes},
          {"cylinders", MeshMethod::Cylinders},
          {"boxes", MeshMethod::Boxes}},
-        "Branches as seamless tubes, one cylinder per segment, or smoothed boxes (default tubes)")
+        "Branches as seamless tubes, one cylinder per segment, or boxes, smoothed or not (default "
+        "tubes; boxes for .sys plants)")
         ->group("Mesh");
     add_parsed(app, "--sides", mesh.sides, integer(kMinSides, kMaxSides),
                "Sides of each cross-section (default: the grammar's)")
@@ -188,12 +189,19 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         ->group("Mesh");
     constexpr std::uint64_t kMaxSubdivisions = 5;
     add_parsed(app, "--subdivisions", mesh.subdivisions, integer(0, kMaxSubdivisions),
-               "Smoothing rounds of --method boxes (default 2)")
+               "Smoothing rounds of boxes (default 2; 0 for .sys plants)")
         ->type_name("N")
         ->group("Mesh");
     add_parsed(app, "--bark-noise", mesh.bark_noise, fraction,
                "Bark displacement as a fraction of the radius, 0 to 1 (default 0)")
         ->type_name("A")
+        ->group("Mesh");
+    add_parsed(
+        app, "--grooves", mesh.grooves, fraction,
+        "Depth of grooves along stems as a fraction of the radius, 0 to 1 (default 0); tubes "
+        "then have 32 sides and boxes 3 subdivisions, unless --sides and --subdivisions say "
+        "otherwise")
+        ->type_name("DEPTH")
         ->group("Mesh");
     add_droop(app, mesh.droop);
 }

@@ -1,6 +1,7 @@
 #include "runtime/program/option_parsers.h"
 #include "runtime/scene/scene.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <string>
@@ -33,6 +34,33 @@ Result<ForestTile> parse_tile(const std::string& text) {
     }
     tile.size = static_cast<double>(size.value());
     return tile;
+}
+
+/// Parses `1,2,3`: numbers of generations, rising.
+Result<std::vector<std::uint32_t>> parse_stages(const std::string& text) {
+    constexpr std::size_t kMaxStages = 256;
+    std::vector<std::uint32_t> stages;
+    std::string_view rest = text;
+    while (true) {
+        const std::size_t end = std::min(rest.find(','), rest.size());
+        const Result<std::uint64_t> stage =
+            parse_integer(std::string(rest.substr(0, end)), 0, kMaxGenerations);
+        if (!stage) {
+            return stage.error();
+        }
+        if (!stages.empty() && stage.value() <= stages.back()) {
+            return Error{fmt::format("stages rise: {} does not come after {}", stage.value(),
+                                     stages.back())};
+        }
+        stages.push_back(static_cast<std::uint32_t>(stage.value()));
+        if (stages.size() > kMaxStages) {
+            return Error{fmt::format("more than {} stages", kMaxStages)};
+        }
+        if (end == rest.size()) {
+            return stages;
+        }
+        rest.remove_prefix(end + 1);
+    }
 }
 
 auto metres(float min) {
@@ -77,9 +105,30 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
                    "Grey PNG of the density over the ground")
         ->type_name("FILE")
         ->group(group);
-    add_parsed(app, "--years", overrides.years, integer(0, kMaxYears),
-               "Years of growth of a domination forest")
+    add_parsed(
+        app, "--years", overrides.years, integer(0, kMaxYears),
+        "Years of growth of a domination forest; of others the stages passed since the start")
         ->type_name("N")
+        ->group(group);
+    add_parsed(app, "--stages", overrides.stages, parse_stages,
+               "Generations of the trees, rising: each tree has one of them, see --starting-stage")
+        ->type_name("N,N,...")
+        ->group(group);
+    add_choice<std::optional<StageStart>>(
+        app, "--starting-stage", overrides.start,
+        {{"first", StageStart::First}, {"random", StageStart::Random}},
+        "Stage of a tree at the start: the first, or one drawn by the key (default random; first "
+        "with domination)")
+        ->group(group);
+    add_parsed(
+        app, "--years-of-stage", overrides.years_of_stage,
+        [](const std::string& text) -> Result<float> {
+            const Result<float> years = parse_number(text, 0.0F, static_cast<float>(kMaxYears));
+            return !years || years.value() > 0.0F ? years
+                                                  : Result<float>(Error{"a stage takes some time"});
+        },
+        "Years that a plant of a domination forest has each stage")
+        ->type_name("Y")
         ->group(group);
     add_parsed(app, "--tile", overrides.tile, parse_tile,
                "One tile of an unbounded forest, SIZE metres wide; adjacent tiles match")

@@ -4,10 +4,47 @@
 #include "runtime/scene/impl/table_reader.h"
 #include "runtime/scene/impl/tables.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
 namespace lsys {
+
+void settle_stages(Scene& scene) {
+    const bool dominates = scene.placement.method == PlacementMethod::Domination;
+    for (std::size_t i = 0; i < scene.species.size(); ++i) {
+        const SceneSpecies& species = scene.species[i];
+        PlacementSpecies& placed = scene.placement.species[i];
+        placed.stages = static_cast<std::uint32_t>(std::max<std::size_t>(species.stages.size(), 1));
+        placed.start = species.start.value_or(dominates ? StageStart::First : StageStart::Random);
+        placed.years_of_stage = years_of_stage(scene, i);
+    }
+}
+
+float years_of_stage(const Scene& scene, std::size_t index) {
+    const SceneSpecies& species = scene.species[index];
+    if (species.stages.size() <= 1) {
+        return 0.0F;
+    }
+    if (scene.placement.method != PlacementMethod::Domination) {
+        return kYearsOfFreeStage;
+    }
+    return species.years_of_stage > 0.0F ? species.years_of_stage
+                                         : std::max(static_cast<float>(scene.placement.years) /
+                                                        static_cast<float>(species.stages.size()),
+                                                    1.0F);
+}
+
+std::uint32_t last_year(const Scene& scene) {
+    if (scene.placement.method == PlacementMethod::Domination) {
+        return scene.placement.years;
+    }
+    std::size_t stages = 1;
+    for (const SceneSpecies& species : scene.species) {
+        stages = std::max(stages, species.stages.size());
+    }
+    return static_cast<std::uint32_t>(stages - 1);
+}
 
 std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
     const std::optional<SceneValue> root = read_toml(file, sources, diagnostics);
@@ -29,6 +66,7 @@ std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnost
     read_species_list(*root, scene, found);
     read_painting_table(reader.table("painted"), scene, found);
     reader.finish();
+    settle_stages(scene);
     found.sort_by_place();
     for (const Diagnostic& diagnostic : found.all()) {
         diagnostics.add(diagnostic);

@@ -11,6 +11,7 @@
 #include "runtime/terrain/region.h"
 #include "runtime/terrain/terrain.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -90,7 +91,9 @@ struct SceneSpecies {
     std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
-    float years_of_stage = 0.0F; // 0: one stage
+    /// Of a forest placed by domination; 0: one stage, or not said.
+    float years_of_stage = 0.0F;
+    std::optional<StageStart> start; // none: First with domination, else Random
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
     WrittenInstancing written;
@@ -108,6 +111,16 @@ struct Scene {
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // of `[placement]`; kNoFile if missing
 };
+
+/// Tells the placement how many stages each species has and where its plants start. Called after
+/// the last change of `scene`. Where a forest placed by domination does not say how long a stage
+/// takes, its years are shared evenly among the stages.
+void settle_stages(Scene& scene);
+/// Age per stage of trees of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
+[[nodiscard]] float years_of_stage(const Scene& scene, std::size_t index);
+/// Stages or years that a forest grows: the years of domination; else the steps from the first
+/// stage to the last of the species with the most of them, 0 without stages.
+[[nodiscard]] std::uint32_t last_year(const Scene& scene);
 
 /// Reads `file` as a scene. Reports each mistake once, in order of place; a file that is not TOML
 /// has one. Returns none if there is a mistake.

@@ -34,6 +34,7 @@ struct Segment {
     std::uint8_t sides = 0;            // corners of its cross-section, set by the author
     bool linked = false;               // begins where its parent ends
     bool forked = false;               // branches that are drawn elsewhere begin at its end
+    bool cut = false;                  // it begins within its parent, with a surface of its own
 };
 
 /// An item of the object library, drawn from `position` along the frame's +Y.
@@ -68,6 +69,7 @@ struct Skeleton {
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    bool box_segments = false;           // boxes, unless another method is asked for
     float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
     // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
     // had origins.

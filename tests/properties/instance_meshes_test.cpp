@@ -291,12 +291,60 @@ TEST_CASE("surfaces of instances are the same for any number of threads") {
     CHECK(one.first_part == four.first_part);
 }
 
+TEST_CASE("boxes of an instance are closed surfaces of their own") {
+    const std::string grammar =
+        GENERATE(as<std::string>{}, kMeshedBush,
+                 "#set turtle sys; #set names letters; #w : F; #p : F : * : F[`>`F][`<`F]F;",
+                 "#set names letters; #w : A; #p : A : * : F[+B]A[-B]; #q : B : * : F[-B]FB; "
+                 "#r : F : * : FF;");
+    const float rho = GENERATE(0.0F, 0.5F, 1.0F);
+    const std::uint32_t subdivisions = GENERATE(0U, 2U);
+    MeshOptions options;
+    options.method = MeshMethod::Boxes;
+    options.subdivisions = subdivisions;
+    const Planted planted = plant(grammar, 5, rho, heroes(4));
+    const InstanceMeshes meshes = meshes_of(planted.cache, options);
+    std::size_t instances = 0;
+    for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
+        Mesh own; // of its wood
+        own.positions = meshes.mesh.positions;
+        for (const MeshPart& part : meshes.parts_of(i)) {
+            for (std::uint64_t k = 0;
+                 k < part.index_count &&
+                 meshes.mesh.materials[part.material].kind == MaterialKind::Bark;
+                 ++k) {
+                own.indices.push_back(meshes.mesh.indices[part.first_index + k]);
+            }
+        }
+        INFO(grammar << " rho " << rho << " instance " << i);
+        REQUIRE(test::topology_of(own).open_edges == 0);
+        if (own.indices.size() != 0) {
+            ++instances;
+            CHECK(test::volume_of(own) > 0.0);
+        }
+    }
+    CHECK(instances > 0);
+    // Every segment of a tree is drawn: its boxes reach as far as those of a plain plant.
+    const Bounds plain = test::bounds_of(plain_mesh(plain_plant(grammar, 5, 0), options));
+    if (grammar.find('~') == std::string::npos) {
+        Bounds bounds;
+        for (const auto& [material, triangles] :
+             triangles_of(planted.cache, meshes, tree_of(1), 1)) {
+            for (const Triangle& triangle : triangles) {
+                for (const glm::dvec3& corner : triangle) {
+                    bounds.add(glm::vec3(corner));
+                }
+            }
+        }
+        CHECK(glm::distance(bounds.low, plain.low) < 0.1F);
+        CHECK(glm::distance(bounds.high, plain.high) < 0.1F);
+    }
+}
+
 TEST_CASE("surfaces of instances that cannot be are refused") {
     const Planted planted = plant(kMeshedBush, 5, 0.5F, heroes(4));
     InstanceMeshes meshes;
     MeshOptions options;
-    options.method = MeshMethod::Boxes;
-    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == Stop::Failed);
     options.method = MeshMethod::Tubes;
     REQUIRE(make_instance_meshes(planted.cache, {}, options, meshes) == std::nullopt);
     options.max_bytes = meshes.mesh.byte_count() - 1;

@@ -33,10 +33,6 @@ Outcome<void> make_model(const ViewOptions& options,
                  grown.reused_species};
     }
     document.mesh_options = mesh;
-    if (mesh.method == MeshMethod::Boxes) {
-        return step.fail("--method boxes: a branch and its parent are one surface there, so a "
-                         "forest cannot be put together from them");
-    }
     if (const std::optional<Stop> stop = make_forest_model(
             grown.forest, *grown.terrain, grown.user_meshes, mesh, document.model, known)) {
         return end_mesh_of_heroes(*stop, step);

@@ -131,8 +131,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
     std::uint32_t frame_number = 0;
     std::function<ExitStatus(const Frame&)> prepare;
     if (options.grow) {
-        Outcome<ForestGrowth> begun =
-            ForestGrowth::begin(document.scene, *document.grown.terrain, project);
+        Outcome<ForestGrowth> begun = ForestGrowth::begin(document.scene, document.grown, project);
         if (!begun) {
             console.show(begun.messages());
             return status_of(begun.stop());

@@ -110,7 +110,7 @@ std::uint32_t ForestView::default_years() const {
 }
 
 std::uint32_t ForestView::years() const {
-    return settings.edits.years.value_or(default_years_);
+    return settings.edits.years.value_or(first_years_);
 }
 
 void ForestView::set_years(std::uint32_t years) {
@@ -196,8 +196,12 @@ void ForestView::swap(ForestOutcome outcome) {
     is_other_placement_ = outcome.request.edits.changes_placement() ||
                           outcome.request.options.overrides.changes_placement();
     const PlacementOptions& placement = document_->scene.placement;
+    const bool dominates = placement.method == PlacementMethod::Domination;
+    if (!dominates || !outcome.request.edits.years) {
+        default_years_ = last_year(document_->scene);
+    }
     if (!outcome.request.edits.years) {
-        default_years_ = placement.method == PlacementMethod::Domination ? placement.years : 0;
+        first_years_ = dominates ? placement.years : placement.later;
     }
     if (std::exchange(plays_next_, false)) {
         play_or_pause();
@@ -300,12 +304,13 @@ void ForestView::grow() {
 
 void ForestView::play_or_pause() {
     if (default_years_ == 0) {
-        set_note("only a forest placed by domination grows");
+        set_note("only a forest placed by domination, or of trees with stages, grows");
         return;
     }
     settings.plays = !settings.plays;
     if (settings.plays && years() >= default_years_) {
-        settings.edits.years = 1;
+        settings.edits.years =
+            document_->scene.placement.method == PlacementMethod::Domination ? 1 : 0;
     }
 }
 

@@ -93,7 +93,7 @@ public:
     void play_or_pause();
     void set_years(std::uint32_t years);
     [[nodiscard]] std::uint32_t years() const;
-    /// Years of the scene without edits; 0: it does not grow.
+    /// Years of the scene without edits, or the stages of its trees; 0: it does not grow.
     [[nodiscard]] std::uint32_t default_years() const;
 
     /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
@@ -139,6 +139,7 @@ private:
     bool has_impostors_ = true;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
+    std::uint32_t first_years_ = 0;   // shown without edits
     bool is_other_placement_ = false; // the forest shown is not placed as its file says
     SteadyClock::time_point since_;   // change that led to the forest shown
     SteadyClock::time_point last_growth_;

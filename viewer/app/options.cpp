@@ -92,10 +92,11 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
-    app.add_flag("--grow", options.grow,
-                 "The series grows: a plant from its axiom to its last generation, with parts of "
-                 "generations between whole ones, or a forest of domination year by year; in a "
-                 "window growth plays at once")
+    app.add_flag(
+           "--grow", options.grow,
+           "The series grows: a plant from its axiom to its last generation, with parts of "
+           "generations between whole ones, or a forest of domination year by year, or one of "
+           "trees with stages; in a window growth plays at once")
         ->group("Picture");
     app.add_option("--stats", options.stats,
                    "Write counts and times of the pictures as JSON; `-` is standard output")

@@ -261,7 +261,7 @@ void draw_mesh(PlantViewSettings& settings, float own_droop) {
     }
     MeshOptions& mesh = settings.mesh;
     int method = static_cast<int>(mesh.method);
-    if (ImGui::Combo("Method", &method, "Tubes\0Cylinders\0Boxes\0")) {
+    if (ImGui::Combo("Method", &method, "Default\0Tubes\0Cylinders\0Boxes\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t max,
@@ -278,6 +278,16 @@ void draw_mesh(PlantViewSettings& settings, float own_droop) {
     mesh.sides = mesh.sides == 0 ? 0 : std::max(mesh.sides, 3U);
     ImGui::SliderFloat("Bark noise", &mesh.bark_noise, 0.0F, 1.0F, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Grooves", &mesh.grooves, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    constexpr std::uint32_t kMaxSubdivisions = 5;
+    std::uint32_t subdivisions = mesh.subdivisions.value_or(kSubdivisions);
+    if (mesh.method == MeshMethod::Boxes) {
+        const std::uint32_t before = subdivisions;
+        slide("Subdivisions", subdivisions, kMaxSubdivisions, "%u");
+        if (subdivisions != before) {
+            mesh.subdivisions = subdivisions;
+        }
+    }
     float droop = mesh.droop.value_or(own_droop);
     if (ImGui::SliderFloat("Droop", &droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
         mesh.droop = droop;

@@ -7,11 +7,14 @@
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/line_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -103,14 +106,79 @@ SysFile read_file(FileId root, const ParseContext& context) {
     return file;
 }
 
-/// The modules of a word of the file.
-void write_modules(SourceSpan text, const ParseContext& context, Translation& translation) {
+bool has_arguments(const LetterModule& module) {
+    return module.arguments.begin != module.arguments.end;
+}
+
+/// Parameters of a module as they are written, without a look at what they are.
+std::size_t count_parameters(const LetterModule& module, const ParseContext& context) {
+    const std::string_view text = context.sources.text(module.arguments);
+    return has_arguments(module)
+               ? 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), ','))
+               : 0;
+}
+
+/// `(p1, p2, p3)`; nothing for no parameters.
+std::string formals(std::size_t count) {
+    std::string text;
+    for (std::size_t i = 1; i <= count; ++i) {
+        text += (i == 1 ? "(p" : ", p") + std::to_string(i);
+    }
+    return count == 0 ? text : text + ")";
+}
+
+/// A symbol that is replaced, and the number of its parameters.
+struct Replaced {
+    char32_t character = 0;
+    std::size_t parameters = 0;
+};
+
+/// The modules of a word of the file. In a successor of `replaced`, that symbol without parameters
+/// keeps those of the module that it replaces.
+void write_modules(SourceSpan text,
+                   const Replaced& replaced,
+                   const ParseContext& context,
+                   Translation& translation) {
     read_letter_modules(text, context, [&](const LetterModule& module) {
         write_letter(module, context, translation);
-        if (module.arguments.begin != module.arguments.end) {
+        if (has_arguments(module)) {
             write_plain_arguments(module.arguments, context, translation);
+        } else if (module.character == replaced.character) {
+            translation.put(formals(replaced.parameters), module.span);
         }
     });
+}
+
+/// Numbers of parameters with which each symbol occurs. A symbol without parameters in its own
+/// successor has those of the module that it replaces.
+using Arities = std::map<char32_t, std::set<std::size_t>>;
+
+/// The symbol of a rule; none where it is not one symbol.
+std::optional<char32_t> symbol_of(const SysRule& rule, const ParseContext& context) {
+    Diagnostics ignored;
+    const ParseContext quiet{context.sources, context.names, ignored, context.load};
+    std::optional<char32_t> symbol;
+    read_letter_modules(rule.symbol, quiet,
+                        [&](const LetterModule& module) { symbol = module.character; });
+    return symbol;
+}
+
+Arities find_arities(const SysFile& file, const ParseContext& context) {
+    Diagnostics ignored; // writing reports mistakes
+    const ParseContext quiet{context.sources, context.names, ignored, context.load};
+    Arities arities;
+    const auto add = [&](SourceSpan text, std::optional<char32_t> replaced) {
+        read_letter_modules(text, quiet, [&](const LetterModule& module) {
+            if (has_arguments(module) || module.character != replaced) {
+                arities[module.character].insert(count_parameters(module, quiet));
+            }
+        });
+    };
+    add(*file.axiom, std::nullopt);
+    for (const SysRule& rule : file.rules) {
+        add(rule.replacement, symbol_of(rule, context));
+    }
+    return arities;
 }
 
 /// Compares the stated number of rules with those of the file.
@@ -131,15 +199,18 @@ void check_count(const SysFile& file, const ParseContext& context) {
     }
 }
 
+/// Writes a rule for its symbol with so many parameters.
 void write_rule(const SysRule& rule,
-                std::size_t number,
+                const std::string& name,
+                std::size_t parameters,
                 bool certain,
                 const ParseContext& context,
                 Translation& translation) {
     const SourceSpan whole = join(rule.symbol, rule.probability);
     int modules = 0;
     SourceSpan second;
-    translation.put("#r" + std::to_string(number) + " : ", whole);
+    Replaced replaced{0, parameters};
+    translation.put("#" + name + " : ", whole);
     read_letter_modules(rule.symbol, context, [&](const LetterModule& module) {
         second = ++modules == 2 ? module.span : second;
         if (module.arguments.begin != module.arguments.end) {
@@ -147,6 +218,8 @@ void write_rule(const SysRule& rule,
                                     "the symbol that a rule replaces has no parameters");
         }
         write_letter(module, context, translation);
+        translation.put(formals(parameters), module.span);
+        replaced.character = module.character;
     });
     if (modules > 1) {
         context.diagnostics.add(DiagnosticCode::ForeignSyntax, second,
@@ -165,8 +238,23 @@ void write_rule(const SysRule& rule,
         translation.copy(rule.probability, context.sources);
     }
     translation.put(" : ", rule.replacement);
-    write_modules(rule.replacement, context, translation);
+    write_modules(rule.replacement, replaced, context, translation);
     translation.put(";\n", {whole.file, whole.end, whole.end});
+}
+
+/// Notes that a rule without parameters is read for its symbol with parameters.
+void note_reading(const SysRule& rule, std::size_t parameters, const ParseContext& context) {
+    const std::string symbol(context.sources.text(rule.symbol));
+    Diagnostic note =
+        make_diagnostic(DiagnosticCode::ForeignQuirk, rule.symbol,
+                        "`" + symbol + "` with " + std::to_string(parameters) +
+                            (parameters == 1 ? " parameter" : " parameters") +
+                            " is replaced too: the format does not say whether a rule meets it");
+    note.severity = Severity::Note;
+    note.help.push_back("each `" + symbol +
+                        "` without parameters in its successor keeps those of "
+                        "the module that it replaces");
+    context.diagnostics.add(std::move(note));
 }
 
 } // namespace
@@ -188,19 +276,33 @@ void translate_sys(const DialectRow& row, const ParseContext& context, Translati
         return;
     }
     translation.put("#set turtle " + std::string(row.turtle) + ";\n#set names letters;\n\n#w : ");
-    write_modules(*file.axiom, context, translation);
+    write_modules(*file.axiom, {}, context, translation);
     translation.put(";\n\n");
     std::map<std::string_view, std::size_t> alternatives;
     for (const SysRule& rule : file.rules) {
         ++alternatives[context.sources.text(rule.symbol)];
     }
+    const Arities arities = find_arities(file, context);
+    std::set<std::pair<char32_t, std::size_t>> noted;
     for (std::size_t i = 0; i < file.rules.size(); ++i) {
         const SysRule& rule = file.rules[i];
         const std::string_view probability = context.sources.text(rule.probability);
         const bool certain = alternatives[context.sources.text(rule.symbol)] == 1 &&
                              literal_length(probability) == probability.size() &&
                              read_literal(probability).value == 1.0F;
-        write_rule(rule, i + 1, certain, context, translation);
+        const std::optional<char32_t> symbol = symbol_of(rule, context);
+        const auto found = symbol ? arities.find(*symbol) : arities.end();
+        const std::set<std::size_t> counts =
+            found == arities.end() ? std::set<std::size_t>{0} : found->second;
+        const std::string name = "r" + std::to_string(i + 1);
+        for (const std::size_t count : counts) {
+            const bool is_first = count == *counts.begin();
+            write_rule(rule, is_first ? name : name + "_" + std::to_string(count), count, certain,
+                       context, translation);
+            if (count != 0 && noted.insert({*symbol, count}).second) {
+                note_reading(rule, count, context);
+            }
+        }
     }
 }
 

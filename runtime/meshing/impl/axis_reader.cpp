@@ -177,7 +177,8 @@ bool AxisReader::read(Run& run) {
             std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
         leave_out_joints(joints_, spare_, tolerance);
     }
-    if (options_.bark_noise > 0.0F) {
+    const bool has_relief = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
+    if (has_relief) {
         subdivide();
     }
     if (counts_) {
@@ -186,7 +187,7 @@ bool AxisReader::read(Run& run) {
             open ? std::min(joints_.front().radius, hidden_) : joints_.front().radius;
         run.radii = radii_;
     }
-    if (!rings_final_ || counts_ || options_.level > 0 || options_.bark_noise > 0.0F) {
+    if (!rings_final_ || counts_ || options_.level > 0 || has_relief) {
         set_rings();
     }
     run.joints = joints_;

@@ -23,7 +23,29 @@ constexpr float kStraight = 0.5F;
 constexpr float kFacing = 0.35F;
 // Min length of a child as a multiple of its way out of the joint.
 constexpr float kOutside = 1.25F;
+// Min size of the opening of a child, relative to its cross-section: smoothing hides a branch that
+// narrows in its opening; an unsmoothed box does not narrow.
+constexpr float kSmoothedOpening = 0.4F;
+constexpr float kExactOpening = 0.98F;
+// A flat end that is smoothed: inner square of its face, and distance of the last ring before it, in
+// half sides.
+constexpr float kRim = 0.72F;
+constexpr float kBevel = 0.28F;
+// Least half side with a rim, as a part of the distance from the origin.
+constexpr float kMinRim = 2e-4F;
+// A parent with branches that are cut off ends that far behind its tip, and they begin that far
+// before it, in half sides: by less, so that a thick branch does not look out on the other side.
+constexpr float kParentOverlap = 0.6F;
+constexpr float kBranchOverlap = 0.1F;
+// Difference of widths, as a part, from which an unsmoothed box has a step.
+constexpr float kStep = 0.01F;
+// Least step that floats can represent, as a part of the distance from the origin.
+constexpr float kMinStep = 4e-6F;
+// Cosine of the bend and difference of widths up to which a child goes on from the top of a joint.
+constexpr float kContinues = 0.97F;
+constexpr float kSameWidth = 0.15F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
+constexpr std::size_t kTop = 4;
 
 /// Whether the segment is large enough for the resolution of floats at its place.
 bool is_drawn(const Segment& segment) {
@@ -39,12 +61,14 @@ bool is_drawn(const Segment& segment) {
 /// Makes the boxes of all segments, parents first.
 class BoxMesher {
 public:
-    BoxMesher(const Skeleton& skeleton, float width) : skeleton_(skeleton), width_(width) {}
+    BoxMesher(const Skeleton& skeleton, const BoxShape& shape)
+        : skeleton_(skeleton), shape_(shape) {}
 
     PolygonMesh make() {
         find_children();
         const auto count = static_cast<std::uint32_t>(skeleton_.segments.size());
         socket_of_.assign(count, kNoSegment);
+        closed_.assign(count, false);
         for (std::uint32_t i = 0; i < count; ++i) {
             if (drawn_[i]) {
                 draw(i);
@@ -96,8 +120,8 @@ private:
     /// Half sides of the box of a segment.
     [[nodiscard]] Widths widths(const Segment& segment) const {
         const float min_radius = kMinTaper * std::max(segment.base_radius, segment.tip_radius);
-        return {width_ * std::max(segment.base_radius, min_radius),
-                width_ * std::max(segment.tip_radius, min_radius)};
+        return {shape_.width * std::max(segment.base_radius, min_radius),
+                shape_.width * std::max(segment.tip_radius, min_radius)};
     }
 
     void assign_socket(std::uint32_t segment, const BoxSocket& socket) {
@@ -114,20 +138,37 @@ private:
         // Length of the segment that is covered so far.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {
-            writer_.begin_root(w.base);
-            if (length > 3.0F * w.base) {
-                writer_.add_ring(w.base, along, w.base); // keeps the end from shrinking
+            const bool is_cut = own.cut || closed_[segment];
+            const bool rimmed = has_rim(w.base, own);
+            writer_.begin_root(is_cut ? -kBranchOverlap * w.base : 0.0F, w.base,
+                               rimmed ? kRim : 1.0F);
+            if (rimmed) {
+                reach = std::min(kBevel * w.base, 0.25F * length);
+                writer_.add_ring(reach, along, w.base);
+            } else if (is_cut) {
+                writer_.add_ring(0.0F, along, w.base);
             }
         } else {
             const BoxSocket& socket = sockets_[socket_of_[segment]];
             writer_.begin_at(socket);
             reach = socket.reach;
-            if (reach > 0.0F) {
-                reach += std::min(0.8F * w.base, 0.4F * (length - reach));
-                writer_.add_ring(reach, socket.normal + 2.0F * along, w.base);
+            if (reach > 0.0F && !socket.continues) {
+                const BoxOpening opening = writer_.add_opening(along, w.base);
+                reach = std::min(opening.reach, 0.8F * length);
+                if (opening.size < kExactOpening || opening.moved) {
+                    reach += std::min(0.8F * w.base, 0.4F * (length - reach));
+                    writer_.add_ring(reach, along, w.base);
+                }
             }
         }
         finish(segment, w.tip, reach);
+    }
+
+    /// Whether an end of this half side has a rim: it is smoothed, and floats can represent it.
+    [[nodiscard]] bool has_rim(float half, const Segment& segment) const {
+        const glm::vec3 end = tip(segment);
+        return shape_.smoothed &&
+               half > kMinRim * std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)});
     }
 
     void finish(std::uint32_t segment, float half, float reach) {
@@ -135,18 +176,32 @@ private:
         const glm::vec3 along = heading(own.frame);
         const std::span<const std::uint32_t> all = children(segment);
         if (all.empty()) {
-            if (own.length - reach > 3.0F * half) {
-                writer_.add_ring(own.length - half, along, half);
+            const float end = own.length + (own.forked ? kParentOverlap * half : 0.0F);
+            const float bevel = std::min(kBevel * half, 0.25F * (own.length - reach));
+            const bool rimmed = has_rim(half, own);
+            if (own.forked) {
+                writer_.add_ring(own.length, along, half);
+            } else if (rimmed) {
+                writer_.add_ring(end - bevel, along, half);
             }
-            writer_.add_ring(own.length, along, half);
-            writer_.close();
+            writer_.add_ring(end, along, half);
+            writer_.close(rimmed ? kRim : 1.0F);
             return;
         }
         if (all.size() == 1) {
             const Segment& child = skeleton_.segments[all[0]];
             const glm::vec3 ahead = heading(child.frame);
             if (glm::dot(along, ahead) > kStraight) {
-                writer_.add_ring(own.length, along + ahead, 0.5F * (half + widths(child).base));
+                const float next = widths(child).base;
+                const glm::vec3 end = tip(own);
+                const float far = std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)});
+                const bool has_step =
+                    !shape_.smoothed &&
+                    std::abs(half - next) > std::max(kStep * std::max(half, next), kMinStep * far);
+                writer_.add_ring(own.length, along + ahead, has_step ? half : 0.5F * (half + next));
+                if (has_step) {
+                    writer_.add_ring(own.length, along + ahead, next);
+                }
                 assign_socket(all[0], writer_.end_socket());
                 return;
             }
@@ -161,17 +216,21 @@ private:
         const float height = std::min(half, 0.5F * (own.length - reach));
         writer_.add_ring(own.length - height, along, half);
         const BoxJoint joint = writer_.add_joint(own.length + height, along, half);
-        const glm::vec3 extent(half, half, height);
-        std::array<std::vector<std::uint32_t>, kSides> wanted;
-        for (const std::uint32_t child : children(segment)) {
-            const Segment& grown = skeleton_.segments[child];
-            const glm::vec3 ahead = heading(grown.frame);
-            if (grown.length > kOutside * way_out(joint, extent, ahead)) {
-                choose_side(joint, ahead, child, wanted);
+        // By direction, so that a child that continues its parent has the top.
+        const std::span<const std::uint32_t> all = children(segment);
+        std::vector<std::uint32_t> order(all.begin(), all.end());
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return glm::dot(along, heading(skeleton_.segments[a].frame)) >
+                   glm::dot(along, heading(skeleton_.segments[b].frame));
+        });
+        std::array<std::vector<std::uint32_t>, kSides> taken;
+        for (const std::uint32_t child : order) {
+            if (!choose_side(joint, {half, height}, child, taken)) {
+                closed_[child] = true;
             }
         }
         for (std::size_t side = 0; side < kSides; ++side) {
-            const std::vector<std::uint32_t>& here = wanted[side];
+            const std::vector<std::uint32_t>& here = taken[side];
             std::vector<glm::vec2> places;
             for (const std::uint32_t child : here) {
                 const glm::vec3 ahead = heading(skeleton_.segments[child].frame);
@@ -182,47 +241,124 @@ private:
             for (std::size_t i = 0; i < here.size(); ++i) {
                 BoxSocket socket = sockets[i];
                 const glm::vec3 ahead = heading(skeleton_.segments[here[i]].frame);
-                socket.reach = way_out(joint, extent, ahead);
+                socket.reach = way_out(joint.sides[side], side, {half, height}, ahead);
+                socket.continues =
+                    here.size() == 1 && continues(joint.sides[side], side, half, here[i]);
                 assign_socket(here[i], socket);
             }
         }
     }
 
-    /// Length of a ray from the middle of a joint's box to its surface.
-    static float
-    way_out(const BoxJoint& joint, const glm::vec3& extent, const glm::vec3& direction) {
-        const glm::vec3 local(glm::dot(direction, joint.sides[3].normal),
-                              glm::dot(direction, joint.sides[0].normal),
-                              glm::dot(direction, joint.sides[4].normal));
-        float out = extent.x + extent.y + extent.z;
-        for (int i = 0; i < 3; ++i) {
-            const float part = std::abs(local[i]);
-            out = part * out > extent[i] ? extent[i] / part : out;
-        }
-        return out;
+    /// Half side of a joint across its parent, and along it.
+    struct JointSize {
+        float half;
+        float height;
+    };
+
+    /// Distance from the middle of a joint to the plane of a side, along a direction.
+    static float way_out(const BoxSocket& side,
+                         std::size_t number,
+                         const JointSize& size,
+                         const glm::vec3& direction) {
+        return (number == kTop ? size.height : size.half) / glm::dot(direction, side.normal);
     }
 
-    static void choose_side(const BoxJoint& joint,
-                            const glm::vec3& direction,
-                            std::uint32_t child,
-                            std::array<std::vector<std::uint32_t>, kSides>& wanted) {
-        float best = kFacing;
-        std::vector<std::uint32_t>* side = nullptr;
-        for (std::size_t i = 0; i < kSides; ++i) {
-            const float facing = glm::dot(direction, joint.sides[i].normal);
-            if (facing > best && wanted[i].size() < kMaxOnSide) {
-                best = facing;
-                side = &wanted[i];
+    /// Whether a child goes on from the top of a joint, straight and as wide.
+    [[nodiscard]] bool
+    continues(const BoxSocket& side, std::size_t number, float half, std::uint32_t child) const {
+        const Segment& grown = skeleton_.segments[child];
+        const float difference = std::abs(widths(grown).base - half);
+        return number == kTop && glm::dot(heading(grown.frame), side.normal) > kContinues &&
+               difference < (shape_.smoothed ? kSameWidth : kStep) * half &&
+               grown.length > 2.0F * half;
+    }
+
+    /// Whether the openings of the children `here` have room on a side, each in its tile, and end
+    /// before the child does.
+    [[nodiscard]] bool has_room(const BoxSocket& side,
+                                std::size_t number,
+                                const JointSize& size,
+                                std::span<const std::uint32_t> here) const {
+        if (here.size() == 1 && continues(side, number, size.half, here[0])) {
+            return true;
+        }
+        const glm::vec2 halves(size.half, number == kTop ? size.half : size.height);
+        for (const std::uint32_t child : here) {
+            const Segment& grown = skeleton_.segments[child];
+            const glm::vec3 on = heading(grown.frame);
+            const float half = widths(grown).base;
+            const float facing = glm::dot(on, side.normal);
+            const BoxSocket axes = axes_across(side, on);
+            glm::vec2 extent(0.0F);
+            float rise = 0.0F;
+            for (const glm::vec3& axis : {axes.right, axes.up}) {
+                const float part = glm::dot(axis, side.normal);
+                const glm::vec3 cut = axis - on * (part / facing);
+                extent.x += half * std::abs(glm::dot(cut, side.right));
+                extent.y += half * std::abs(glm::dot(cut, side.up));
+                rise += half * std::abs(part);
+            }
+            glm::vec2 room = kRoomOfOpening * halves;
+            if (here.size() > 2) { // a quarter of the side
+                room *= 0.5F * kInnerPart;
+            } else if (here.size() == 2) { // a half, as divide() cuts it
+                const glm::vec3 apart = heading(skeleton_.segments[here[0]].frame) -
+                                        heading(skeleton_.segments[here[1]].frame);
+                const bool beside =
+                    std::abs(glm::dot(apart, side.right)) >= std::abs(glm::dot(apart, side.up));
+                room *= kInnerPart;
+                (beside ? room.x : room.y) *= 0.5F;
+            }
+            const float fits = std::min({room.x / extent.x, room.y / extent.y, 1.0F});
+            const float out = way_out(side, number, size, on);
+            // An exact box leaves the side around its axis.
+            const glm::vec2 centre(out * std::abs(glm::dot(on, side.right)),
+                                   out * std::abs(glm::dot(on, side.up)));
+            if (!shape_.smoothed &&
+                (here.size() > 1 || centre.x + extent.x > room.x || centre.y + extent.y > room.y)) {
+                return false;
+            }
+            if (fits < (shape_.smoothed ? kSmoothedOpening : kExactOpening) ||
+                grown.length < kOutside * (out + fits * rise / facing)) {
+                return false;
             }
         }
-        if (side != nullptr) {
-            side->push_back(child);
+        return true;
+    }
+
+    /// Gives a child the side that it faces most among those with room; false if there is none.
+    bool choose_side(const BoxJoint& joint,
+                     const JointSize& size,
+                     std::uint32_t child,
+                     std::array<std::vector<std::uint32_t>, kSides>& taken) const {
+        const glm::vec3 on = heading(skeleton_.segments[child].frame);
+        std::array<bool, kSides> tried{};
+        while (true) {
+            float best = kFacing;
+            std::size_t side = kSides;
+            for (std::size_t i = 0; i < kSides; ++i) {
+                const float facing = glm::dot(on, joint.sides[i].normal);
+                if (!tried[i] && facing > best && taken[i].size() < kMaxOnSide) {
+                    best = facing;
+                    side = i;
+                }
+            }
+            if (side == kSides) {
+                return false;
+            }
+            taken[side].push_back(child);
+            if (has_room(joint.sides[side], side, size, taken[side])) {
+                return true;
+            }
+            taken[side].pop_back();
+            tried[side] = true;
         }
     }
 
     const Skeleton& skeleton_;
-    float width_;
+    const BoxShape& shape_;
     std::vector<bool> drawn_;
+    std::vector<bool> closed_; // no side of the parent's joint has room
     std::vector<std::uint32_t> first_child_;
     std::vector<std::uint32_t> children_;
     std::vector<std::uint32_t> socket_of_; // in sockets_
@@ -232,8 +368,8 @@ private:
 
 } // namespace
 
-PolygonMesh make_boxes(const Skeleton& skeleton, float width) {
-    return BoxMesher(skeleton, width).make();
+PolygonMesh make_boxes(const Skeleton& skeleton, const BoxShape& shape) {
+    return BoxMesher(skeleton, shape).make();
 }
 
 } // namespace lsys

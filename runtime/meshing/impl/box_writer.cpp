@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -17,8 +18,9 @@ namespace {
 constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 // u goes there and back around a branch, without a seam.
 constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
-// Part of a divided side that its tiles take.
-constexpr float kInner = 0.85F;
+
+// Distance of an opening from the axis of its branch, in half sides of the socket, that shows.
+constexpr float kMoved = 0.01F;
 
 /// `v`, turned the shortest way that turns unit vector `from` into unit vector `to`.
 glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
@@ -39,9 +41,16 @@ void set_axes(BoxSocket& socket, const glm::vec3& right, const glm::vec3& normal
 
 } // namespace
 
-std::uint32_t BoxWriter::add_vertex(const glm::vec3& position, float u, float v) {
+BoxSocket axes_across(const BoxSocket& socket, const glm::vec3& direction) {
+    BoxSocket axes;
+    set_axes(axes, transported(socket.right, socket.normal, direction), direction);
+    return axes;
+}
+
+std::uint32_t BoxWriter::add_vertex(const glm::vec3& position, float u, float v, float radius) {
     mesh_.positions.push_back(position);
     mesh_.texture_coordinates.emplace_back(u, v);
+    mesh_.radii.push_back(radius);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
 }
 
@@ -67,21 +76,28 @@ void BoxWriter::place_ring(float distance,
     const glm::vec3 centre = segment_->base + distance * heading(segment_->frame);
     ring.between = BoxSocket{}.between;
     ring.reach = 0.0F;
+    ring.continues = false;
     ring.v = end_.v - (distance - distance_) * v_per_length_;
     for (std::size_t i = 0; i < 4; ++i) {
         ring.corners[i] =
             add_vertex(centre + half * (kCorners[i].x * ring.right + kCorners[i].y * ring.up),
-                       kAround[i], ring.v);
+                       kAround[i], ring.v, half);
     }
     ring.normal = direction;
 }
 
-void BoxWriter::begin_root(float half) {
+void BoxWriter::begin_root(float distance, float half, float rim) {
     end_ = {};
+    distance_ = distance;
     const glm::vec3 along = heading(segment_->frame);
     set_axes(end_, segment_->frame * glm::vec3(1.0F, 0.0F, 0.0F), along);
-    place_ring(0.0F, along, half, end_);
+    place_ring(distance, along, rim * half, end_);
     add_face(std::array{end_.corners[3], end_.corners[2], end_.corners[1], end_.corners[0]});
+    if (rim < 1.0F) {
+        fade_radii();
+        add_ring(distance, along, half);
+        fade_radii();
+    }
 }
 
 void BoxWriter::begin_at(const BoxSocket& socket) {
@@ -97,6 +113,59 @@ void BoxWriter::add_ring(float distance, const glm::vec3& direction, float half)
     join(end_, ring);
     end_ = ring;
     distance_ = distance;
+}
+
+/// Makes grooves fade towards a flat end.
+void BoxWriter::fade_radii() {
+    for (const std::uint32_t corner : end_.corners) {
+        mesh_.radii[corner] = 0.0F;
+    }
+}
+
+BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
+    // The socket is a rectangle: places in it are parts of its half sides.
+    const auto corner = [&](std::size_t i) { return mesh_.positions[end_.corners[i]]; };
+    const glm::vec3 middle = 0.25F * (corner(0) + corner(1) + corner(2) + corner(3));
+    const glm::vec3 right = 0.25F * (corner(0) - corner(1) - corner(2) + corner(3));
+    const glm::vec3 up = 0.25F * (corner(0) + corner(1) - corner(2) - corner(3));
+    const glm::vec3 normal = glm::normalize(glm::cross(right, up));
+    BoxSocket ring = axes_across(end_, along);
+    std::array<glm::vec2, 4> places;
+    glm::vec2 low(1e30F);
+    glm::vec2 high(-1e30F);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::vec3 at =
+            segment_->base + half * (kCorners[i].x * ring.right + kCorners[i].y * ring.up);
+        const glm::vec3 cut =
+            at + along * (glm::dot(middle - at, normal) / glm::dot(along, normal)) - middle;
+        places[i] = {glm::dot(cut, right) / glm::dot(right, right),
+                     glm::dot(cut, up) / glm::dot(up, up)};
+        low = glm::min(low, places[i]);
+        high = glm::max(high, places[i]);
+    }
+    BoxOpening opening;
+    for (int axis = 0; axis < 2; ++axis) {
+        const float extent = 0.5F * (high[axis] - low[axis]);
+        const float size = extent > kRoomOfOpening ? kRoomOfOpening / extent : 1.0F;
+        const float room = std::max(kRoomOfOpening - size * extent, 0.0F);
+        const float from = 0.5F * (low[axis] + high[axis]);
+        const float to = std::clamp(from, -room, room);
+        opening.moved = opening.moved || std::abs(to - from) > kMoved;
+        for (glm::vec2& place : places) {
+            place[axis] = to + size * (place[axis] - from);
+        }
+        opening.size = std::min(opening.size, size);
+    }
+    ring.v = end_.v;
+    ring.reach = 0.0F;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::vec3 at = middle + places[i].x * right + places[i].y * up;
+        opening.reach = std::max(opening.reach, glm::dot(at - segment_->base, along));
+        ring.corners[i] = add_vertex(at, kAround[i], ring.v, half);
+    }
+    join(end_, ring);
+    end_ = ring;
+    return opening;
 }
 
 /// Adds the faces between two rings, each from a corner that sees all of it.
@@ -130,7 +199,24 @@ BoxJoint BoxWriter::add_joint(float distance, const glm::vec3& direction, float 
     return joint;
 }
 
-void BoxWriter::close() {
+void BoxWriter::close(float rim) {
+    if (rim < 1.0F) {
+        fade_radii();
+        BoxSocket inner = end_;
+        inner.between = BoxSocket{}.between;
+        std::array<glm::vec3, 4> corners;
+        glm::vec3 middle(0.0F);
+        for (std::size_t i = 0; i < 4; ++i) {
+            corners[i] = mesh_.positions[end_.corners[i]];
+            middle += 0.25F * corners[i];
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            inner.corners[i] =
+                add_vertex(middle + rim * (corners[i] - middle), kAround[i], end_.v, 0.0F);
+        }
+        join(end_, inner);
+        end_ = inner;
+    }
     add_face(end_.corners);
 }
 
@@ -170,17 +256,20 @@ std::uint32_t BoxWriter::tile_corner(const BoxSocket& side, const glm::vec2& pla
     if (found != tile_corners_.end()) {
         return tile_vertices_[static_cast<std::size_t>(found - tile_corners_.begin())];
     }
-    const glm::vec2 at = 0.5F + 0.5F * kInner * place;
+    const glm::vec2 at = 0.5F + 0.5F * kInnerPart * place;
     const std::array<float, 4> weights{at.x * at.y, (1.0F - at.x) * at.y,
                                        (1.0F - at.x) * (1.0F - at.y), at.x * (1.0F - at.y)};
     glm::vec3 position(0.0F);
     glm::vec2 texture_coordinate(0.0F);
+    float radius = 0.0F;
     for (std::size_t i = 0; i < 4; ++i) {
         position += weights[i] * mesh_.positions[side.corners[i]];
         texture_coordinate += weights[i] * mesh_.texture_coordinates[side.corners[i]];
+        radius += weights[i] * mesh_.radii[side.corners[i]];
     }
     tile_corners_.push_back(place);
-    tile_vertices_.push_back(add_vertex(position, texture_coordinate.x, texture_coordinate.y));
+    tile_vertices_.push_back(
+        add_vertex(position, texture_coordinate.x, texture_coordinate.y, radius));
     return tile_vertices_.back();
 }
 

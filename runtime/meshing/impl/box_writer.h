@@ -23,8 +23,9 @@ struct BoxSocket {
     glm::vec3 right{};
     glm::vec3 up{};
     glm::vec3 normal{};
-    float reach = 0.0F; // from the base of the segment to the square
-    float v = 0.0F;     // texture coordinate there
+    float reach = 0.0F;     // from the base of the segment to the square
+    bool continues = false; // the segment is as wide as the square and needs no opening
+    float v = 0.0F;         // texture coordinate there
 };
 
 /// Sides 0 to 3 go around, side 4 is the top.
@@ -32,23 +33,42 @@ struct BoxJoint {
     std::array<BoxSocket, 5> sides;
 };
 
+/// A ring in the side of a joint.
+struct BoxOpening {
+    float reach = 0.0F; // from the base of the segment to its farthest corner
+    float size = 1.0F;  // relative to the cross-section of the segment, 1 where there is room
+    bool moved = false; // away from the axis of the segment
+};
+/// Part of a side of a joint, or of one of its tiles, that an opening may take.
+inline constexpr float kRoomOfOpening = 0.94F;
+/// Part of a divided side that its tiles take.
+inline constexpr float kInnerPart = 0.85F;
+
+/// The socket's axes turned the shortest way across the unit vector `direction`.
+[[nodiscard]] BoxSocket axes_across(const BoxSocket& socket, const glm::vec3& direction);
+
 class BoxWriter {
 public:
     /// Begins `segment`, number `number`; `half`: half side of its box at the base.
     void begin_segment(const Segment& segment, std::uint32_t number, float half);
-    void begin_root(float half);
+    /// Begins at a distance from the base. `rim` below 1 keeps the end flat when it is smoothed:
+    /// its face has an inner square of this size.
+    void begin_root(float distance, float half, float rim);
     void begin_at(const BoxSocket& socket);
     /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
     /// ring or socket before it.
     void add_ring(float distance, const glm::vec3& direction, float half);
-    /// Adds a ring without faces to the ring before: the four sides between them and the ring
-    /// itself become the sides of the joint.
+    /// Adds a ring in the plane of the socket that was begun at: the cross-section of a branch along
+    /// unit vector `along`, cut by that plane, made smaller where the socket has no room for it.
+    BoxOpening add_opening(const glm::vec3& along, float half);
+    /// Adds a ring that is not joined yet: the sides between are sides of a joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
     /// The socket of the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
-    void close();
-    /// Divides a side into a socket for each of `places`, the directions in (right, up) of the
-    /// segments that grow there; valid until the next call. Closes the side if there are none.
+    /// Closes the end; `rim` as for begin_root().
+    void close(float rim);
+    /// Divides a side for segments that grow towards these places in (right, up); a socket for
+    /// each, valid until the next call. Without any, closes the side.
     [[nodiscard]] std::span<const BoxSocket> divide(const BoxSocket& side,
                                                     std::span<const glm::vec2> places);
 
@@ -61,10 +81,11 @@ private:
         std::size_t first = 0; // in tile_order_
         std::size_t count = 0;
     };
-    std::uint32_t add_vertex(const glm::vec3& position, float u, float v);
+    std::uint32_t add_vertex(const glm::vec3& position, float u, float v, float radius);
     void add_face(std::span<const std::uint32_t> corners);
     void place_ring(float distance, const glm::vec3& direction, float half, BoxSocket& ring);
     void join(const BoxSocket& from, const BoxSocket& to);
+    void fade_radii();
     void cut_tiles(const Tile& tile, std::span<const glm::vec2> places);
     std::uint32_t tile_corner(const BoxSocket& side, const glm::vec2& place);
     void add_border(const BoxSocket& side, std::size_t edge);

@@ -4,6 +4,7 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/box_joints.h"
 #include "runtime/meshing/impl/catmull_clark.h"
+#include "runtime/meshing/impl/grooves.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -73,8 +75,13 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     return largest > 0.0F ? glm::normalize(v / largest) : otherwise;
 }
 
-/// Normal, tangent along rising u and colour of a vertex, from the faces around it.
-void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshBlock& block) {
+/// Writes a vertex of the surface as vertex `to` of the block: normal, tangent along rising u and
+/// colour from the faces around it, or from the face `only`.
+void write_vertex(const CatmullClark& surface,
+                  std::uint32_t vertex,
+                  std::optional<std::uint32_t> only,
+                  std::uint64_t to,
+                  const MeshBlock& block) {
     const PolygonMesh& mesh = surface.mesh();
     glm::vec3 area(0.0F);
     glm::vec3 tangent(0.0F);
@@ -84,13 +91,16 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     float tangents = 0.0F; // the sum of sizes
     float mirrored = 0.0F;
     surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
-        const std::uint32_t begin = face == 0 ? 0 : mesh.face_ends[face - 1];
-        area += face_area(mesh, begin, mesh.face_ends[face]);
-        lowest = std::min(lowest, face);
         if (!block.segments.empty()) {
             segments[0] = std::min(segments[0], mesh.segments[face]);
             segments[1] = std::max(segments[1], mesh.segments[face]);
         }
+        if (only && *only != face) {
+            return;
+        }
+        const std::uint32_t begin = face == 0 ? 0 : mesh.face_ends[face - 1];
+        area += face_area(mesh, begin, mesh.face_ends[face]);
+        lowest = std::min(lowest, face);
         if (block.tangents.empty()) {
             return;
         }
@@ -115,22 +125,32 @@ void write_vertex(const CatmullClark& surface, std::uint32_t vertex, const MeshB
     const glm::vec3 any = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 fallback =
         unit_or(across, glm::normalize(any - glm::dot(any, normal) * normal));
-    block.set(vertex,
-              {.position = mesh.positions[vertex],
-               .normal = normal,
-               .texture_coordinate = mesh.texture_coordinates[vertex],
-               // v goes down: pictures that are not mirrored turn clockwise.
-               .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
-               .palette = mesh.colours[lowest]});
+    block.set(to, {.position = mesh.positions[vertex],
+                   .normal = normal,
+                   .texture_coordinate = mesh.texture_coordinates[vertex],
+                   // v goes down: pictures that are not mirrored turn clockwise.
+                   .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
+                   .palette = mesh.colours[lowest]});
     if (!block.segments.empty()) {
-        block.segments[vertex] = segments;
+        block.segments[to] = segments;
     }
 }
 
-/// Writes a face as a fan, a quad split along its shorter diagonal, to the front of `room`.
+/// Whether a triangle of a quad, cut by the diagonal from its corner `first`, faces away from it.
+bool folds(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t first) {
+    const auto at = [&](std::uint32_t i) { return mesh.positions[mesh.corners[begin + i % 4]]; };
+    const glm::vec3 area = face_area(mesh, begin, begin + 4);
+    const glm::vec3 across = at(first + 2) - at(first);
+    return glm::dot(glm::cross(at(first + 1) - at(first), across), area) < 0.0F ||
+           glm::dot(glm::cross(across, at(first + 3) - at(first)), area) < 0.0F;
+}
+
+/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
+/// `flat`: vertices have the numbers of corners.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,
+                bool flat,
                 std::uint32_t first_vertex,
                 std::span<std::uint32_t>& room) {
     const auto corner = [&](std::uint32_t i) { return mesh.corners[begin + i % (end - begin)]; };
@@ -138,43 +158,105 @@ void write_face(const PolygonMesh& mesh,
         const glm::vec3 way = mesh.positions[corner(j)] - mesh.positions[corner(i)];
         return glm::dot(way, way);
     };
-    const std::uint32_t first = end - begin == 4 && apart(1, 3) < apart(0, 2) ? 1 : 0;
+    std::uint32_t first = end - begin == 4 && apart(1, 3) < apart(0, 2) ? 1 : 0;
+    if (end - begin == 4 && folds(mesh, begin, first) && !folds(mesh, begin, 1 - first)) {
+        first = 1 - first;
+    }
     for (std::uint32_t i = 1; i + 1 < end - begin; ++i) {
         for (const std::uint32_t at : {first, first + i, first + i + 1}) {
-            room.front() = first_vertex + corner(at);
+            room.front() = first_vertex + (flat ? begin + at % (end - begin) : corner(at));
             room = room.subspan(1);
         }
     }
 }
 
-void write(const CatmullClark& surface, Parts& parts, Workers& workers, const MeshBlock& block) {
+void write(const CatmullClark& surface,
+           Parts& parts,
+           Workers& workers,
+           bool flat,
+           const MeshBlock& block) {
     const PolygonMesh& mesh = surface.mesh();
-    const std::uint64_t vertices = mesh.positions.size();
-    workers.for_each((vertices + kVerticesPerPiece - 1) / kVerticesPerPiece, [&](std::uint64_t i) {
-        const std::uint64_t end = std::min(vertices, (i + 1) * kVerticesPerPiece);
-        for (std::uint64_t vertex = i * kVerticesPerPiece; vertex < end; ++vertex) {
-            write_vertex(surface, static_cast<std::uint32_t>(vertex), block);
+    const std::uint64_t count = flat ? mesh.face_ends.size() : mesh.positions.size();
+    workers.for_each((count + kVerticesPerPiece - 1) / kVerticesPerPiece, [&](std::uint64_t i) {
+        const std::uint64_t end = std::min(count, (i + 1) * kVerticesPerPiece);
+        for (auto at = static_cast<std::uint32_t>(i * kVerticesPerPiece); at < end; ++at) {
+            if (!flat) {
+                write_vertex(surface, at, std::nullopt, at, block);
+                continue;
+            }
+            for (std::uint32_t corner = at == 0 ? 0 : mesh.face_ends[at - 1];
+                 corner < mesh.face_ends[at]; ++corner) {
+                write_vertex(surface, mesh.corners[corner], at, corner, block);
+            }
         }
     });
     std::uint32_t begin = 0;
     for (std::size_t face = 0; face < mesh.face_ends.size(); ++face) {
         const std::size_t part =
             parts.of_colour.size() == 1 ? 0 : parts.of_colour.find(mesh.colours[face])->second;
-        write_face(mesh, begin, mesh.face_ends[face], block.first_vertex, parts.room[part]);
+        write_face(mesh, begin, mesh.face_ends[face], flat, block.first_vertex, parts.room[part]);
         begin = mesh.face_ends[face];
     }
+}
+
+/// Grooves along the stems, moved in by `depth` of the radius across the smoothed surface. u goes
+/// there and back around a stem, so grooves of both halves mirror each other; their wandering fades
+/// where u turns. `steps`: of smoothing so far, of `wanted`, by which the grooves are counted.
+void carve_grooves(CatmullClark& surface,
+                   float depth,
+                   std::uint32_t steps,
+                   std::uint32_t wanted,
+                   Workers& workers) {
+    constexpr std::uint32_t kMaxSteps = 4; // more refine the same grooves
+    if (wanted < 2) {
+        return;
+    }
+    const std::uint32_t grooves = 1U << (std::min(wanted, kMaxSteps) - 1); // of each half
+    const bool shows = 1U << steps >= grooves; // two vertices per groove
+    constexpr float kCircumference = 1.0F;
+    const Grooves wander(grooves, kCircumference, 0);
+    const PolygonMesh& mesh = surface.mesh();
+    LargeVector<glm::vec3> positions;
+    positions.resize(mesh.positions.size());
+    const std::uint64_t count = positions.size();
+    workers.for_each((count + kVerticesPerPiece - 1) / kVerticesPerPiece, [&](std::uint64_t piece) {
+        const std::uint64_t end = std::min(count, (piece + 1) * kVerticesPerPiece);
+        for (auto i = static_cast<std::uint32_t>(piece * kVerticesPerPiece); i < end; ++i) {
+            glm::vec3 area(0.0F);
+            surface.visit_faces(i, [&](std::uint32_t face, std::uint32_t /*half*/) {
+                area +=
+                    face_area(mesh, face == 0 ? 0 : mesh.face_ends[face - 1], mesh.face_ends[face]);
+            });
+            const glm::vec2& at = mesh.texture_coordinates[i];
+            const float turn =
+                static_cast<float>(grooves) * at.x +
+                4.0F * at.x * (1.0F - at.x) * wander.wandered(-static_cast<double>(at.y));
+            const float value = shows ? groove_depth(turn) : -0.5F;
+            positions[i] = mesh.positions[i] +
+                           (depth * value * mesh.radii[i]) * unit_or(area, glm::vec3(0.0F));
+        }
+    });
+    surface.move_vertices(std::move(positions));
 }
 
 } // namespace
 
 void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
-    const std::uint32_t steps =
-        options.subdivisions > options.level ? options.subdivisions - options.level : 0;
+    const std::uint32_t wanted = options.subdivisions.value_or(kSubdivisions);
+    const std::uint32_t steps = wanted > options.level ? wanted - options.level : 0;
+    // Boxes that are not to be smoothed are flat: each face has vertices of its own.
+    const bool flat = wanted == 0;
     PolygonMesh boxes;
     if (skeleton.segments.size() <= kMaxSegments) {
-        boxes = make_boxes(skeleton, steps > 0 ? kSmoothedWidth : kBoxWidth);
+        const float unsmoothed = skeleton.box_segments ? 1.0F : kBoxWidth;
+        boxes = make_boxes(
+            skeleton, {.width = steps > 0 ? kSmoothedWidth : unsmoothed, .smoothed = steps > 0});
+    }
+    if (options.grooves <= 0.0F) {
+        boxes.radii = {};
     }
     const MeshCounts counts = refined_counts(boxes, steps);
+    const std::uint64_t vertices = flat ? counts.corners : counts.vertices;
     MeshBlock block;
     if (skeleton.segments.size() > kMaxSegments || counts.corners >= kMaxCorners) {
         // Fails on purpose: so many vertices are beyond any limit.
@@ -185,7 +267,7 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
         return;
     }
     Parts parts = find_parts(boxes, steps);
-    if (!builder.reserve_parts(parts.sizes, counts.vertices, block, parts.room)) {
+    if (!builder.reserve_parts(parts.sizes, vertices, block, parts.room)) {
         return;
     }
     Workers workers(options.threads);
@@ -194,7 +276,10 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     for (std::uint32_t i = 0; i < steps; ++i) {
         surface.refine();
     }
-    write(surface, parts, workers, block);
+    if (options.grooves > 0.0F) {
+        carve_grooves(surface, std::min(options.grooves, 0.9F), steps, wanted, workers);
+    }
+    write(surface, parts, workers, flat, block);
 }
 
 } // namespace lsys

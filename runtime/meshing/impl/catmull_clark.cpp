@@ -164,6 +164,9 @@ void CatmullClark::place_vertices(PolygonMesh& to) {
     if (!mesh_.texture_coordinates.empty()) {
         smooth(mesh_.texture_coordinates, to.texture_coordinates);
     }
+    if (!mesh_.radii.empty()) {
+        smooth(mesh_.radii, to.radii);
+    }
 }
 
 void CatmullClark::refine() {

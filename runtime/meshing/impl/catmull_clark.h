@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -21,6 +22,7 @@ namespace lsys {
 struct PolygonMesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec2> texture_coordinates;
+    LargeVector<float> radii;             // of the stem at vertices, smoothed too; may be empty
     LargeVector<std::uint32_t> corners;   // of all faces, one after the other
     LargeVector<std::uint32_t> face_ends; // in corners
     LargeVector<std::uint16_t> colours;   // of faces
@@ -47,6 +49,8 @@ public:
     /// One step. Precondition: fewer than 2^29 corners.
     void refine();
     [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
+    /// Replaces the positions of all vertices.
+    void move_vertices(LargeVector<glm::vec3> positions) { mesh_.positions = std::move(positions); }
 
     /// Calls visit(face, corner) for the faces around a vertex; `corner`: the vertex in the face.
     template <typename Visit>

@@ -1,6 +1,7 @@
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include "runtime/meshing/impl/bark_noise.h"
+#include "runtime/meshing/impl/grooves.h"
 
 #include <glm/geometric.hpp>
 
@@ -24,6 +25,10 @@ constexpr float kBallHeight = 0.62F;
 // Part of the bisector in the first of three tangents of a bend: a third of 90 degrees.
 constexpr float kThird = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // cosine of a bend
+// Grooves of a tube by the sides that its rings have at level 0.
+constexpr std::uint32_t kSidesOfGroove = 4;
+constexpr std::uint32_t kMinGrooves = 3;
+constexpr std::uint32_t kMaxGrooves = 16;
 
 glm::vec3 any_perpendicular(const glm::vec3& unit) {
     const glm::vec3 other =
@@ -88,7 +93,7 @@ TubeWriter::Place TubeWriter::begin(const Run& run) const {
     Place place;
     place.vertex = at_.vertex;
     place.normal = across(run.side, run.joints[0].heading);
-    if (seam_ || options_.bark_noise > 0.0F) {
+    if (seam_ || options_.bark_noise > 0.0F || options_.grooves > 0.0F) {
         place.circumference = mean_circumference(run);
     }
     return place;
@@ -121,13 +126,21 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     const std::span<const Joint> joints = run.joints;
     const std::size_t last = joints.size() - 1;
     std::optional<BarkNoise> noise;
-    if (seam_ || options_.bark_noise > 0.0F) {
+    std::optional<Grooves> grooves;
+    if (seam_ || options_.bark_noise > 0.0F || options_.grooves > 0.0F) {
         v_scale_ = 1.0 / at_.circumference;
+        const auto circumference = static_cast<float>(at_.circumference);
         if (options_.bark_noise > 0.0F) {
-            noise.emplace(static_cast<float>(at_.circumference), run.first_segment);
+            noise.emplace(circumference, run.first_segment);
+        }
+        if (options_.grooves > 0.0F) {
+            const std::uint32_t sides = options_.sides == 0 ? kGrooveSides : options_.sides;
+            grooves.emplace(std::clamp(sides / kSidesOfGroove, kMinGrooves, kMaxGrooves),
+                            circumference, run.first_segment);
         }
     }
     noise_ = noise ? &*noise : nullptr;
+    grooves_ = grooves ? &*grooves : nullptr;
     Ring ring;
     double arc = at_.arc;
     ring.arc = arc;

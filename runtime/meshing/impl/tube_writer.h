@@ -15,6 +15,7 @@
 namespace lsys {
 
 class BarkNoise;
+class Grooves;
 
 /// Vertices of a ring: one more than sides where texture coordinates begin and end.
 [[nodiscard]] inline std::uint32_t columns_of(std::uint32_t sides, const MeshOptions& options) {
@@ -68,9 +69,10 @@ private:
     void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
     void put_textured(const Ring& ring, std::uint64_t first);
-    void put_noise(const Ring& ring, std::uint64_t first);
+    void put_relief(const Ring& ring, std::uint64_t first);
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
     void close(const Run& run, Ring& ring);
+    [[nodiscard]] bool has_relief() const { return noise_ != nullptr || grooves_ != nullptr; }
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;
@@ -80,6 +82,7 @@ private:
     // State of the run being written:
     double v_scale_ = 0.0;
     const BarkNoise* noise_ = nullptr;
+    const Grooves* grooves_ = nullptr;
 };
 
 } // namespace lsys

@@ -89,6 +89,12 @@ Result<void> check_species(const PlacementOptions& options) {
             if (const Result<void> checked = check_growth(i, species.growth); !checked) {
                 return checked.error();
             }
+            const float years = static_cast<float>(species.stages - 1) * species.years_of_stage;
+            if (species.stages > 1 && !(species.years_of_stage > 0.0F && years <= kMaxStageYears)) {
+                return Error{fmt::format("the stages of species {} take {} years each, {} in all; "
+                                         "they must take some, and at most {}",
+                                         i, species.years_of_stage, years, kMaxStageYears)};
+            }
         }
     }
     if (!(shares > 0.0 && std::isfinite(shares))) {

@@ -71,7 +71,21 @@ Tree TreeMaker::make_appearance(std::uint32_t number,
                       has_height ? kind.max_height : kind.max_scale, unit_interval(words[2]));
     tree.number = number;
     tree.species = species;
+    if (kind.stages > 1) {
+        constexpr auto kYears = static_cast<std::uint64_t>(kYearsOfFreeStage);
+        const std::uint64_t last = kind.stages - 1;
+        const std::uint64_t stage = std::min<std::uint64_t>(
+            start_of(number, species) + std::uint64_t{options_.later}, last);
+        tree.age = static_cast<std::uint16_t>(kYears * stage + 1);
+    }
     return tree;
+}
+
+std::uint32_t TreeMaker::start_of(std::uint32_t number, std::uint16_t species) const {
+    const PlacementSpecies& kind = options_.species[species];
+    return kind.stages <= 1 || kind.start == StageStart::First
+               ? 0
+               : number_below(placement_draws(options_.key, number, kLifeBlock)[1], kind.stages);
 }
 
 Tree TreeMaker::appearance_of(std::uint32_t number, std::uint16_t species) const {

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
     /// The tree `number` of a known species, without position and age.
     [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;
+    /// The stage at which the tree `number` starts.
+    [[nodiscard]] std::uint32_t start_of(std::uint32_t number, std::uint16_t species) const;
 
 private:
     static constexpr std::uint32_t kNoSpecies = 0xFFFFFFFFu;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,6 +22,8 @@ constexpr std::uint64_t kMaxInteger63 = std::numeric_limits<std::int64_t>::max()
 constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsPerYear = 254.0;
+// in the order of StageStart
+constexpr std::array<std::string_view, 2> kStarts{"first", "random"};
 
 /// The stem of a path: `pine` of `trees/pine.lsys`.
 std::string stem_of(std::string_view path) {
@@ -168,23 +171,28 @@ void read_stage_list(SpeciesReader& from) {
     }
 }
 
-/// Reads `n`, or `stages` with `years_of_stage` if plants have an age.
+/// Reads `n`, or `stages` with the stage at the start and, if plants have an age, `years_of_stage`.
 void read_stages(SpeciesReader& from, bool has_ages) {
     TableReader& reader = from.reader;
     const auto generations = reader.integer("n", {0, kMaxInteger32 - 1});
     read_stage_list(from);
     const auto years = reader.number("years_of_stage", {0.0, kMaxYears, true, "years"});
+    const auto start = reader.choice("starting_stage", kStarts);
     if (!reader.has("stages")) {
         if (generations) {
             from.species.stages = {static_cast<std::uint32_t>(*generations)};
         }
         reader.report_conflicting_key("years_of_stage", "the species has no `stages`", {});
+        reader.report_conflicting_key("starting_stage", "the species has no `stages`", {});
         return;
     }
     reader.report_conflicting_key("n", "`stages` says how many generations there are",
                                   reader.span_of("stages"));
+    if (start) {
+        from.species.start = static_cast<StageStart>(*start);
+    }
     if (!has_ages) {
-        reader.report_conflicting_key("stages",
+        reader.report_conflicting_key("years_of_stage",
                                       "plants have an age with the method `domination` alone", {});
         return;
     }

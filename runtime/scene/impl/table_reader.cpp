@@ -43,6 +43,7 @@ constexpr KeyPlace kPlaces[] = {
     {"n", "[[species]]"},
     {"stages", "[[species]]"},
     {"years_of_stage", "[[species]]"},
+    {"starting_stage", "[[species]]"},
     {"define", "[[species]]"},
     {"heroes", "[[species]]"},
     {"rho", "[[species]]"},

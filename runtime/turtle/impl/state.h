@@ -73,6 +73,7 @@ struct Turtle::State {
         has_tropism = settings.has_tropism;
         skeleton.l3d_compatible_surface = traits.l3d_compatible_surface;
         skeleton.leaf_droop = traits.leaf_droop;
+        skeleton.box_segments = traits.box_segments;
         has_second_heading = any_has(bytecode, TurtleInfo::SecondHeading);
         begin();
     }

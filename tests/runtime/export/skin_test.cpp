@@ -119,7 +119,7 @@ TEST_CASE("vertices of any tree hang on segments that they are at, by every meth
               MeshOptions{.method = MeshMethod::Boxes, .subdivisions = 0}}) {
             const Mesh mesh = mesh_of(plant, options);
             // Smoothed boxes cut the corners of their axes.
-            const bool smooth = options.method == MeshMethod::Boxes && options.subdivisions > 0;
+            const bool smooth = options.method == MeshMethod::Boxes && options.subdivisions != 0U;
             const float cut = smooth ? 0.2F : 0.0F;
             std::size_t far = 0;
             std::size_t halved = 0;

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <array>
+#include <map>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -112,6 +114,22 @@ MeshOptions boxes(std::uint32_t subdivisions) {
     options.method = MeshMethod::Boxes;
     options.subdivisions = subdivisions;
     return options;
+}
+
+/// The mesh with equal positions as one vertex: faces of unsmoothed boxes have their own.
+Mesh welded(const Mesh& mesh) {
+    Mesh one;
+    std::map<std::array<float, 3>, std::uint32_t> places;
+    for (const std::uint32_t index : mesh.indices.expanded()) {
+        const glm::vec3 p = mesh.positions[index] + 0.0F; // -0 is 0
+        const auto [at, is_new] = places.emplace(std::array{p.x, p.y, p.z},
+                                                 static_cast<std::uint32_t>(one.positions.size()));
+        if (is_new) {
+            one.positions.push_back(p);
+        }
+        one.indices.push_back(at->second);
+    }
+    return one;
 }
 
 std::size_t plants_in(const Mesh& mesh) {
@@ -247,12 +265,14 @@ TEST_CASE("what is not closed is told") {
 TEST_CASE("boxes of random plants are closed") {
     for (std::uint32_t seed = 0; seed < 30; ++seed) {
         const Plant plant = random_plant(seed, 3 + 5 * seed, seed % 2 == 0 ? 50.0F : 180.0F);
-        const Mesh mesh = triangles_of(make_boxes(plant.skeleton, 1.0F));
+        const Mesh mesh =
+            triangles_of(make_boxes(plant.skeleton, {.width = 1.0F, .smoothed = seed % 2 == 0}));
         const test::Topology topology = test::topology_by_index(mesh);
         CHECK(topology.open_edges == 0);
         CHECK(topology.euler() == 2 * static_cast<std::int64_t>(plants_in(mesh)));
         for (std::uint32_t subdivisions = 0; subdivisions < 3; ++subdivisions) {
-            const Mesh smooth = meshed(plant.skeleton, boxes(subdivisions));
+            const Mesh made = meshed(plant.skeleton, boxes(subdivisions));
+            const Mesh smooth = subdivisions == 0 ? welded(made) : made;
             const test::Topology fine = test::topology_by_index(smooth);
             CHECK(fine.open_edges == 0);
             CHECK(fine.euler() == 2 * static_cast<std::int64_t>(plants_in(smooth)));
@@ -275,9 +295,12 @@ TEST_CASE("a tree whose branches fit is one surface") {
     plant.grow(top, turned(80, {0, 0, 1}), 0.5F, 0.03F, 0.02F);
     for (std::uint32_t subdivisions = 0; subdivisions < 4; ++subdivisions) {
         const Mesh mesh = meshed(plant.skeleton, boxes(subdivisions));
-        CHECK(plants_in(mesh) == 1);
-        CHECK(test::topology_by_index(mesh).open_edges == 0);
-        CHECK(test::topology_by_index(mesh).euler() == 2);
+        const Mesh joined = subdivisions == 0 ? welded(mesh) : mesh;
+        // Without smoothing, branches that would narrow in their openings are closed boxes.
+        const std::size_t plants = plants_in(joined);
+        CHECK((plants == 1) == (subdivisions > 0));
+        CHECK(test::topology_by_index(joined).open_edges == 0);
+        CHECK(test::topology_by_index(joined).euler() == 2 * static_cast<std::int64_t>(plants));
         CHECK(mesh.materials.size() == 1);
         CHECK(mesh.materials[0].kind == MaterialKind::Bark);
     }
@@ -374,8 +397,170 @@ TEST_CASE("boxes keep colours, levels take steps away, and threads do not show")
     options.level = 1;
     CHECK(meshed(plant.skeleton, options).positions == meshed(plant.skeleton, boxes(2)).positions);
     options.level = 9;
+    // The last one is not smoothed, but its edges are not sharp.
     CHECK(meshed(plant.skeleton, options).positions.size() ==
-          meshed(plant.skeleton, boxes(0)).positions.size());
+          welded(meshed(plant.skeleton, boxes(0))).positions.size());
+}
+
+TEST_CASE("an unsmoothed box of a .sys plant is its segment: length, widths, flat faces") {
+    Plant plant;
+    plant.skeleton.box_segments = true;
+    const std::uint32_t first = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
+    const Mesh mesh = meshed(plant.skeleton, boxes(0));
+    CHECK(mesh.positions.size() == 24);
+    CHECK(mesh.indices.size() == 36);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3& at = mesh.positions[i];
+        REQUIRE((at.y == 0.0F || at.y == 2.0F));
+        const float half = at.y == 0.0F ? 0.2F : 0.1F;
+        CHECK(std::abs(at.x) == Approx(half));
+        CHECK(std::abs(at.z) == Approx(half));
+    }
+    // A frustum of a pyramid: h / 3 (A + B + sqrt(A B)).
+    CHECK(test::volume_of(mesh) == Approx(2.0 / 3.0 * (0.16 + 0.04 + 0.08)).epsilon(1e-5));
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 area =
+            test::twice_area(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                             mesh.positions[mesh.indices[i + 2]]);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const glm::dvec3 normal(mesh.normals[mesh.indices[i + j]]);
+            CHECK(glm::dot(glm::normalize(area), normal) == Approx(1.0).epsilon(1e-5));
+        }
+    }
+    // One that follows begins with its own width, at a step.
+    plant.grow(first, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
+    const Mesh two = meshed(plant.skeleton, boxes(0));
+    CHECK(test::volume_of(two) == Approx(4.0 / 3.0 * (0.16 + 0.04 + 0.08)).epsilon(1e-5));
+    CHECK(plants_in(welded(two)) == 1);
+}
+
+TEST_CASE("plants of boxes are boxes unless another method is asked for") {
+    Plant plant;
+    plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
+    const auto vertices = [&](const MeshOptions& options) {
+        Mesh mesh;
+        REQUIRE(make_mesh(plant.skeleton, {}, options, mesh) == std::nullopt);
+        return mesh.positions.size();
+    };
+    const std::size_t tube = vertices({});
+    CHECK(tube == vertices({.method = MeshMethod::Tubes}));
+    plant.skeleton.box_segments = true;
+    CHECK(vertices({}) == 24);
+    CHECK(vertices({.method = MeshMethod::Boxes}) == 24);
+    CHECK(vertices({.method = MeshMethod::Tubes}) == tube);
+    CHECK(vertices({.subdivisions = 2}) > 24);
+    CHECK(vertices({.grooves = 0.1F}) > vertices({.subdivisions = 2}));
+}
+
+TEST_CASE("a branch does not flare where it leaves its parent") {
+    for (const float degrees : {35.0F, 60.0F, 90.0F}) {
+        for (const float roll : {0.0F, 30.0F, 45.0F}) {
+            Plant plant;
+            const std::uint32_t trunk =
+                plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+            plant.grow(trunk, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+            const std::uint32_t branch = plant.grow(
+                trunk, turned(roll, {0, 1, 0}) * turned(degrees, {1, 0, 0}), 1.0F, 0.03F, 0.03F);
+            MeshOptions options = boxes(0);
+            options.segments = true;
+            const Mesh mesh = meshed(plant.skeleton, options);
+            CHECK(plants_in(welded(mesh)) <= 2);
+            const Segment& own = plant.skeleton.segments[branch];
+            const glm::vec3 on = heading(own.frame);
+            std::size_t seen = 0;
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                if (mesh.segments[i] == VertexSegments{branch, branch}) {
+                    const glm::vec3 from = mesh.positions[i] - own.base;
+                    const float away = glm::length(from - glm::dot(from, on) * on);
+                    INFO(degrees << " degrees, roll " << roll);
+                    CHECK(away == Approx(0.886F * 0.03F * std::sqrt(2.0F)).epsilon(0.01));
+                    ++seen;
+                }
+            }
+            CHECK(seen >= 16);
+        }
+    }
+}
+
+TEST_CASE("smoothed ends are flat, with a rounded edge") {
+    Plant plant;
+    plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+    const Mesh mesh = meshed(plant.skeleton, boxes(3));
+    const Bounds box = test::bounds_of(mesh);
+    CHECK(box.high.y == Approx(1.0F).margin(0.01));
+    CHECK(box.low.y == Approx(0.0F).margin(0.01));
+    // A ball would be a radius lower at the distance of a radius, and 0.03 lower at 0.07.
+    float widest = 0.0F;
+    for (const glm::vec3& at : mesh.positions) {
+        widest = at.y > 0.985F ? std::max(widest, std::hypot(at.x, at.z)) : widest;
+    }
+    CHECK(widest > 0.075F);
+}
+
+TEST_CASE("boxes that are cut at a joint overlap there") {
+    Plant plant;
+    const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+    const std::uint32_t branch = plant.grow(trunk, turned(40, {1, 0, 0}), 1.0F, 0.1F, 0.1F);
+    plant.skeleton.segments[trunk].forked = true;
+    plant.skeleton.segments[branch].linked = false;
+    plant.skeleton.segments[branch].cut = true;
+    for (std::uint32_t subdivisions = 0; subdivisions < 3; ++subdivisions) {
+        const Mesh made = meshed(plant.skeleton, boxes(subdivisions));
+        const Mesh mesh = welded(made);
+        CHECK(plants_in(mesh) == 2);
+        CHECK(test::topology_by_index(mesh).open_edges == 0);
+        // The trunk ends behind the joint, within the branch; the branch begins within the trunk.
+        const Segment& own = plant.skeleton.segments[branch];
+        float trunk_top = 0.0F;
+        float nearest = 1.0F;
+        for (const glm::vec3& at : mesh.positions) {
+            const float along = glm::dot(at - own.base, heading(own.frame));
+            const float away = glm::length(at - own.base - along * heading(own.frame));
+            nearest = away < 0.05F ? std::min(nearest, along) : nearest;
+            trunk_top = std::hypot(at.x, at.z) < 0.05F ? std::max(trunk_top, at.y) : trunk_top;
+        }
+        if (subdivisions > 0) {
+            CHECK(trunk_top > 1.02F);
+            CHECK(nearest < 0.02F);
+        }
+    }
+}
+
+TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its ridges") {
+    Plant plant;
+    std::uint32_t last = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+    for (int i = 0; i < 4; ++i) {
+        last = plant.grow(last, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
+    }
+    const Mesh plain = meshed(plant.skeleton, boxes(4));
+    MeshOptions options = boxes(4);
+    options.grooves = 0.3F;
+    const Mesh grooved = meshed(plant.skeleton, options);
+    REQUIRE(grooved.positions.size() == plain.positions.size());
+    CHECK(test::topology_by_index(grooved).open_edges == 0);
+    CHECK(test::triangles_turned_over(grooved) < grooved.indices.size() / 300);
+    float least = 1.0F;
+    float most = 0.0F;
+    for (std::size_t i = 0; i < plain.positions.size(); ++i) {
+        const glm::vec3& at = plain.positions[i];
+        if (at.y > 1.0F && at.y < 4.0F) {
+            const float before = std::hypot(at.x, at.z);
+            const float after = std::hypot(grooved.positions[i].x, grooved.positions[i].z);
+            const float depth = (before - after) / 0.1075F;
+            CHECK(depth > -1e-4F);
+            CHECK(depth < 0.3F + 1e-4F);
+            least = std::min(least, depth);
+            most = std::max(most, depth);
+        }
+    }
+    CHECK(least < 0.01F);
+    CHECK(most > 0.29F);
+    // A coarser level has no room for them, and is as thick on average.
+    options.level = 3;
+    const Mesh coarse = meshed(plant.skeleton, options);
+    const double coarse_part =
+        test::volume_of(coarse) / test::volume_of(meshed(plant.skeleton, boxes(1)));
+    CHECK(coarse_part == Approx(test::volume_of(grooved) / test::volume_of(plain)).epsilon(0.1));
 }
 
 TEST_CASE("too many subdivisions are refused before they are made") {

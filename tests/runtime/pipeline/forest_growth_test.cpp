@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <string>
@@ -55,7 +56,7 @@ struct GrowingWood {
         return grown.forest.trees;
     }
     ForestGrowth begin() {
-        Outcome<ForestGrowth> begun = ForestGrowth::begin(loaded.scene, *grown.terrain, project);
+        Outcome<ForestGrowth> begun = ForestGrowth::begin(loaded.scene, grown, project);
         REQUIRE(begun);
         return std::move(begun.value());
     }
@@ -145,11 +146,50 @@ TEST_CASE("between two years trees grow, sprout from nothing and shrink to nothi
     CHECK(dead > 0);
 }
 
-TEST_CASE("a forest that is not placed by domination does not grow") {
+TEST_CASE("trees with stages go through them, each from where it starts") {
+    GrowingWood wood("key = 5\n[terrain]\nsize = 40\n[placement]\ncount = 300\n[[species]]\n"
+                     "grammar = \"bush.lsys\"\nstages = [0, 1, 2, 3]\n");
+    wood.placed(0);
+    const LargeVector<Tree> start = wood.grown.forest.trees;
+    const Forest& forest = wood.grown.forest;
+    ForestGrowth growth = wood.begin();
+    REQUIRE(growth.last_year() == 3);
+    const auto height_of = [&](const Tree& tree) {
+        return 1.0F + static_cast<float>(forest.stage_of(tree));
+    };
+    LargeVector<Tree> trees;
+    std::array<std::size_t, 4> counts{};
+    for (const Tree& tree : start) {
+        ++counts[forest.stage_of(tree)];
+    }
+    CHECK(*std::min_element(counts.begin(), counts.end()) > 50);
+    for (const std::uint32_t year : {0U, 1U, 3U, 2U}) {
+        INFO("year " << year);
+        REQUIRE(growth.trees({year, 0.0}, height_of, wood.project, trees));
+        REQUIRE(trees.size() == start.size());
+        for (std::size_t i = 0; i < trees.size(); ++i) {
+            REQUIRE(forest.stage_of(trees[i]) == std::min(forest.stage_of(start[i]) + year, 3U));
+            REQUIRE(trees[i].scale == start[i].scale);
+        }
+        Scene later = wood.loaded.scene; // and so does --years
+        later.placement.later = year;
+        REQUIRE(place_forest(later, wood.project, wood.grown));
+        CHECK(is_same_wood(trees, wood.grown.forest.trees));
+    }
+    REQUIRE(growth.trees({1, 0.5}, height_of, wood.project, trees));
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        const std::uint32_t stage = forest.stage_of(start[i]);
+        const auto low = static_cast<float>(std::min(stage + 1, 3U)) + 1.0F;
+        const auto high = static_cast<float>(std::min(stage + 2, 3U)) + 1.0F;
+        CHECK(trees[i].scale * height_of(trees[i]) == Approx(0.5F * (low + high)));
+    }
+}
+
+TEST_CASE("a forest of trees without stages that is not placed by domination does not grow") {
     const GrowingWood wood(
         "[terrain]\nsize = 40\n[placement]\ncount = 9\n[[species]]\ngrammar = \"bush.lsys\"\n");
     const Outcome<ForestGrowth> begun =
-        ForestGrowth::begin(wood.loaded.scene, *wood.grown.terrain, wood.project);
+        ForestGrowth::begin(wood.loaded.scene, wood.grown, wood.project);
     REQUIRE_FALSE(begun);
     CHECK(begun.stop() == Stop::Failed);
     CHECK(begun.messages().all().at(0).text.find("domination") != std::string::npos);

@@ -46,6 +46,45 @@ TEST_CASE("overrides of a species are stronger than those of all species") {
     CHECK(scene.placement.species[1].max_scale == 2.0F);
 }
 
+TEST_CASE("options give every species stages, and years are stages without domination") {
+    Scene scene = two_species();
+    SceneOverrides overrides;
+    overrides.stages = {1, 3, 4};
+    overrides.years = 1;
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.species[1].stages == std::vector<std::uint32_t>{1, 3, 4});
+    CHECK(scene.placement.species[1].stages == 3);
+    CHECK(scene.placement.species[1].start == StageStart::Random);
+    CHECK(scene.placement.later == 1);
+    CHECK(last_year(scene) == 2);
+    // Domination shares its years among the stages, unless they are said.
+    SceneOverrides wood;
+    wood.method = PlacementMethod::Domination;
+    wood.years = 60;
+    REQUIRE(apply(wood, scene));
+    CHECK(scene.placement.species[0].start == StageStart::First);
+    CHECK(scene.placement.species[0].years_of_stage == 20.0F);
+    wood.years_of_stage = 7.0F;
+    wood.start = StageStart::Random;
+    REQUIRE(apply(wood, scene));
+    CHECK(scene.placement.species[0].years_of_stage == 7.0F);
+    CHECK(scene.placement.species[0].start == StageStart::Random);
+    CHECK(last_year(scene) == 60);
+
+    const auto refused = [](const SceneOverrides& wrong) {
+        Scene of = two_species();
+        const Result<void> applied = apply(wrong, of);
+        return applied ? std::string() : applied.error().message;
+    };
+    SceneOverrides lone;
+    lone.start = StageStart::First;
+    CHECK(refused(lone).find("--starting-stage: no species has several stages") == 0);
+    overrides.years_of_stage = 2.0F;
+    CHECK(refused(overrides).find("--years-of-stage: plants have an age") == 0);
+    overrides.grammar.generations = 3;
+    CHECK(refused(overrides).find("--stages and -n do not go together") == 0);
+}
+
 TEST_CASE("of two overrides the one applied last wins") {
     Scene scene = two_species();
     SceneOverrides command_line;

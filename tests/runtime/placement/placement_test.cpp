@@ -136,6 +136,112 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("the key draws the stage at which a tree starts, for every method") {
+    const GreyMap map = sloped_map(16, 16);
+    const Terrain ground = flat_ground();
+    constexpr std::uint32_t kStages = 5;
+    constexpr std::array<double, 2> kYears{static_cast<double>(kYearsOfFreeStage), 20.0};
+    for (const PlacementMethod method : kAllMethods) {
+        CAPTURE(static_cast<int>(method));
+        const bool dominates = method == PlacementMethod::Domination;
+        PlacementOptions options = small_forest(method, map, 100.0);
+        options.years = 0; // no seedlings
+        const LargeVector<Tree> without = place_trees(options, ground).value().trees;
+        for (PlacementSpecies& species : options.species) {
+            species.stages = kStages;
+            species.years_of_stage = 20.0F;
+        }
+        const double years = kYears[dominates ? 1 : 0];
+        const auto stage_of = [years](const Tree& tree) {
+            return static_cast<std::uint32_t>(tree.age / years);
+        };
+        const LargeVector<Tree> trees = place_trees(options, ground).value().trees;
+        options.threads = 5;
+        CHECK(same_trees(place_trees(options, ground).value().trees, trees));
+        // Nothing but the age is drawn anew.
+        REQUIRE(trees.size() == without.size());
+        std::array<std::array<double, kStages>, 2> counts{};
+        double together = 0.0; // pairs of following numbers
+        for (std::size_t i = 0; i < trees.size(); ++i) {
+            CHECK(trees[i].position == without[i].position);
+            CHECK(trees[i].scale == without[i].scale);
+            REQUIRE(stage_of(trees[i]) < kStages);
+            counts[trees[i].species][stage_of(trees[i])] += 1.0;
+            together += i > 0 && stage_of(trees[i]) == stage_of(trees[i - 1]) ? 1.0 : 0.0;
+        }
+        for (const std::array<double, kStages>& of_species : counts) {
+            double total = 0.0;
+            for (const double count : of_species) {
+                total += count;
+            }
+            double square = 0.0;
+            for (const double count : of_species) {
+                square += (count - total / kStages) * (count - total / kStages) / (total / kStages);
+            }
+            CHECK(square < 18.47); // chi square with 4 degrees of freedom: one key in 1,000
+        }
+        const auto pairs = static_cast<double>(trees.size() - 1);
+        CHECK(std::abs(together / pairs - 0.2) < 4.0 * std::sqrt(0.16 / pairs));
+        // Another key draws others, a start at the first stage none.
+        options.key = 8;
+        options.species[0].start = StageStart::First;
+        options.species[1].start = StageStart::First;
+        const LargeVector<Tree> first = place_trees(options, ground).value().trees;
+        for (const Tree& tree : first) {
+            REQUIRE(stage_of(tree) == 0);
+        }
+        if (!dominates) {
+            options.later = 2;
+            const LargeVector<Tree> third = place_trees(options, ground).value().trees;
+            for (const Tree& tree : third) {
+                REQUIRE(stage_of(tree) == 2);
+            }
+            options.key = 7;
+            options.species[0].start = StageStart::Random;
+            options.species[1].start = StageStart::Random;
+            const LargeVector<Tree> later = place_trees(options, ground).value().trees;
+            for (std::size_t i = 0; i < trees.size(); ++i) {
+                REQUIRE(stage_of(later[i]) == std::min(stage_of(trees[i]) + 2, kStages - 1));
+            }
+        }
+    }
+}
+
+TEST_CASE("plants of year 0 are ahead by their stages, seedlings are not") {
+    const GreyMap none;
+    PlacementOptions options = small_forest(PlacementMethod::Domination, none, 60.0);
+    for (PlacementSpecies& species : options.species) {
+        species.growth.maturity = 2;
+        species.growth.seeds = 2.0F;
+    }
+    const LargeVector<Tree> plain = place_trees(options, flat_ground()).value().trees;
+    for (PlacementSpecies& species : options.species) {
+        species.stages = 3;
+        species.years_of_stage = 12.5F;
+    }
+    const LargeVector<Tree> trees = place_trees(options, flat_ground()).value().trees;
+    REQUIRE(trees.size() == plain.size());
+    std::array<int, 3> ahead{};
+    std::size_t seedlings = 0;
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        CHECK(trees[i].scale == plain[i].scale);
+        const int years = trees[i].age - plain[i].age;
+        if (trees[i].number >= options.count) {
+            ++seedlings;
+            REQUIRE(years == 0);
+        } else {
+            REQUIRE((years == 0 || years == 13 || years == 25));
+            ++ahead[static_cast<std::size_t>(years / 12)];
+        }
+    }
+    CHECK(seedlings > 100);
+    CHECK(*std::min_element(ahead.begin(), ahead.end()) > 50);
+    options.species[1].years_of_stage = 20'001.0F;
+    CHECK(error_of(options).find("the stages of species 1 take 20001 years each") == 0);
+    options.species[1].years_of_stage = 0.0F;
+    CHECK(error_of(options).find("the stages of species 1 take 0 years each") == 0);
+}
+
 TEST_CASE("uniform places are as many as asked for and evenly spread") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Uniform, none, 100.0);

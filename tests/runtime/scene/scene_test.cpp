@@ -352,6 +352,36 @@ TEST_CASE("a key of many parts is a mistake, and no recursion without end") {
     CHECK(parsed(repeated("a.", 15) + "a = 1").messages.find("more than") == std::string::npos);
 }
 
+TEST_CASE("stages say where plants start, with every method") {
+    const std::string species = "[[species]]\ngrammar = \"a\"\nstages = [1, 2, 4]\n";
+    Scene scene = scene_of(species);
+    CHECK(scene.placement.species[0].stages == 3);
+    CHECK(scene.placement.species[0].start == lsys::StageStart::Random);
+    CHECK(lsys::years_of_stage(scene, 0) == lsys::kYearsOfFreeStage);
+    CHECK(lsys::last_year(scene) == 2);
+    scene = scene_of(species + "starting_stage = \"first\"\n");
+    CHECK(scene.placement.species[0].start == lsys::StageStart::First);
+    const std::string wood = "[placement]\nmethod = \"domination\"\nyears = 60\n";
+    scene = scene_of(wood + species + "years_of_stage = 5\n");
+    CHECK(scene.placement.species[0].start == lsys::StageStart::First);
+    CHECK(scene.placement.species[0].years_of_stage == 5.0F);
+    CHECK(lsys::last_year(scene) == 60);
+    scene = scene_of(wood + species + "years_of_stage = 5\nstarting_stage = \"random\"\n");
+    CHECK(scene.placement.species[0].start == lsys::StageStart::Random);
+    scene = scene_of("[[species]]\ngrammar = \"a\"\n");
+    CHECK(scene.placement.species[0].stages == 1);
+    CHECK(lsys::years_of_stage(scene, 0) == 0.0F);
+    CHECK(lsys::last_year(scene) == 0);
+    CHECK(parsed(species + "years_of_stage = 5\nstarting_stage = \"last\"\n").messages ==
+          "4:1-15: `years_of_stage` says nothing here: plants have an age with the method "
+          "`domination` alone [conflicting-scene-keys]\n"
+          "5:18-24: there is no starting_stage `last` [bad-scene-value]\n"
+          "  help: `starting_stage` is one of `first`, `random`\n");
+    CHECK(parsed("[[species]]\ngrammar = \"a\"\nstarting_stage = \"first\"\n").messages ==
+          "3:1-15: `starting_stage` says nothing here: the species has no `stages` "
+          "[conflicting-scene-keys]\n");
+}
+
 TEST_CASE("what a scene needs is missed") {
     CHECK(parsed("").messages ==
           "1:1-1: the scene has no `[[species]]` [missing-scene-key]\n"
@@ -472,8 +502,6 @@ spacing = 5
           "  help: it belongs in `[placement]`\n"
           "12:1-7: `[[species]]` has no key `turtle` [unknown-scene-key]\n"
           "  help: a grammar names its turtle itself: `#set turtle abop;`\n"
-          "13:1-7: `stages` says nothing here: plants have an age with the method `domination` "
-          "alone [conflicting-scene-keys]\n"
           "14:1-7: `growth` says nothing here: plants grow with the method `domination` alone "
           "[conflicting-scene-keys]\n"
           "17:1-8: `spacing` says nothing here: the method `uniform` reads `count` "

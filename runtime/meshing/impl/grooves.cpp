@@ -1,0 +1,48 @@
+#include "runtime/meshing/impl/grooves.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr float kWander = 0.4F;           // in grooves
+constexpr float kWanderCircumference = 6; // the phase wanders that much slower than bark noise
+
+/// Distance from the middle of the groove, 0 to 1 on the ridge.
+float from_middle(float x) {
+    return 2.0F * (x - std::floor(x)) - 1.0F;
+}
+
+} // namespace
+
+float groove_depth(float x) {
+    const float part = std::abs(from_middle(x));
+    return part * part * (3.0F - 2.0F * part) - 1.0F;
+}
+
+float groove_slope(float x) {
+    const float signed_part = from_middle(x);
+    const float part = std::abs(signed_part);
+    const float slope = 12.0F * part * (1.0F - part);
+    return signed_part < 0.0F ? -slope : slope;
+}
+
+Grooves::Grooves(std::uint32_t count, float circumference, std::uint32_t seed)
+    : count_(count), wander_(kWanderCircumference * circumference, seed),
+      begin_(wander_.at(0.0F, 0.0).value) {}
+
+float Grooves::wandered(double arc) const {
+    return 0.5F * kWander * (wander_.at(0.0F, arc).value - begin_);
+}
+
+NoiseSample Grooves::at(float turn, double arc) const {
+    const float x = static_cast<float>(count_) * turn + wandered(arc);
+    const float slope = groove_slope(x);
+    return {.value = groove_depth(x),
+            .by_angle = slope * static_cast<float>(count_) / (2.0F * std::numbers::pi_v<float>),
+            .by_length = slope * 0.5F * kWander * wander_.at(0.0F, arc).by_length};
+}
+
+} // namespace lsys

@@ -1,0 +1,37 @@
+// Grooves and ridges along a stem, as a displacement of its surface by texture coordinates (Tobler,
+// Maierhofer and Wilkie, "A multiresolution mesh generation approach to procedural definition of
+// complex geometry", 2002): a wave around the axis whose phase wanders slowly along it, with
+// continuous first derivatives.
+#pragma once
+
+#include "runtime/meshing/impl/bark_noise.h"
+
+#include <cstdint>
+
+namespace lsys {
+
+/// Depth of the groove at phase x, in grooves: 0 on ridges, where x is whole, -1 in the middle
+/// between them.
+[[nodiscard]] float groove_depth(float x);
+/// Its derivative by x.
+[[nodiscard]] float groove_slope(float x);
+
+class Grooves {
+public:
+    /// `count` grooves around a tube of this circumference, greater than 0. At arc 0 a ridge begins
+    /// at turn 0, whatever the seed, which tells tubes apart.
+    Grooves(std::uint32_t count, float circumference, std::uint32_t seed);
+
+    [[nodiscard]] std::uint32_t count() const { return count_; }
+    /// The value, -1 to 0, at `turn` (0 to 1) around the axis and `arc` along it.
+    [[nodiscard]] NoiseSample at(float turn, double arc) const;
+    /// Grooves by which the ridges at `arc` have wandered since arc 0: less than one.
+    [[nodiscard]] float wandered(double arc) const;
+
+private:
+    std::uint32_t count_;
+    BarkNoise wander_;
+    float begin_; // of wander_, at arc 0
+};
+
+} // namespace lsys
