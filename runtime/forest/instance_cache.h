@@ -76,6 +76,8 @@ struct InstanceCache {
     std::vector<DrawnRange> ranges;
     std::vector<InstanceFork> forks; // where the skeleton lacks a branch
     std::uint32_t heroes = 0;
+    /// Of the `[` of each instance, kNone for whole plants; empty unless asked for.
+    std::vector<Origin> origins;
 
     /// Memory without the skeleton.
     [[nodiscard]] std::uint64_t byte_count() const {
@@ -98,6 +100,7 @@ struct CacheOptions {
     Limits limits;                               // of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     std::vector<float> mesh_lengths;             // as TurtleOptions
+    bool origins = false;                        // of instances and of all that is drawn
     const std::atomic<bool>* cancelled = nullptr;
 };
 

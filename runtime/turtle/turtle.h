@@ -87,6 +87,7 @@ struct BranchStart {
     TurtlePlace place;
     std::uint32_t segment = kNoSegment; // that ends there
     DrawnCounts drawn;                  // so far
+    Origin origin;                      // of its `[`, if the turtle is fed with origins
 };
 
 /// Sees the valid branches of a word as the turtle comes to them.

@@ -68,9 +68,11 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    // A forest that grows is shown again and again.
+    made.renderer->colour_branches(options.colours);
+    // A forest that grows is shown again and again, and --pick asks for its forms.
+    const bool keeps_model = options.grow || options.pick;
     if (const Result<void> shown =
-            made.renderer->show_forest(options.grow ? document.model : std::move(document.model));
+            made.renderer->show_forest(keeps_model ? document.model : std::move(document.model));
         !shown) {
         return report_error(shown.error(), console);
     }

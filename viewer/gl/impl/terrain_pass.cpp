@@ -141,6 +141,10 @@ void TerrainPass::prepare(const Frustum& frustum) {
 }
 
 FrameStats TerrainPass::draw() {
+    return draw_with(program_);
+}
+
+FrameStats TerrainPass::draw_with(const ProgramObject& program) {
     FrameStats stats;
     const std::vector<TerrainPatch>& patches = lod_->patches();
     if (patches.empty()) {
@@ -149,7 +153,7 @@ FrameStats TerrainPass::draw() {
     static_assert(sizeof(TerrainPatch) == 12);
     patches_.fill(std::span<const TerrainPatch>(patches));
     glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
-    glUseProgram(program_.name());
+    glUseProgram(program.name());
     std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
     for (std::uint32_t level = 0; level < lod_->levels(); ++level) {
         origins[std::size_t{2} * level] = lod_->grid(level).origin.x;
