@@ -4,7 +4,6 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
-#include "runtime/cli/weight_report.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -14,6 +13,7 @@
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/weight_report.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
@@ -148,16 +148,11 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
 }
 
 /// Warns of a plant that falls under its weight alone, without wind. Large plants are not checked,
-/// because weigh() settles the plant many times.
-ExitStatus check_weight(const Export& run, PhysicsOptions options) {
-    constexpr std::size_t kMaxSegments = 20'000;
-    const Skeleton& plant = run.plant.skeleton;
-    if (!(options.gravity > 0.0F) || plant.segments.size() > kMaxSegments) {
-        return ExitStatus::Ok;
-    }
-    options.wind = {};
-    return warn_of_fall(weigh(plant, run.grammar.bytecode.settings, options), run.grammar,
-                        run.console);
+/// because weighing settles the plant many times.
+ExitStatus check_weight(const Export& run, const PhysicsOptions& options) {
+    Diagnostics warning =
+        weigh_for_warning(run.plant.skeleton, run.grammar.bytecode.settings, options);
+    return warning.all().empty() ? ExitStatus::Ok : run.console.show(warning, *run.grammar.sources);
 }
 
 /// Writes the plant bent by weight and wind: at rest, or in frames of its motion.

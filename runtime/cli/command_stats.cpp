@@ -1,7 +1,6 @@
 #include "compiler/growth/growth.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
-#include "runtime/cli/weight_report.h"
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
@@ -9,6 +8,7 @@
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 #include "runtime/program/memory_size.h"
+#include "runtime/program/weight_report.h"
 #include "runtime/turtle/plant_size.h"
 
 #include <fmt/format.h>

@@ -34,7 +34,7 @@ public:
             }
         }
         ++cache_.slots[0].recorded;
-        start(0, place, drawn);
+        start(0, place, drawn, {});
     }
     void end_hero(const DrawnCounts& drawn) {
         LSYS_CHECK(active_.size() == 1 && suspended_ == 0);
@@ -52,7 +52,7 @@ public:
                 active_.emplace_back(); // not recorded
                 return true;
             }
-            start(index, branch.place, branch.drawn);
+            start(index, branch.place, branch.drawn, branch.origin);
             return true;
         }
         mark_exit(index, branch.place);
@@ -69,7 +69,7 @@ public:
             end_range(active_[i], branch.drawn);
         }
         const std::size_t base = active_.size();
-        start(index, branch.place, branch.drawn);
+        start(index, branch.place, branch.drawn, branch.origin);
         active_.back().suspended_below = suspended_;
         active_.back().suspends = true;
         suspended_ = base;
@@ -111,7 +111,10 @@ private:
         bool suspends = false;           // suspends the enclosing instances
     };
 
-    void start(std::uint32_t slot, const TurtlePlace& place, const DrawnCounts& drawn) {
+    void start(std::uint32_t slot,
+               const TurtlePlace& place,
+               const DrawnCounts& drawn,
+               const Origin& origin) {
         Active active;
         active.instance = static_cast<std::uint32_t>(cache_.instances.size());
         active.range_begin = drawn;
@@ -121,6 +124,9 @@ private:
         instance.frame = place.frame;
         instance.position = place.position;
         instance.order = place.order;
+        if (options_.origins) {
+            cache_.origins.push_back(origin);
+        }
         exits_.emplace_back();
         ranges_.emplace_back();
         variants_[slot].push_back(active.instance);
@@ -260,6 +266,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
         derive.generations = options.generations;
         derive.seed = options.seed + k;
         derive.threads = options.threads;
+        derive.origins = options.origins;
         derive.limits = options.limits;
         derive.cancelled = options.cancelled;
         Derivation derivation(bytecode, derive);

@@ -199,8 +199,24 @@ struct GrownStage {
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool may_take = false; // some branch can be taken from recorded ones
+    bool may_take = false;            // some branch can be taken from recorded ones
+    std::vector<std::string> origins; // by instance, if asked for
 };
+
+/// Texts of the origins of the instances, if the cache has them.
+std::vector<std::string> origin_texts(const InstanceCache& cache, const Bytecode& bytecode) {
+    std::vector<std::string> texts;
+    OriginPrinter printer(bytecode);
+    for (const Origin& origin : cache.origins) {
+        std::string& text = texts.emplace_back();
+        if (origin.place == kNone) {
+            text = "from the axiom";
+        } else {
+            printer.append(origin, text);
+        }
+    }
+    return texts;
+}
 
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                const std::string& path,
@@ -208,7 +224,8 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                bool is_first,
                                NotedAxioms& noted,
                                const Project& project,
-                               FileBudget& budget) {
+                               FileBudget& budget,
+                               bool origins) {
     Step step(project);
     GrammarOptions options;
     options.dialect = species.dialect.text;
@@ -255,12 +272,14 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.limits = project.limits;
     cache.max_bytes = project.limits.max_bytes;
     cache.cancelled = project.host.cancelled;
+    cache.origins = origins;
     CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache);
     if (const std::optional<Stop> stop =
             report_drawing(outcome.derivation_end, outcome.drawing_end, grammar, step)) {
         return step.end(*stop);
     }
     stage.cache = std::move(outcome.cache);
+    grown.origins = origin_texts(stage.cache, grammar.bytecode);
     const Settings& settings = grammar.bytecode.settings;
     grown.settings = settings;
     grown.height_span = grammar.height_span;
@@ -410,7 +429,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {
-            return fail_at(species.grammar.span, Error{fmt::format("there is no file `{}`", path)},
+            return fail_at(species.grammar.span,
+                           Error{fmt::format("cannot read `{}`: no such file or directory", path)},
                            loaded, step);
         }
         if (!species.dialect.text.empty() && !find_dialect(species.dialect.text)) {
@@ -452,7 +472,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             }
             meshes.clear();
             Outcome<GrownStage> stage =
-                grow_stage(species, path, generations, i == 0, noted, project, budget);
+                grow_stage(species, path, generations, i == 0, noted, project, budget, false);
             messages.append(stage.messages());
             step.messages.append(stage.messages());
             if (!stage) {
@@ -495,6 +515,23 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
 
 double find_tallest(const GrownForest& grown, const Project& project) {
     return tallest_tree(grown.forest, project.threads);
+}
+
+Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
+                                                      const std::string& folder,
+                                                      std::size_t stage,
+                                                      const Project& project) {
+    Step step(project);
+    const std::optional<std::uint32_t> generations =
+        species.stages.empty() ? std::nullopt : std::optional(species.stages.at(stage));
+    FileBudget budget{project.limits.max_bytes};
+    Outcome<GrownStage> grown = grow_stage(species, path_in(folder, species.grammar.path),
+                                           generations, project, budget, true);
+    if (!grown) { // its warnings were shown with the forest
+        step.messages.append(grown.messages());
+        return step.end(grown.stop());
+    }
+    return step.done(std::move(grown.value().origins));
 }
 
 Step::Ended end_mesh_of_heroes(Stop stop, Step& step) {

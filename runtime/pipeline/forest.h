@@ -15,6 +15,7 @@
 #include "runtime/scene/scene.h"
 #include "runtime/terrain/terrain.h"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,14 @@ place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
 /// Ends `step` with `stop`, which make_instance_meshes() returned, and its message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
+
+/// The productions that wrote the branches of a stage's heroes, by instance of its cache: "from p2
+/// at tree.lsys:7:14, generation 3"; of whole plants "from the axiom". Reads the grammar and derives
+/// the heroes again. `folder`: of the scene.
+[[nodiscard]] Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
+                                                                    const std::string& folder,
+                                                                    std::size_t stage,
+                                                                    const Project& project);
 
 /// Meshes all instances. The result is by species and stage.
 [[nodiscard]] Outcome<std::vector<std::vector<InstanceMeshes>>>

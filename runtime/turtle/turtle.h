@@ -87,6 +87,7 @@ struct BranchStart {
     TurtlePlace place;
     std::uint32_t segment = kNoSegment; // the segment that ends at `place`
     DrawnCounts drawn;                  // items drawn before the branch
+    Origin origin;                      // of its `[`, if the words had origins
 };
 
 /// Called for each valid branch of a word when the turtle reads its brackets.

@@ -74,6 +74,12 @@ void Controls::apply(const WindowInput& input,
     for (const std::string& file : input.dropped) {
         switcher.open(file);
     }
+    const ForestView* const shown = switcher.forest();
+    if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
+        click(input, area, switcher.current());
+    } else {
+        pressed_.reset();
+    }
     if (ForestView* const forest = switcher.forest()) {
         apply(input, seconds, area, *forest, panels);
     } else if (PlantView* const plant = switcher.plant()) {
@@ -133,6 +139,28 @@ void Controls::apply(const WindowInput& input,
     use_tool(input, area, view);
 }
 
+void Controls::click(const WindowInput& input, const PixelArea& area, View& view) {
+    constexpr float kStill = 3.0F; // pixels: a hand trembles
+    for (const PointerEvent& event : input.pointer_events) {
+        if (event.kind == PointerEvent::Kind::Press) {
+            pressed_ = event.place;
+            continue;
+        }
+        if (pressed_ && glm::distance(*pressed_, event.place) > kStill) {
+            pressed_.reset(); // a drag
+        }
+        if (event.kind == PointerEvent::Kind::Release && pressed_) {
+            // The upper edges of picture and window coincide.
+            const glm::vec2 place = *pressed_ - glm::vec2(static_cast<float>(area.x), 0.0F);
+            if (place.x >= 0.0F && place.y >= 0.0F) {
+                view.pick(
+                    {static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)});
+            }
+            pressed_.reset();
+        }
+    }
+}
+
 void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {
     // The upper edges of picture and window coincide.
     const auto place = [&area](const glm::vec2& pixels) {
@@ -180,6 +208,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::Escape:
         panels.help = false;
         panels.flies = false;
+        view.forget_picked();
         return false; // views handle it too
     case Key::F1:
         panels.help = !panels.help;
@@ -280,6 +309,12 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
         break;
     case Key::S:
         settings.shadows = !settings.shadows;
+        break;
+    case Key::L:
+        settings.colours = settings.colours == BranchColours::Natural ? BranchColours::Id
+                           : settings.colours == BranchColours::Id    ? BranchColours::Age
+                           : settings.colours == BranchColours::Age   ? BranchColours::Hero
+                                                                      : BranchColours::Natural;
         break;
     case Key::N:
         next_forest_key(view);

@@ -5,6 +5,7 @@
 #include "viewer/gl/window.h"
 
 #include <array>
+#include <optional>
 
 namespace lsys::view {
 
@@ -23,8 +24,9 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 25> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 26> kPlantKeys = {{
     {"Left drag", "Orbit"},
+    {"Click", "Tell the module and its production"},
     {"Right drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
     {"F", "Frame all"},
@@ -51,8 +53,9 @@ inline constexpr std::array<KeyHelp, 25> kPlantKeys = {{
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 26> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 28> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
+    {"Click", "Without a tool: tell the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
     {"Middle drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
@@ -70,6 +73,7 @@ inline constexpr std::array<KeyHelp, 26> kForestKeys = {{
     {"Space", "Play or pause the years"},
     {"W", "Wireframe"},
     {"S", "Shadows"},
+    {"L", "Colours of branches: natural, id, age, hero"},
     {"N", "Next key: another forest"},
     {"R", "Reload files"},
     {"P", "Save a picture (PNG) in the current folder"},
@@ -109,11 +113,14 @@ private:
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
     /// Handles keys common to all views; returns whether this was one.
     [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
+    /// Picks what lies under a press and release of the left button in one place.
+    void click(const WindowInput& input, const PixelArea& area, View& view);
     void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
     float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
+    std::optional<glm::vec2> pressed_; // where the left button went down, unless the mouse moved
 };
 
 /// Increments the plant's seed.

@@ -15,6 +15,8 @@ namespace lsys::view {
 
 struct ForestDocument {
     Scene scene; // after all overrides
+    /// While a window plays growth, its trees are those of a moment; only its main thread reads or
+    /// changes them then.
     GrownForest grown;
     ForestModel model; // refers to `grown`
     MeshOptions mesh_options;

@@ -58,6 +58,8 @@ public:
     [[nodiscard]] bool has_erased() const { return in_file_ && !in_file_->erased.empty(); }
     /// Last saved text of the scene file.
     [[nodiscard]] const std::string& saved_text() const { return saved_text_; }
+    /// Whether anything was painted or erased, in the file or since.
+    [[nodiscard]] bool is_painted() const { return painter_.has_value(); }
     /// Count of trees, painted ones included.
     [[nodiscard]] std::uint64_t tree_count() const;
     [[nodiscard]] std::uint64_t painted_count() const { return painted_; }

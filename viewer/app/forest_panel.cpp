@@ -3,6 +3,7 @@
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
+#include <glm/exponential.hpp>
 
 #include <algorithm>
 #include <array>
@@ -286,6 +287,55 @@ void draw_cache(ForestView& view) {
     }
 }
 
+/// Values of the colours, several in a row.
+void draw_legend(const ForestView& view) {
+    const std::vector<LegendEntry>& legend = view.legend();
+    constexpr std::size_t kMaxShown = 60;
+    constexpr std::size_t kInRow = 5;
+    const std::size_t shown = std::min(legend.size(), kMaxShown);
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (i % kInRow != 0) {
+            ImGui::SameLine(static_cast<float>(i % kInRow) * 0.19F *
+                            ImGui::GetContentRegionAvail().x);
+        }
+        const glm::vec3 root = glm::sqrt(legend[i].colour); // for the display
+        ImGui::PushID(static_cast<int>(i));
+        ImGui::ColorButton("##colour", {root.x, root.y, root.z, 1.0F},
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,
+                           {ImGui::GetFontSize(), ImGui::GetFontSize()});
+        ImGui::PopID();
+        ImGui::SameLine(0.0F, 4.0F);
+        line(fmt::format("{}", legend[i].value));
+    }
+    if (shown < legend.size()) {
+        line(fmt::format("and {} more", legend.size() - shown));
+    }
+}
+
+void draw_colours(ForestView& view) {
+    BranchColours& colours = view.settings.colours;
+    if (colours != BranchColours::Natural) {
+        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+    }
+    if (!ImGui::CollapsingHeader("Colours of branches")) {
+        return;
+    }
+    constexpr std::array<std::pair<const char*, BranchColours>, 4> kWays = {
+        {{"Natural", BranchColours::Natural},
+         {"Id", BranchColours::Id},
+         {"Age", BranchColours::Age},
+         {"Hero", BranchColours::Hero}}};
+    for (std::size_t i = 0; i < kWays.size(); ++i) {
+        if (i != 0) {
+            ImGui::SameLine();
+        }
+        if (ImGui::RadioButton(kWays[i].first, colours == kWays[i].second)) {
+            colours = kWays[i].second;
+        }
+    }
+    draw_legend(view);
+}
+
 void draw_look(ForestView& view) {
     if (!ImGui::CollapsingHeader("Display")) {
         return;
@@ -320,6 +370,7 @@ std::string draw_forest_panel(ForestView& view) {
     draw_placement(view);
     draw_ground(view);
     draw_cache(view);
+    draw_colours(view);
     draw_look(view);
     ImGui::PopItemWidth();
     return wanted;

@@ -2,6 +2,7 @@
 
 #include "runtime/pipeline/forest_growth.h"
 #include "runtime/program/host.h"
+#include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
 
 #include <fmt/format.h>
@@ -146,11 +147,20 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
     PictureSeries series;
     std::vector<double> cull;
     FrameStats shadow;
-    const auto after = [&](const Frame& /*frame*/) {
+    std::uint32_t pictures = 0;
+    const auto after = [&](const Frame& shown) {
         const ForestFrameStats& drawn = renderer.forest_stats();
         cull.push_back(drawn.cull_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
+        ++pictures;
+        if (!options.pick) {
+            return ExitStatus::Ok;
+        }
+        return write_picked(options, shown, pictures, renderer, console, [&](const Picked& picked) {
+            return describe(picked, renderer.trees_of(picked.form), document, options.file,
+                            project);
+        });
     };
     Frame frame = frame_of(options, camera);
     frame.light = forest_light(document, options.air);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lsys::view {
@@ -28,6 +29,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.shadows = options.shadows;
     settings.antialiasing = options.samples > 1;
     settings.wireframe = options.style == PlantStyle::Wireframe;
+    settings.colours = options.colours;
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
@@ -62,15 +64,16 @@ ForestView::ForestView(const ViewOptions& options,
                        const Console& console,
                        Renderer& renderer,
                        std::function<void()> wake)
-    : View(options, console, renderer), settings(first_forest_settings(options)),
-      wake_(std::move(wake)), painting_(renderer), frame_next_(options.camera.empty()),
-      plays_next_(options.grow), loader_(make_forest, wake_),
+    : View(options, console, renderer, std::move(wake)), settings(first_forest_settings(options)),
+      painting_(renderer), frame_next_(options.camera.empty()), plays_next_(options.grow),
+      loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
              }) {
     files_ = options_.files;
     watch_files();
+    renderer_->colour_branches(shown_colours_);
 }
 
 ForestView::~ForestView() {
@@ -116,6 +119,10 @@ std::uint32_t ForestView::years() const {
 void ForestView::set_years(std::uint32_t years) {
     settings.edits.years = years;
     settings.plays = false;
+    if (grown_) {
+        grown_.reset();
+        requested_.reset(); // it equals the edits
+    }
 }
 
 bool ForestView::update() {
@@ -129,6 +136,8 @@ bool ForestView::update() {
         take_outcome(std::move(*outcome));
         has_news = true;
     }
+    has_news = take_picked() || has_news;
+    show_colours();
     if (!has_impostors_ && document_ != nullptr) {
         has_impostors_ = renderer_->bake_impostors(kBakeTime);
         changed_ = changed_ || has_impostors_;
@@ -142,6 +151,33 @@ bool ForestView::update() {
         request_load();
     }
     return has_news;
+}
+
+void ForestView::show_colours() {
+    if (document_ == nullptr || settings.colours == shown_colours_) {
+        return;
+    }
+    shown_colours_ = settings.colours;
+    legend_ = legend_of(document_->model, shown_colours_);
+    renderer_->colour_branches(shown_colours_);
+    has_impostors_ = false;
+    changed_ = true;
+}
+
+PickRequest ForestView::request_for(const Picked& picked) const {
+    if (document_ == nullptr) {
+        return {};
+    }
+    PickRequest request;
+    std::vector<std::uint32_t> alike;
+    if (picked.kind == PickedKind::Branch) {
+        alike = renderer_->trees_of(picked.form);
+    }
+    request.describe = [picked, alike = std::move(alike), document = document_,
+                        file = document_->files.front()](const Project& project) {
+        return view::describe(picked, alike, *document, file, project);
+    };
+    return request;
 }
 
 void ForestView::request_load() {
@@ -182,6 +218,9 @@ void ForestView::swap(ForestOutcome outcome) {
         return;
     }
     document_ = document;
+    grown_.reset();
+    forget_picked();
+    legend_ = legend_of(document_->model, shown_colours_);
     const bool is_other = before == nullptr || before->files.front() != document->files.front();
     if (is_other) {
         painting_.clear();
@@ -240,7 +279,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     if (document_ != nullptr) {
         frame.light = forest_light(*document_, settings.air);
     }
-    const bool moves = settings.windy || settings.plays || used_tool_ ||
+    const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));
     if (moves) {
         last_motion_ = SteadyClock::now();
@@ -282,12 +321,95 @@ void ForestView::picture_shown(double draw_seconds) {
         kMilliseconds * stats_.shown_seconds));
 }
 
+bool ForestView::plays_smoothly() const {
+    // Painted trees are known by their numbers among those of a whole year.
+    return !painting_.is_painted();
+}
+
+/// Shows the trees that the film has made.
+void ForestView::take_moment() {
+    std::optional<ForestFilmMoment> made = film_->take();
+    if (!made || made->document != document_) {
+        return;
+    }
+    if (made->failed) {
+        take_messages(made->messages, false);
+        settings.plays = false;
+        grown_.reset();
+        return;
+    }
+    document_->grown.forest.trees = std::move(made->trees);
+    grown_ = made->moment;
+    ++stats_.moments;
+    renderer_->show_trees();
+    static_cast<void>(painting_.set_document(document_));
+    has_impostors_ = false;
+    changed_ = true;
+}
+
+/// Shows the forest of a whole year, as its file says.
+void ForestView::end_growth(std::uint32_t years) {
+    settings.plays = false;
+    grown_.reset();
+    settings.edits.years = years;
+    requested_.reset();
+}
+
+/// Asks for the next moment of growth. A pause is at the next whole year.
 void ForestView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
-    if (!settings.plays || document_ == nullptr) {
+    if ((!settings.plays && !grown_) || document_ == nullptr) {
+        last_growth_ = now;
+        if (film_ != nullptr) {
+            static_cast<void>(film_->take()); // of a growth that has ended
+        }
+        return;
+    }
+    if (!plays_smoothly()) {
+        if (grown_) {
+            end_growth(years());
+            settings.plays = true;
+        }
+        grow_by_years();
+        return;
+    }
+    if (film_ == nullptr) {
+        film_ = std::make_unique<ForestFilm>(wake_);
+    }
+    take_moment();
+    const bool is_made = requested_ == settings.edits && !loader_.is_busy();
+    if (!is_made || failed() || film_->is_busy()) {
         last_growth_ = now;
         return;
     }
+    constexpr double kMaxStep = 0.25; // s
+    const double passed =
+        std::min(std::chrono::duration<double>(now - last_growth_).count(), kMaxStep);
+    last_growth_ = now;
+    if (!grown_) {
+        growth_position_ = static_cast<double>(years());
+    }
+    const double end =
+        settings.plays ? static_cast<double>(default_years_) : std::ceil(growth_position_);
+    if (grown_ && growth_position_ >= end) {
+        end_growth(static_cast<std::uint32_t>(end));
+        return;
+    }
+    growth_position_ =
+        std::min(growth_position_ + passed * static_cast<double>(settings.years_per_second), end);
+    const auto year = static_cast<std::uint32_t>(growth_position_);
+    film_->request({document_,
+                    default_years_,
+                    options_.run,
+                    {year, growth_position_ - std::floor(growth_position_)},
+                    now,
+                    false});
+    settings.edits.years = year;
+    requested_->years = year; // the film shows it
+}
+
+void ForestView::grow_by_years() {
+    const SteadyClock::time_point now = SteadyClock::now();
     const double passed = std::chrono::duration<double>(now - last_growth_).count();
     const double years_passed = passed * static_cast<double>(settings.years_per_second);
     const bool is_made = requested_ == settings.edits && !loader_.is_busy();
@@ -309,8 +431,7 @@ void ForestView::play_or_pause() {
     }
     settings.plays = !settings.plays;
     if (settings.plays && years() >= default_years_) {
-        settings.edits.years =
-            document_->scene.placement.method == PlacementMethod::Domination ? 1 : 0;
+        settings.edits.years = 0;
     }
 }
 
@@ -319,6 +440,7 @@ void ForestView::open(const std::string& file) {
     settings.edits = {};
     settings.air.reset();
     settings.plays = false;
+    grown_.reset();
     frame_next_ = true;
     files_ = {file};
     requested_.reset();
@@ -369,6 +491,11 @@ void ForestView::show_outline() {
 
 void ForestView::apply_tool(const glm::vec2& place, bool begins, bool erases) {
     begins_stroke_ = begins_stroke_ || begins;
+    if (grown_) {
+        end_growth(years());
+        set_note("growth stops at a whole year for painting");
+        return;
+    }
     if (const std::optional<glm::dvec3> ground = ground_at(place)) {
         painting_.move_tool(*ground, std::exchange(begins_stroke_, false),
                             erases ? PaintTool::Eraser : settings.tool, settings.brush);
@@ -442,7 +569,8 @@ void ForestView::save() {
 }
 
 bool ForestView::is_busy() const {
-    return loader_.is_busy() || settings.plays || settings.windy || !has_impostors_ || is_coarse_;
+    return loader_.is_busy() || settings.plays || grown_ || settings.windy || !has_impostors_ ||
+           is_coarse_ || is_picking();
 }
 
 } // namespace lsys::view

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/app/file_watch.h"
+#include "viewer/app/forest_film.h"
 #include "viewer/app/forest_loader.h"
 #include "viewer/app/forest_painting.h"
 #include "viewer/app/view.h"
@@ -29,6 +30,7 @@ struct ForestViewSettings {
     bool shadows = true;
     bool antialiasing = true;
     bool wireframe = false;
+    BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on
     Wind wind;
     std::optional<double> air; // visibility, km; none: default_visibility()
@@ -63,6 +65,7 @@ struct ForestViewStats {
     double draw_seconds = 0.0;   // last picture
     FrameStats drawn;
     std::uint64_t swaps = 0;
+    std::uint64_t moments = 0; // of growth, shown
     std::vector<CacheNumbers> caches;
 };
 
@@ -109,27 +112,39 @@ public:
     /// errors that was opened since is not written.
     void save();
 
+    /// The moment of growth that is shown instead of the last forest; none: there is none.
+    [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
     /// Last forest without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
     [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
     /// Whether the last picture had reduced quality because of motion.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
+    /// The colours of the branches; empty for natural ones.
+    [[nodiscard]] const std::vector<LegendEntry>& legend() const { return legend_; }
     /// Whether all impostors are baked.
     [[nodiscard]] bool has_impostors() const { return has_impostors_; }
+
+protected:
+    [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
+    void show_colours();
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
     void grow();
+    /// Whether moments between years can be shown.
+    [[nodiscard]] bool plays_smoothly() const;
+    void grow_by_years();
+    void take_moment();
+    void end_growth(std::uint32_t years);
     void request_load();
     void files_changed(const std::vector<std::string>& files, SteadyClock::time_point since);
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
-    std::function<void()> wake_;
     std::shared_ptr<ForestDocument> document_;
     ForestPainting painting_;
     std::vector<std::string> files_;
@@ -137,12 +152,17 @@ private:
     bool plays_next_ = false; // from the next swap on
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
+    BranchColours shown_colours_ = BranchColours::Natural;
+    std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
     std::uint32_t first_years_ = 0;   // shown without edits
     bool is_other_placement_ = false; // the forest shown is not placed as its file says
     SteadyClock::time_point since_;   // change that led to the forest shown
     SteadyClock::time_point last_growth_;
+    double growth_position_ = 0.0; // years
+    std::optional<GrowthMoment> grown_;
+    std::unique_ptr<ForestFilm> film_;                   // since growth was played
     SteadyClock::time_point start_ = SteadyClock::now(); // of the wind
     std::optional<glm::vec2> pointed_;
     bool has_outline_ = false;

@@ -68,9 +68,11 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
     if (status != ExitStatus::Ok) {
         return status;
     }
-    // Copied for a growing forest, which is shown once per picture.
+    made.renderer->colour_branches(options.colours);
+    // Kept for a growing forest, which is shown once per picture, and for --pick, which reads forms.
+    const bool keeps_model = options.grow || options.pick;
     if (const Result<void> shown =
-            made.renderer->show_forest(options.grow ? document.model : std::move(document.model));
+            made.renderer->show_forest(keeps_model ? document.model : std::move(document.model));
         !shown) {
         return report_error(shown.error(), console);
     }

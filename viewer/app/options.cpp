@@ -39,6 +39,23 @@ Result<Size> parse_picture_size(const std::string& text) {
                 static_cast<std::uint32_t>(height.value())};
 }
 
+Result<PicturePixel> parse_pixel(const std::string& text) {
+    const std::size_t comma = text.find(',');
+    const Result<std::uint64_t> x =
+        parse_integer(std::string_view(text).substr(0, comma), 0, kMaxPixels - 1);
+    const Result<std::uint64_t> y =
+        comma == std::string::npos
+            ? Result<std::uint64_t>(Error{})
+            : parse_integer(std::string_view(text).substr(comma + 1), 0, kMaxPixels - 1);
+    if (!x || !y) {
+        return Error{fmt::format("`{}` is no pixel of a picture; write X,Y from its upper left "
+                                 "corner, as 640,360",
+                                 text)};
+    }
+    return PicturePixel{static_cast<std::uint32_t>(x.value()),
+                        static_cast<std::uint32_t>(y.value())};
+}
+
 void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_option("--screenshot", options.screenshot,
                    "Write a PNG instead of opening a window; no display is needed")
@@ -98,6 +115,11 @@ void add_picture(CLI::App& app, ViewOptions& options) {
            "generations between whole ones, or a forest of domination year by year, or one of "
            "trees with stages; in a window growth plays at once")
         ->group("Picture");
+    add_parsed(app, "--pick", options.pick, parse_pixel,
+               "Tell what the pixel of the picture shows: of a plant the module, of a forest the "
+               "branch, each with the production that wrote it, its place and generation")
+        ->type_name("X,Y")
+        ->group("Picture");
     app.add_option("--stats", options.stats,
                    "Write counts and times of the pictures as JSON; `-` is standard output")
         ->type_name("FILE")
@@ -126,6 +148,14 @@ void add_picture(CLI::App& app, ViewOptions& options) {
          {"path", LineKind::TurtlePath}},
         "Lines over all: segments by order of branching, or the turtle's path by time "
         "(default none)")
+        ->group("Picture");
+    add_choice<BranchColours>(app, "--colours", options.colours,
+                              {{"natural", BranchColours::Natural},
+                               {"id", BranchColours::Id},
+                               {"age", BranchColours::Age},
+                               {"hero", BranchColours::Hero}},
+                              "Colours of the branches of a forest: those of their materials "
+                              "(default), or one for each id, age or hero of instancing")
         ->group("Picture");
     add_parsed(
         app, "--samples", options.samples,
@@ -220,6 +250,25 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     if ((options.frames != 0 || !options.stats.empty()) && options.screenshot.empty()) {
         return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};
+    }
+    if (!options.is_forest && options.colours != BranchColours::Natural) {
+        return UsageError{"--colours tells the branches of a forest apart, and this is a plant",
+                          "add `--count 1` for a forest of one plant"};
+    }
+    if (options.pick && options.screenshot.empty()) {
+        return UsageError{"--pick tells of a pixel of a picture",
+                          "add `--screenshot FILE`, or click in the window"};
+    }
+    if (options.pick && (options.pick->x >= options.width || options.pick->y >= options.height)) {
+        return UsageError{fmt::format("--pick {},{} lies outside of the picture of {} x {} pixels",
+                                      options.pick->x, options.pick->y, options.width,
+                                      options.height),
+                          "pixels count from 0, from the upper left corner"};
+    }
+    if (options.pick && (options.screenshot == "-" || options.stats == "-")) {
+        return UsageError{"--pick writes to standard output, as `-` of --screenshot and --stats "
+                          "does",
+                          "name a file instead of `-`"};
     }
     if (options.turntable && options.frames == 0) {
         return UsageError{"--turntable is a series of pictures", "add `--frames N`"};

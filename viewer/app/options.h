@@ -9,6 +9,7 @@
 #include "runtime/program/run_options.h"
 #include "runtime/program/usage.h"
 #include "viewer/gl/renderer.h"
+#include "viewer/scene/branch_colours.h"
 #include "viewer/scene/camera.h"
 
 #include <cstdint>
@@ -19,6 +20,12 @@
 #include <vector>
 
 namespace lsys::view {
+
+/// A pixel of a picture, from its upper left corner.
+struct PicturePixel {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+};
 
 struct ViewOptions {
     MessageOptions messages;
@@ -43,6 +50,7 @@ struct ViewOptions {
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
+    BranchColours colours = BranchColours::Natural; // forests only
     std::uint32_t samples = 4;
     std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
     std::string shaders;                     // folder that replaces the built-in ones
@@ -50,9 +58,10 @@ struct ViewOptions {
     std::string screenshot;   // file of the picture instead of a window; `-`: standard output
     std::uint32_t frames = 0; // count of a numbered series; 0: one picture
     float frames_per_second = 24.0F;
-    bool turntable = false; // the series orbits once
-    bool grow = false;      // the series shows growth; in a window growth plays at once
-    std::string stats;      // JSON file; `-`: standard output
+    bool turntable = false;           // the series orbits once
+    bool grow = false;                // the series shows growth; in a window growth plays at once
+    std::optional<PicturePixel> pick; // tell what the pixel shows
+    std::string stats;                // JSON file; `-`: standard output
 };
 
 /// Makes `file` the one to open. Options about the grammars and the view of the former files are

@@ -173,6 +173,22 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
+/// What was picked last, in the corner opposite to the statistics; below a note.
+void draw_picked(const View& view, const Area& area) {
+    if (view.picked().empty()) {
+        return;
+    }
+    ImGui::SetNextWindowPos({area.low.x + 8.0F, 48.0F});
+    ImGui::SetNextWindowBgAlpha(0.7F);
+    if (ImGui::Begin("Picked", nullptr,
+                     kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+        for (const std::string& each : view.picked()) {
+            line(each);
+        }
+    }
+    ImGui::End();
+}
+
 void draw_hint(const View& view, const PanelState& panels, const Area& area) {
     std::string text = view.note();
     if (panels.flies) {
@@ -235,6 +251,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     }
     draw_messages(switcher.current(), area);
     draw_hint(switcher.current(), panels, area);
+    draw_picked(switcher.current(), area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),

@@ -82,7 +82,7 @@ ExitStatus take_series(const ViewOptions& options,
                        Renderer& renderer,
                        const Console& console,
                        const std::function<ExitStatus(const Frame& frame)>& prepare,
-                       const std::function<void(const Frame& frame)>& after,
+                       const std::function<ExitStatus(const Frame& frame)>& after,
                        PictureSeries& series) {
     if (options.frames > 1 && !options.turntable && !options.grow && !options.gravity &&
         !options.wind) {
@@ -116,9 +116,6 @@ ExitStatus take_series(const ViewOptions& options,
         const Texture picture = draw_picture(frame, renderer, series.drawn, read_milliseconds);
         series.draw.push_back(milliseconds_since(start));
         series.read.push_back(read_milliseconds);
-        if (after) {
-            after(frame);
-        }
         start = Clock::now();
         series.digest = golden_multiple(series.digest) + fnv1a(picture.texels);
         const std::string bytes = encode_png(picture);
@@ -131,10 +128,41 @@ ExitStatus take_series(const ViewOptions& options,
             return report_error(written.error(), console);
         }
         series.write.push_back(milliseconds_since(start));
+        if (after) {
+            if (const ExitStatus status = after(frame); status != ExitStatus::Ok) {
+                return status;
+            }
+        }
     }
     return renderer.errors().empty()
                ? ExitStatus::Ok
                : report_error(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
+}
+
+ExitStatus write_picked(
+    const ViewOptions& options,
+    const Frame& frame,
+    std::uint32_t number,
+    Renderer& renderer,
+    const Console& console,
+    const std::function<Outcome<std::vector<std::string>>(const Picked& picked)>& describe) {
+    const Result<Picked> picked =
+        renderer.pick(frame, options.pick->x, frame.height - 1 - options.pick->y);
+    if (!picked) {
+        return report_error(picked.error(), console);
+    }
+    std::vector<std::string> lines{"nothing"};
+    if (picked.value().kind != PickedKind::Nothing) {
+        if (const ExitStatus status = console.take(describe(picked.value()), lines);
+            status != ExitStatus::Ok) {
+            return status;
+        }
+    }
+    std::string text = options.frames == 0 ? std::string() : fmt::format("picture {}\n", number);
+    for (const std::string& line : lines) {
+        text += line + '\n';
+    }
+    return report_result(console.write(text), console);
 }
 
 ExitStatus

@@ -30,14 +30,24 @@ struct PictureSeries {
 
 /// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
 /// empty, is called before each with its frame; a status other than Ok ends the series. `after` is
-/// called after each. Fails on OpenGL errors.
+/// called after each, and may end it too. Fails on OpenGL errors.
 [[nodiscard]] ExitStatus take_series(const ViewOptions& options,
                                      Frame frame,
                                      Renderer& renderer,
                                      const Console& console,
                                      const std::function<ExitStatus(const Frame& frame)>& prepare,
-                                     const std::function<void(const Frame& frame)>& after,
+                                     const std::function<ExitStatus(const Frame& frame)>& after,
                                      PictureSeries& series);
+
+/// Writes what --pick tells of the frame to standard output, after a line with the number of the
+/// picture where there is a series. `describe`: of Renderer::pick(), unless that is Nothing.
+[[nodiscard]] ExitStatus write_picked(
+    const ViewOptions& options,
+    const Frame& frame,
+    std::uint32_t number, // of the picture, from 1
+    Renderer& renderer,
+    const Console& console,
+    const std::function<Outcome<std::vector<std::string>>(const Picked& picked)>& describe);
 
 /// Writes `text` to the target of --stats.
 [[nodiscard]] ExitStatus

@@ -3,6 +3,8 @@
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/plant_growth.h"
 #include "runtime/program/host.h"
+#include "runtime/program/weight_report.h"
+#include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
 
 #include <fmt/format.h>
@@ -21,6 +23,25 @@ namespace {
 
 constexpr double kStepsPerSecond = 60.0;
 
+PhysicsOptions forces_of(const ViewOptions& options, const PlantDocument& document) {
+    PhysicsOptions forces;
+    forces.gravity = options.gravity.value_or(0.0F);
+    forces.wind = options.wind.value_or(Wind{});
+    forces.damping = document.grammar.bytecode.settings.damping;
+    forces.load = document.grammar.bytecode.settings.load;
+    forces.threads = options.run.threads;
+    return forces;
+}
+
+/// Warns of a plant that falls under its weight, as `lsc` does.
+ExitStatus
+check_weight(const ViewOptions& options, const PlantDocument& document, const Console& console) {
+    Diagnostics warning = weigh_for_warning(
+        document.plant.skeleton, document.grammar.bytecode.settings, forces_of(options, document));
+    return warning.all().empty() ? ExitStatus::Ok
+                                 : console.show(warning, *document.grammar.sources);
+}
+
 /// Motion of a plant over a series.
 class Motion {
 public:
@@ -29,12 +50,7 @@ public:
         if (!options.gravity && !options.wind) {
             return;
         }
-        PhysicsOptions forces;
-        forces.gravity = options.gravity.value_or(0.0F);
-        forces.wind = options.wind.value_or(Wind{});
-        forces.damping = document.grammar.bytecode.settings.damping;
-        forces.load = document.grammar.bytecode.settings.load;
-        forces.threads = options.run.threads;
+        PhysicsOptions forces = forces_of(options, document);
         // Whole steps per frame.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
@@ -139,6 +155,10 @@ ExitStatus take_pictures(const ViewOptions& options,
                          const PlantDocument& document,
                          Renderer& renderer,
                          const Console& console) {
+    if (const ExitStatus status = check_weight(options, document, console);
+        status != ExitStatus::Ok) {
+        return status;
+    }
     Motion motion(options, document);
     Skeleton pose;
     Mesh mesh;
@@ -181,8 +201,31 @@ ExitStatus take_pictures(const ViewOptions& options,
         };
     }
     PictureSeries series;
+    std::uint32_t pictures = 0;
+    std::function<ExitStatus(const Frame&)> after;
+    if (options.pick) {
+        after = [&](const Frame& frame) {
+            return write_picked(
+                options, frame, ++pictures, renderer, console, [&](const Picked& picked) {
+                    PickedTriangle triangle;
+                    triangle.triangle = picked.triangle;
+                    triangle.place = picked.place;
+                    triangle.pose = prepare ? &pose : &document.plant.skeleton;
+                    triangle.mesh = options.mesh;
+                    if (growth) {
+                        triangle.moment = moment_of_frame(pictures - 1, options.frames,
+                                                          growth->last_generation());
+                    }
+                    return describe(triangle, document, options, project);
+                });
+        };
+    }
+    Frame frame = frame_of(options, camera);
+    if (options.grow && !renderer.bounds().empty) {
+        frame.ground_disc = ground_disc_of(renderer.bounds()); // of the last generation
+    }
     const ExitStatus status =
-        take_series(options, frame_of(options, camera), renderer, console, prepare, {}, series);
+        take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status
                : write_stats_text(options, stats_text(options, camera, document, renderer, series),

@@ -63,6 +63,7 @@ FilmMoment
 make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool>& cancelled) {
     FilmMoment made;
     made.moment = request.moment;
+    made.mesh_options = request.options.mesh;
     const Project project{make_file_host(&cancelled), request.options.run.limits,
                           request.options.run.threads, false};
     const auto work = [&] {

@@ -22,6 +22,7 @@ struct FilmRequest {
 struct FilmMoment {
     Skeleton skeleton;
     Mesh mesh;
+    MeshOptions mesh_options; // of `mesh`
     GrowthMoment moment;
     std::uint64_t modules = 0; // of the generation that grows
     Messages messages;

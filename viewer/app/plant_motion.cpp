@@ -1,6 +1,7 @@
 #include "viewer/app/plant_motion.h"
 
 #include "runtime/base/out_of_memory.h"
+#include "runtime/program/weight_report.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,6 +21,22 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMaxTimeStep = 0.1; // s: slower plants move in slow motion
 
 } // namespace
+
+WeighOutcome weigh_plant(const WeighRequest& request, const std::atomic<bool>& /*cancelled*/) {
+    return catch_out_of_memory(
+        [&] {
+            Settings settings = request.document->grammar.bytecode.settings;
+            settings.elasticity *= request.bending.stiffness;
+            settings.spring *= request.bending.stiffness;
+            const Skeleton plant = stiffened(request.document->plant.skeleton, Stiffening::Springs,
+                                             static_cast<double>(request.bending.stiffness));
+            return WeighOutcome{request.document,
+                                weigh_for_warning(plant, settings, request.bending.forces)};
+        },
+        [&] {
+            return WeighOutcome{request.document, {}};
+        }); // the simulation will say so
+}
 
 struct PlantMotion::State {
     std::shared_ptr<const PlantDocument> document;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/physics/physics.h"
+#include "viewer/app/latest_request_worker.h"
 #include "viewer/app/plant_document.h"
 
 #include <functional>
@@ -22,6 +23,21 @@ struct Bending {
     PhysicsOptions forces;
     float stiffness = 1.0F; // factor of the spring constants of all segments
 };
+
+/// Work for another thread: weighs a plant.
+struct WeighRequest {
+    std::shared_ptr<const PlantDocument> document;
+    Bending bending;
+    SteadyClock::time_point since;
+    bool again = false;
+};
+struct WeighOutcome {
+    std::shared_ptr<const PlantDocument> document;
+    Diagnostics warning; // that it falls under its weight; empty: it stands, or is too large
+};
+[[nodiscard]] WeighOutcome weigh_plant(const WeighRequest& request,
+                                       const std::atomic<bool>& cancelled);
+using PlantWeigher = LatestRequestWorker<WeighRequest, WeighOutcome>;
 
 class PlantMotion {
 public:

@@ -54,9 +54,8 @@ PlantView::PlantView(const ViewOptions& options,
                      const Console& console,
                      Renderer& renderer,
                      std::function<void()> wake)
-    : View(options, console, renderer), settings(first_plant_settings(options)),
-      wake_(std::move(wake)), frame_next_(options.camera.empty()), plays_next_(options.grow),
-      loader_(wake_),
+    : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
+      frame_next_(options.camera.empty()), plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =
@@ -106,12 +105,14 @@ bool PlantView::update() {
         take_outcome(std::move(*outcome));
         has_news = true;
     }
+    has_news = take_picked() || has_news;
     grow();
     if (!settings.plays && !shows_growth_) {
         bend();
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
         requested_.reset(); // a moment of growth does not bend: show the plant
     }
+    has_news = weigh() || has_news;
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
@@ -161,13 +162,17 @@ void PlantView::drop_unknown_definitions() {
 void PlantView::swap(LoadOutcome outcome) {
     const SteadyClock::time_point start = SteadyClock::now();
     document_ = outcome.document;
+    forget_picked();
     drop_unknown_definitions();
     motion_.reset();
     bending_.reset();
+    weighed_.reset();
+    warns_of_fall_ = false;
     film_.reset(); // its files may have changed
     shows_growth_ = false;
     grown_ = {};
     renderer_->show_plant(document_->mesh);
+    widen_film_ground();
     show_lines();
     if (std::exchange(plays_next_, false)) {
         settings.plays = true;
@@ -224,6 +229,18 @@ void PlantView::start_growth() {
     }
 }
 
+/// Keeps the ground of a growth as wide as its largest plant so far, so that it does not shrink
+/// and grow with the plant.
+void PlantView::widen_film_ground() {
+    if (renderer_->bounds().empty) {
+        return;
+    }
+    const glm::vec4 disc = ground_disc_of(renderer_->bounds());
+    if (disc.w > film_ground_.w) {
+        film_ground_ = disc;
+    }
+}
+
 /// Shows the moment that the film has made.
 void PlantView::take_moment() {
     std::optional<FilmMoment> made = film_->take();
@@ -239,6 +256,7 @@ void PlantView::take_moment() {
     shows_growth_ = true;
     ++stats_.moments;
     renderer_->show_plant(grown_.mesh);
+    widen_film_ground();
     show_lines();
     changed_ = true;
     if (grown_.moment.generation >= default_generations()) {
@@ -376,6 +394,7 @@ void PlantView::bend() {
         mesh.max_bytes = options_.run.limits.max_bytes;
         motion_ = std::make_unique<PlantMotion>(document_, settings.bending, mesh, wake_);
         bending_ = settings.bending;
+        bent_mesh_ = settings.mesh;
     } else if (!is_same(*bending_, settings.bending)) {
         motion_->set(settings.bending);
         bending_ = settings.bending;
@@ -391,6 +410,69 @@ void PlantView::bend() {
     }
 }
 
+/// Warns of a plant that falls under the weight that it is bent by. Returns whether messages changed.
+bool PlantView::weigh() {
+    const bool wants = settings.simulates && document_ != nullptr && !failed() &&
+                       motion_ != nullptr && settings.bending.forces.gravity > 0.0F;
+    if (!wants) {
+        weighed_.reset();
+        if (!std::exchange(warns_of_fall_, false) || document_ == nullptr || failed()) {
+            return false;
+        }
+        take_messages(shown_outcome_.messages, true);
+        return true;
+    }
+    if (!weighed_ || weighed_->stiffness != settings.bending.stiffness ||
+        weighed_->forces.gravity != settings.bending.forces.gravity ||
+        weighed_->forces.load != settings.bending.forces.load) {
+        if (weigher_ == nullptr) {
+            weigher_ = std::make_unique<PlantWeigher>(weigh_plant, wake_);
+        }
+        weighed_ = settings.bending;
+        weigher_->request({document_, settings.bending, SteadyClock::now(), false});
+    }
+    std::optional<WeighOutcome> outcome = weigher_->take();
+    if (!outcome || outcome->document != document_) {
+        return false;
+    }
+    Messages messages = shown_outcome_.messages;
+    warns_of_fall_ = !outcome->warning.all().empty();
+    messages.add(std::move(outcome->warning), document_->grammar.sources);
+    take_messages(messages, true);
+    return true;
+}
+
+PickRequest PlantView::request_for(const Picked& picked) const {
+    if (document_ == nullptr || picked.kind != PickedKind::Plant) {
+        return {};
+    }
+    const bool is_bent = motion_ != nullptr && !bent_.skeleton.segments.empty();
+    PickedTriangle triangle;
+    triangle.triangle = picked.triangle;
+    triangle.place = picked.place;
+    triangle.mesh = shown_outcome_.options.mesh;
+    ViewOptions options = shown_outcome_.options;
+    std::shared_ptr<const Skeleton> pose;
+    if (is_part_grown_) {
+        pose = std::make_shared<Skeleton>(grown_.skeleton);
+        triangle.mesh = grown_.mesh_options;
+        triangle.moment = grown_.moment;
+        options = wanted();
+        options.grammar.generations = default_generations();
+    } else if (is_bent) {
+        pose = std::make_shared<Skeleton>(bent_.skeleton);
+        triangle.mesh = bent_mesh_;
+    } else {
+        pose = std::shared_ptr<const Skeleton>(document_, &document_->plant.skeleton);
+    }
+    triangle.pose = pose.get();
+    PickRequest request;
+    request.describe = [triangle, pose, options, document = document_](const Project& project) {
+        return view::describe(triangle, *document, options, project);
+    };
+    return request;
+}
+
 bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     Frame frame;
     frame.camera = settings.camera;
@@ -400,6 +482,9 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
+    if (is_part_grown_) {
+        frame.ground_disc = film_ground_;
+    }
     if (!draw_frame(frame)) {
         return false;
     }
@@ -430,6 +515,7 @@ void PlantView::open(const std::string& file) {
     settings.seed.reset();
     settings.plays = false;
     film_.reset();
+    film_ground_ = glm::vec4(0.0F);
     frame_next_ = true;
     is_new_file_ = true;
     files_ = {file};
@@ -449,7 +535,8 @@ void PlantView::frame_all() {
 }
 
 bool PlantView::is_busy() const {
-    return loader_.is_busy() || settings.plays || motion_ != nullptr;
+    return loader_.is_busy() || settings.plays || motion_ != nullptr || is_picking() ||
+           (weighed_ && weigher_->is_busy());
 }
 
 } // namespace lsys::view

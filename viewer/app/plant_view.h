@@ -98,6 +98,9 @@ public:
     /// The moment of growth that is shown instead of the last plant; null: none.
     [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
+protected:
+    [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
+
 private:
     void take_outcome(LoadOutcome outcome);
     void swap(LoadOutcome outcome);
@@ -106,12 +109,12 @@ private:
     void start_growth();
     void grow();
     void take_moment();
+    void widen_film_ground();
     void bend();
+    [[nodiscard]] bool weigh();
     void drop_unknown_definitions();
     [[nodiscard]] ViewOptions wanted() const;
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
-
-    std::function<void()> wake_;
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
@@ -128,10 +131,15 @@ private:
     bool plays_next_ = false;      // from the next swap on
     bool shows_growth_ = false;    // `grown_` is shown
     FilmMoment grown_;
+    glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown
     std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;
+    MeshOptions bent_mesh_;          // that bent_ was meshed with
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
+    std::optional<Bending> weighed_; // last request to weigher_
+    bool warns_of_fall_ = false;
+    std::unique_ptr<PlantWeigher> weigher_; // made by the first simulation
     PlantLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

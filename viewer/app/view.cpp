@@ -13,8 +13,11 @@
 
 namespace lsys::view {
 
-View::View(const ViewOptions& options, const Console& console, Renderer& renderer)
-    : options_(options), console_(console), renderer_(&renderer) {}
+View::View(const ViewOptions& options,
+           const Console& console,
+           Renderer& renderer,
+           std::function<void()> wake)
+    : options_(options), console_(console), renderer_(&renderer), wake_(std::move(wake)) {}
 
 namespace {
 
@@ -91,6 +94,52 @@ bool View::draw_frame(const Frame& frame) {
     changed_ = false;
     drawn_ = renderer_->draw(frame, {0, 0, frame.width, frame.height});
     frame_ = frame;
+    return true;
+}
+
+void View::pick(const PicturePixel& pixel) {
+    if (!frame_ || pixel.x >= frame_->width || pixel.y >= frame_->height) {
+        return;
+    }
+    const Result<Picked> picked = renderer_->pick(*frame_, pixel.x, frame_->height - 1 - pixel.y);
+    if (!picked) {
+        set_note(picked.error().message);
+        return;
+    }
+    forget_picked();
+    if (picked.value().kind == PickedKind::Nothing) {
+        return;
+    }
+    PickRequest request = request_for(picked.value());
+    if (!request.describe) {
+        return;
+    }
+    request.run = options_.run;
+    request.since = SteadyClock::now();
+    if (picker_ == nullptr) {
+        picker_ = std::make_unique<PickWorker>(run_pick, wake_);
+    }
+    wants_picked_ = true;
+    picker_->request(std::move(request));
+}
+
+void View::forget_picked() {
+    picked_.clear();
+    wants_picked_ = false;
+}
+
+bool View::take_picked() {
+    if (picker_ == nullptr) {
+        return false;
+    }
+    std::optional<PickOutcome> outcome = picker_->take();
+    if (!outcome || !wants_picked_) {
+        return false;
+    }
+    picked_ = std::move(outcome->lines);
+    for (const std::string& line : picked_) {
+        console_.detail(fmt::format("picked: {}", line));
+    }
     return true;
 }
 

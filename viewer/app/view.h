@@ -6,11 +6,14 @@
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
+#include "viewer/app/picking.h"
 #include "viewer/gl/renderer.h"
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +33,11 @@ struct ShownMessage {
 
 class View {
 public:
-    View(const ViewOptions& options, const Console& console, Renderer& renderer);
+    /// `wake` is called on any thread when update() has work.
+    View(const ViewOptions& options,
+         const Console& console,
+         Renderer& renderer,
+         std::function<void()> wake);
     View(const View&) = delete;
     View& operator=(const View&) = delete;
     virtual ~View() = default;
@@ -53,6 +60,12 @@ public:
     /// Whether there are unsaved changes.
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
 
+    /// Finds out what a pixel of the last picture shows; picked() has it as soon as it is known.
+    void pick(const PicturePixel& pixel);
+    /// Lines about what was picked last; empty: nothing.
+    [[nodiscard]] const std::vector<std::string>& picked() const { return picked_; }
+    void forget_picked();
+
     /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
     /// Writes the last picture to a new file and reports its name.
@@ -73,6 +86,11 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
+    /// Work that tells what a pixel shows; an empty function for nothing. `picked` is not Nothing.
+    [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
+    /// Takes what was found out. Returns whether there is news.
+    bool take_picked();
+    [[nodiscard]] bool is_picking() const { return picker_ != nullptr && picker_->is_busy(); }
     /// Draws `frame` unless nothing changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
@@ -87,6 +105,7 @@ protected:
     ViewOptions options_;
     Console console_;
     Renderer* renderer_;
+    std::function<void()> wake_; // on any thread, when update() has work
     std::string shader_message_;
     // Last picture.
     std::optional<Frame> frame_;
@@ -101,6 +120,9 @@ private:
     SteadyClock::time_point note_since_;
     bool failed_ = false;
     std::atomic<bool> shaders_changed_{false};
+    std::vector<std::string> picked_;
+    bool wants_picked_ = false;          // the outcome of picker_ was not forgotten
+    std::unique_ptr<PickWorker> picker_; // made by the first pick
 };
 
 } // namespace lsys::view

@@ -4,6 +4,7 @@
 #include "viewer/gl/impl/frame_block.h"
 #include "viewer/gl/impl/line_set.h"
 #include "viewer/gl/impl/material_textures.h"
+#include "viewer/gl/impl/pick_target.h"
 #include "viewer/gl/impl/plant_mesh.h"
 #include "viewer/gl/impl/program.h"
 #include "viewer/gl/impl/render_target.h"
@@ -24,6 +25,7 @@ constexpr GLuint kShadowTexture = 0;
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
+constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
 constexpr float kDiscInRadii = 14.0F; // radii of the plant
 
 struct Programs {
@@ -91,6 +93,12 @@ public:
         is_forest_ = true;
         return {};
     }
+    void show_trees() override {
+        if (is_forest_) {
+            forest_.show_trees();
+            shadow_.invalidate();
+        }
+    }
     bool bake_impostors(double seconds) override {
         if (!is_forest_) {
             return true;
@@ -108,6 +116,10 @@ public:
                : plant_.bounds().empty ? lines_.bounds()
                                        : plant_.bounds();
     }
+    void colour_branches(BranchColours by) override {
+        forest_.set_colours(by);
+        shadow_.invalidate();
+    }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
 
     Result<void> reload(const ShaderSource& shaders) override {
@@ -122,6 +134,7 @@ public:
         }
         shaders_ = shaders;
         programs_ = std::move(made.value());
+        pick_plant_ = {};
         return {};
     }
 
@@ -165,7 +178,7 @@ public:
         glDisable(GL_CULL_FACE);
         glBindVertexArray(empty_.name());
         if (frame.ground && !is_forest_ && !bounds().empty) {
-            draw_ground(stats);
+            draw_ground(frame, stats);
         }
         glUseProgram(programs_.sky.name());
         glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -181,6 +194,48 @@ public:
             stats.triangles += pass->triangles;
         }
         return stats;
+    }
+    Result<Picked> pick(const Frame& frame, std::uint32_t x, std::uint32_t y) override {
+        if (Result<void> made = make_pickable(); !made) {
+            return made.error();
+        }
+        const FrameBlock block =
+            make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        glFrontFace(GL_CCW);
+        if (is_forest_) {
+            forest_.prepare(frame);
+        }
+        PickTarget target(device_);
+        target.begin();
+        glDepthFunc(GL_GEQUAL); // reversed depth
+        if (is_forest_) {
+            forest_.draw_picked(textures_);
+        } else if (frame.style != PlantStyle::None) {
+            glUseProgram(pick_plant_.name());
+            glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
+            plant_.draw(textures_, PlantMesh::Pass::Pick);
+        }
+        glDisable(GL_CULL_FACE);
+        const PickTarget::Content content = target.read();
+        const auto kind = static_cast<PickedKind>(content.kind);
+        Picked picked;
+        if (kind == PickedKind::Plant) {
+            picked.triangle = content.item;
+        } else if (is_forest_) {
+            picked = forest_.picked(kind, content.item);
+        }
+        picked.kind = kind;
+        const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
+        picked.place = kind == PickedKind::Nothing ? glm::vec3(0.0F) : glm::vec3(place) / place.w;
+        return picked;
+    }
+    std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
+        return is_forest_ ? forest_.trees_of(form) : std::vector<std::uint32_t>{};
     }
     const ForestFrameStats& forest_stats() const override { return forest_stats_; }
     ForestSizes forest_sizes() const override {
@@ -205,11 +260,27 @@ private:
             forest_.draw_shadows(matrix, forest_stats_);
         } else {
             glUseProgram(programs_.shadow.name());
-            stats.draws += plant_.draw(textures_, false);
+            stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow);
             stats.triangles += plant_.triangles();
         }
         glDisable(GL_DEPTH_CLAMP);
         glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+
+    /// Compiles the shaders of pick() at its first call.
+    Result<void> make_pickable() {
+        if (is_forest_) {
+            return forest_.make_pickable(shaders_);
+        }
+        if (!pick_plant_) {
+            Result<ProgramObject> made = make_program(device_, shaders_, "mesh.vert.glsl",
+                                                      "pick.frag.glsl", "#define PLANT\n");
+            if (!made) {
+                return made.error();
+            }
+            pick_plant_ = std::move(made.value());
+        }
+        return {};
     }
 
     void draw_plant(PlantStyle style, FrameStats& stats) {
@@ -219,22 +290,20 @@ private:
         } else {
             glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
         }
-        stats.draws += plant_.draw(textures_, true);
+        stats.draws += plant_.draw(textures_, PlantMesh::Pass::Colour);
         stats.triangles += plant_.triangles();
         glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     }
 
-    void draw_ground(FrameStats& stats) {
-        const Bounds& plant = bounds();
-        const glm::vec3 size = plant.high - plant.low;
-        const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
+    void draw_ground(const Frame& frame, FrameStats& stats) {
+        const glm::vec4 disc =
+            frame.ground_disc.w > 0.0F ? frame.ground_disc : ground_disc_of(bounds());
         // Power of ten: about ten lines along the plant.
-        const float unit = std::pow(10.0F, std::floor(std::log10(std::max(radius, 1e-6F))));
+        const float unit =
+            std::pow(10.0F, std::floor(std::log10(std::max(disc.w / kDiscInRadii, 1e-6F))));
         glUseProgram(programs_.ground.name());
-        const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
-        glUniform4f(kDisc, 0.5F * (plant.low.x + plant.high.x), below,
-                    0.5F * (plant.low.z + plant.high.z), kDiscInRadii * radius);
+        glUniform4f(kDisc, disc.x, disc.y, disc.z, disc.w);
         glUniform1f(kGridStep, unit);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         ++stats.draws;
@@ -243,6 +312,7 @@ private:
 
     Device device_; // must outlive all below
     Programs programs_;
+    ProgramObject pick_plant_; // compiled on first use
     RenderTarget target_;
     ShadowMap shadow_;
     MaterialTextures textures_;
@@ -258,6 +328,14 @@ private:
 };
 
 } // namespace
+
+glm::vec4 ground_disc_of(const Bounds& plant) {
+    const glm::vec3 size = plant.high - plant.low;
+    const float radius = 0.5F * std::max(std::max(size.x, size.y), size.z);
+    const float below = std::min(plant.low.y, 0.0F) - 1e-4F * radius;
+    return {0.5F * (plant.low.x + plant.high.x), below, 0.5F * (plant.low.z + plant.high.z),
+            kDiscInRadii * radius};
+}
 
 Result<std::unique_ptr<Renderer>> Renderer::make(const ShaderSource& shaders) {
     auto renderer = std::make_unique<GlRenderer>();

@@ -5,6 +5,8 @@
 #include "grammar/base/result.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
+#include "viewer/scene/branch_colours.h"
+#include "viewer/scene/branch_pool.h"
 #include "viewer/scene/camera.h"
 #include "viewer/scene/forest_model.h"
 #include "viewer/scene/lines.h"
@@ -62,6 +64,8 @@ struct Frame {
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
+    /// Middle and radius of the disc, m; radius 0: that of the plant shown. A film keeps one.
+    glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
     std::uint32_t samples = 4; // per pixel: 1 or 4
     // Forests only.
@@ -70,6 +74,9 @@ struct Frame {
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
+
+/// Disc of the ground under a plant: middle, m, and radius.
+[[nodiscard]] glm::vec4 ground_disc_of(const Bounds& plant);
 
 struct FrameStats {
     std::uint64_t draws = 0;
@@ -106,6 +113,26 @@ struct ForestSizes {
     double impostor_milliseconds = 0.0;
 };
 
+/// What a pixel of a picture shows; shaders/pick.frag.glsl writes the numbers.
+enum class PickedKind : std::uint8_t {
+    Nothing = 0,  // sky, or the ground below a plant
+    Plant = 1,    // a triangle of the plant
+    Branch = 2,   // a branch of a near tree
+    Impostor = 3, // the picture of a tree
+    Cluster = 4,  // the picture of the trees of a cell
+    Ground = 5,   // of a forest
+};
+
+struct Picked {
+    PickedKind kind = PickedKind::Nothing;
+    glm::vec3 place{};          // m; unless Nothing
+    std::uint64_t triangle = 0; // Plant: in Mesh::indices of show_plant()
+    std::uint32_t instance = 0; // Branch: in the cache of the form
+    std::uint32_t form = 0;     // Branch, Impostor: in ForestModel::forms
+    Tree tree;                  // Branch, Impostor
+    std::uint32_t trees = 0;    // Cluster: count
+};
+
 class Renderer {
 public:
     /// Error: a shader does not compile.
@@ -122,10 +149,14 @@ public:
     /// it. Impostors of the previous forest are drawn until bake_impostors() has made new ones.
     /// Error: a shader does not compile.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
+    /// Shows the trees of the forest anew after they were changed; all else of it is the same.
+    virtual void show_trees() = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
+    /// Colours the branches of this forest and of all later ones; then bake_impostors() has work.
+    virtual void colour_branches(BranchColours by) = 0;
     /// Bounding box of the plant or forest.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
@@ -134,6 +165,13 @@ public:
 
     /// Draws the part of a picture within `area` to an offscreen target.
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
+    /// What the middle of a pixel shows in the picture that draw() makes of the frame; lines over all
+    /// are left out, and of wireframes the surfaces are taken. `x`, `y`: from the lower left corner
+    /// of the picture. Keeps the last picture. Error: a shader does not compile.
+    [[nodiscard]] virtual Result<Picked>
+    pick(const Frame& frame, std::uint32_t x, std::uint32_t y) = 0;
+    /// Numbers (Tree::number) of the trees of a form that stand in the forest.
+    [[nodiscard]] virtual std::vector<std::uint32_t> trees_of(std::uint32_t form) const = 0;
     /// Statistics of the last draw(); empty without a forest.
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;

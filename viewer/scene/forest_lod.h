@@ -156,12 +156,24 @@ public:
         return number < trees_.size() ? model_.forest->trees[trees_[number].tree]
                                       : added_.tree(number - first_added());
     }
+    /// Calls visit(LodTree, Tree) for each tree that was not removed.
+    template <typename Visit>
+    void for_each_alive(const Visit& visit) const {
+        for (const LodTree& tree : trees_) {
+            if (!tree.is_removed()) {
+                visit(tree, model_.forest->trees[tree.tree]);
+            }
+        }
+        added_.visit([](const AddedTrees::Cell&) { return true; },
+                     [&](std::uint32_t slot) { visit(added_.at(slot), added_.tree(slot)); });
+    }
     /// Count of trees without removed ones.
     [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
     [[nodiscard]] BranchPool& pool() { return pool_; }
+    [[nodiscard]] const BranchPool& pool() const { return pool_; }
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
     /// Bounding sphere of a tree with any branches.
@@ -197,6 +209,9 @@ private:
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
+    /// m, by which trees at the edges of a cell stand too high or low in the picture of its cluster,
+    /// which is taken from one of few elevations.
+    [[nodiscard]] float flattened(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,
                     float distance,

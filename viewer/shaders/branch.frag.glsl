@@ -8,7 +8,7 @@ layout(binding = 2) uniform sampler2D leaf_texture;
 in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
-flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy
+flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy, 8 one colour
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -57,7 +57,9 @@ void main() {
     if (texel.a < 0.5) {
         discard;
     }
-    albedo *= texel.rgb;
+    if ((kind & 8u) == 0u) {
+        albedo *= texel.rgb;
+    }
 #else
     if ((kind & 1u) != 0u) {
         albedo *= texture(bark_texture, uv).rgb;

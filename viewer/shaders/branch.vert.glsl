@@ -6,11 +6,18 @@ struct Material {
     uint kind;
 };
 layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
+// By form the index of its first colour, 0 for natural colours; then square roots of linear RGB by
+// instance.
+layout(std430, binding = 5) readonly buffer BranchColours { uint branch_colours[]; };
+const uint kColoured = 8u; // bit of Material.kind: one colour for all of the branch
 layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1
 layout(location = 1) in uint material_index;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
 layout(location = 4) in uint branch;    // index in branches; upper 8 bits: weight of blending
+#ifdef PICK
+flat out uint item;
+#endif
 #ifdef BLENDS
 flat out vec2 blend_range;
 #endif
@@ -21,6 +28,7 @@ out vec3 front; // inputs of leaf.frag.glsl
 out vec3 back;
 #ifdef CUT_OUT
 out vec3 fog_light;
+flat out uint kind;
 #endif
 #else
 out vec3 world_normal;
@@ -40,6 +48,9 @@ void main() {
 #ifdef BLENDS
     blend_range = vec2(0.0, float(branch >> 24) / 255.0);
 #endif
+#ifdef PICK
+    item = branch & 0xFFFFFFu;
+#endif
     UnpackedTree tree = unpack_tree(at.rotation_mesh_tree.w);
     vec4 turn = normalize(vec4(unpackSnorm2x16(at.rotation_mesh_tree.x),
                                unpackSnorm2x16(at.rotation_mesh_tree.y)));
@@ -54,6 +65,12 @@ void main() {
     vec3 surface = rotate(turn, octahedral(normal));
     uv = texture_coordinate;
     Material material = materials[material_index];
+    uint first_colour = branch_colours[tree.form];
+    if (first_colour != 0u) {
+        vec3 root = unpackUnorm4x8(branch_colours[first_colour + at.rotation_mesh_tree.z]).rgb;
+        material.colour = root * root;
+        material.kind = (material.kind & ~1u) | kColoured;
+    }
 #ifdef LIT_AT_CORNERS
     float lit = sunlight_at(shadow_map_position(world, frame.to_sun.xyz), crown_sunlight(in_crown));
     float open = ambient_visibility(in_crown);
@@ -64,6 +81,7 @@ void main() {
     vec3 fog_only = apply_fog(vec3(0.0), fog);
 #ifdef CUT_OUT
     fog_light = fog_only;
+    kind = material.kind;
 #else
     front = tone_mapped(front + fog_only).rgb;
     back = tone_mapped(back + fog_only).rgb;

@@ -15,6 +15,11 @@ flat in vec3 crown_step;
 flat in mat3 world_from_impostor; // for normals
 flat in int is_cluster;
 #endif
+#ifdef PICK
+layout(location = 20) uniform uint content; // PickedKind
+flat in uint item;
+layout(location = 0) out uvec4 picked;
+#endif
 #if !defined(SHADOW) && !defined(DEPTH)
 layout(early_fragment_tests) in; // the depth pass has drawn the depth
 out vec4 colour;
@@ -28,6 +33,9 @@ void main() {
 #endif
 #ifdef BLENDS
     keep_range(blend_range);
+#endif
+#ifdef PICK
+    picked = uvec4(content, item, 0u, 0u);
 #endif
 #ifndef DEPTH
     vec4 shape = texture(normals, layer_uv);

@@ -7,6 +7,9 @@ layout(location = 1) in vec2 range;
 flat out vec2 blend_range;
 #endif
 flat out int is_cluster;
+#ifdef PICK
+flat out uint item;
+#endif
 invariant gl_Position; // the colour pass compares depths
 out vec3 layer_uv;              // uv; layer
 out vec3 plane_shadow_position; // at the middle plane
@@ -20,6 +23,9 @@ flat out mat3 world_from_impostor;   // for normals
 void main() {
 #ifdef BLENDS
     blend_range = range;
+#endif
+#ifdef PICK
+    item = index;
 #endif
     UnpackedTree tree = unpack_tree(index);
     vec3 centre = crown_centre(tree);

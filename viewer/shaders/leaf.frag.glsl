@@ -10,6 +10,7 @@ in vec2 uv;
 in vec3 front; // radiance of a white leaf seen from its front
 in vec3 back;
 in vec3 fog_light;
+flat in uint kind; // bit 8: one colour
 #else
 in vec3 front; // tone-mapped
 in vec3 back;
@@ -24,7 +25,8 @@ void main() {
     if (texel.a < 0.5) {
         discard;
     }
-    colour = tone_mapped(texel.rgb * (gl_FrontFacing ? front : back) + fog_light);
+    vec3 albedo = (kind & 8u) != 0u ? vec3(1.0) : texel.rgb;
+    colour = tone_mapped(albedo * (gl_FrontFacing ? front : back) + fog_light);
 #else
     colour = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif

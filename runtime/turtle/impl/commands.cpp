@@ -166,6 +166,7 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
     start.place = current_place();
     start.segment = now.moved ? kNoSegment : now.segment;
     start.drawn = drawn();
+    start.origin = origin;
     if (options.branches->begin(start)) {
         watched.push_back(stack.size());
     } else {

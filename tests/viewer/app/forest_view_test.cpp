@@ -9,7 +9,10 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <thread>
 
@@ -270,9 +273,75 @@ TEST_CASE("a forest grows from its first year to its last") {
     viewed.forest().play_or_pause();
     REQUIRE(viewed.until([&] { return !viewed.forest().settings.plays; }));
     REQUIRE(viewed.until([&] { return viewed.forest().painting().tree_count() == grown; }));
-    CHECK(viewed.forest().stats().swaps >= 4);
+    CHECK(viewed.forest().stats().swaps >= 3);
+    CHECK(viewed.forest().stats().moments > 0);
+    CHECK(viewed.forest().years() == 30);
     viewed.forest().play_or_pause();
-    CHECK(viewed.forest().years() == 1);
+    CHECK(viewed.forest().years() == 0);
+}
+
+TEST_CASE("a forest that plays has no jumps between two moments, and pauses at a whole year") {
+    const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
+                           "count = 60\nyears = 12\n[[species]]\nname = \"bush\"\n"
+                           "grammar = \"bush.lsys\"\nstages = [1, 2, 3]\nyears_of_stage = 4\n"
+                           "[species.growth]\nmaturity = 3\nseeds = 0.5\nseed_distance = 9\n");
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    const auto heights = [&] {
+        std::map<std::uint32_t, double> of_trees;
+        for (const Tree& tree : forest.document()->grown.forest.trees) {
+            const ForestModel& model = forest.document()->model;
+            of_trees[tree.number] =
+                static_cast<double>(tree.scale * model.forms[model.form_of(tree)].height());
+        }
+        return of_trees;
+    };
+    double tallest = 0.0;
+    for (const auto& [number, height] : heights()) {
+        tallest = std::max(tallest, height);
+    }
+    forest.settings.years_per_second = 4.0F; // at most a year in a step
+    forest.play_or_pause();
+    std::map<std::uint32_t, double> before;
+    double last = -1.0;
+    double largest = 0.0; // m a year
+    std::uint64_t moments = 0;
+    const auto compare = [&] {
+        if (!forest.grown() || forest.stats().moments == moments) {
+            return false;
+        }
+        moments = forest.stats().moments;
+        const double now = static_cast<double>(forest.grown()->generation) + forest.grown()->part;
+        std::map<std::uint32_t, double> after = heights();
+        if (last >= 0.0) {
+            CHECK(now - last <= 1.0 + 1e-9);
+            for (const auto& [number, height] : after) {
+                before.try_emplace(number, 0.0);
+            }
+            for (const auto& [number, height] : before) {
+                const auto at = after.find(number);
+                const double change = std::abs((at == after.end() ? 0.0 : at->second) - height);
+                if (change > 1e-6) {
+                    largest = std::max(largest, change / std::max(now - last, 1e-3));
+                }
+            }
+        }
+        before = std::move(after);
+        last = now;
+        return last >= 9.0;
+    };
+    REQUIRE(viewed.until(compare));
+    INFO(moments << " moments, at most " << largest << " m a year; trees up to " << tallest
+                 << " m");
+    CHECK(moments > 8);
+    // Seedlings and dying trees are eased, 1.5 times as fast at most; a jump would be a tree at once.
+    CHECK(largest < 1.5 * tallest);
+    forest.play_or_pause();
+    REQUIRE(viewed.until([&] { return !forest.grown() && !forest.is_busy(); }));
+    CHECK(forest.years() >= static_cast<std::uint32_t>(last));
+    CHECK(forest.years() <= 12);
+    CHECK(forest.stats().swaps >= 2);
 }
 
 TEST_CASE("trees are painted, undone, saved, and read again") {

@@ -1,10 +1,13 @@
 #include "viewer/gl/impl/forest_buffers.h"
 
+#include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
 #include "runtime/meshing/texture.h"
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -24,6 +27,7 @@ constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
 constexpr GLuint kMaterials = 3;
+constexpr GLuint kBranchColours = 5;
 constexpr GLuint kBranchAttribute = 4;
 
 struct Vertex {
@@ -131,8 +135,8 @@ ForestBuffers::DrawBuffers ForestBuffers::make_draw_buffers(Device& device) {
 
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), materials_(device),
-      forms_(device), clusters_(device), forest_(make_draw_buffers(device)),
-      impostor_(make_draw_buffers(device)), device_(&device) {
+      forms_(device), branch_colours_(device), clusters_(device),
+      forest_(make_draw_buffers(device)), impostor_(make_draw_buffers(device)), device_(&device) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -216,7 +220,6 @@ void ForestBuffers::upload(ForestModel& model,
                            const MaterialTextures& textures) {
     upload_pictures(model, textures);
     std::vector<MaterialRecord> records;
-    std::vector<FormRecord> forms;
     std::uint64_t vertex_count = 0;
     std::uint64_t index_count = 0;
     std::vector<float> boxes;
@@ -232,12 +235,8 @@ void ForestBuffers::upload(ForestModel& model,
         }
         boxes.push_back(box);
     }
-    for (std::size_t f = 0; f < plan.forms.size(); ++f) {
-        const ImpostorForm& form = plan.forms[f];
-        forms.push_back(
-            {{form.cylinder.radius, form.cylinder.low, form.cylinder.high, boxes[f % boxes.size()]},
-             {static_cast<float>(form.first_layer), f < boxes.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});
-    }
+    boxes_ = boxes;
+    upload_forms(model, plan);
     vertices_.reserve(vertex_count * sizeof(Vertex));
     indices_.reserve(index_count * sizeof(std::uint32_t));
     mesh_bytes_ = vertex_count * sizeof(Vertex) + index_count * sizeof(std::uint32_t);
@@ -320,9 +319,41 @@ void ForestBuffers::upload(ForestModel& model,
         }
     }
     materials_.fill(std::span<const MaterialRecord>(records));
-    forms_.fill(std::span<const FormRecord>(forms));
     glVertexArrayVertexBuffer(array_.name(), 0, vertices_.name(), 0, sizeof(Vertex));
     glVertexArrayElementBuffer(array_.name(), indices_.name());
+}
+
+void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& plan) {
+    LSYS_CHECK(boxes_.size() == model.forms.size());
+    std::vector<FormRecord> forms;
+    for (std::size_t f = 0; f < plan.forms.size(); ++f) {
+        const ImpostorForm& form = plan.forms[f];
+        forms.push_back(
+            {{form.cylinder.radius, form.cylinder.low, form.cylinder.high,
+              boxes_[f % boxes_.size()]},
+             {static_cast<float>(form.first_layer), f < boxes_.size() ? 0.0F : 1.0F, 0.0F, 0.0F}});
+    }
+    forms_.fill(std::span<const FormRecord>(forms));
+}
+
+void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
+    colour_digests_.assign(model.forms.size(), 0);
+    // Clusters have forms of their own, but no branches.
+    std::vector<std::uint32_t> words(model.forms.size(), 0);
+    const std::vector<LegendEntry> legend = legend_of(model, by);
+    for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {
+        const InstanceCache& cache = *model.forms[f].cache;
+        const std::size_t first = words.size();
+        for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+            const glm::vec3 colour =
+                branch_colour(by, branch_value(by, cache, i), legend.back().value);
+            words.push_back(glm::packUnorm4x8(glm::vec4(glm::sqrt(colour), 1.0F)));
+        }
+        words[f] = static_cast<std::uint32_t>(first);
+        colour_digests_[f] =
+            digest_of(std::span<const std::uint32_t>(words).subspan(first), 0) | 1U;
+    }
+    branch_colours_.fill(std::span<const std::uint32_t>(words));
 }
 
 void ForestBuffers::upload_trees(const ForestLod& lod) {
@@ -445,6 +476,7 @@ void ForestBuffers::bind_storage() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, current_->trees.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterials, materials_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranchColours, branch_colours_.name());
 }
 
 } // namespace lsys::view

@@ -4,6 +4,7 @@
 
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/objects.h"
+#include "viewer/scene/branch_colours.h"
 #include "viewer/scene/forest_lod.h"
 #include "viewer/scene/impostor_plan.h"
 
@@ -50,6 +51,10 @@ public:
 
     /// Uploads meshes, forms, materials and pictures; releases the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
+    /// Uploads forms anew, for other trees of the same meshes. After upload().
+    void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
+    /// Colours the branches from now on. After upload().
+    void set_colours(const ForestModel& model, BranchColours by);
     /// Uploads all trees, and clusters as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
     /// Uploads branches written by the pool.
@@ -81,9 +86,9 @@ public:
         return forest_.trees.capacity() + clusters_.capacity();
     }
     [[nodiscard]] std::uint64_t branch_bytes() const { return forest_.branches.capacity(); }
-    /// Hash of all meshes of a form.
+    /// Hash of all meshes of a form and of the colours of its branches.
     [[nodiscard]] std::uint64_t mesh_digest(std::uint32_t form) const {
-        return mesh_digests_[form];
+        return mesh_digests_[form] ^ colour_digests_[form];
     }
 
 private:
@@ -133,11 +138,14 @@ private:
     Buffer indices_;
     Buffer materials_;
     Buffer forms_;
+    Buffer branch_colours_;
     Buffer clusters_;
     DrawBuffers forest_;
     DrawBuffers impostor_;
     DrawBuffers* current_ = &forest_;
-    std::vector<std::uint64_t> mesh_digests_; // by form
+    std::vector<float> boxes_;                  // by form: half side of the box of its vertices, m
+    std::vector<std::uint64_t> mesh_digests_;   // by form
+    std::vector<std::uint64_t> colour_digests_; // by form; 0: natural
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
     std::vector<BranchPicture> pictures_;
     Device* device_;

@@ -1,5 +1,7 @@
 #include "viewer/gl/impl/forest_pass.h"
 
+#include "viewer/gl/impl/program.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -25,6 +27,7 @@ constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
 constexpr GLuint kReliefTexture = 5;
+constexpr GLint kPickedContent = 20; // in pick.frag.glsl
 // Half side of the shadow map near the ground, and its max, m.
 constexpr float kMinShadowRange = 45.0F;
 constexpr float kMaxShadowRange = 400.0F;
@@ -86,6 +89,7 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
         return done;
     }
     programs_ = std::move(programs);
+    pick_programs_.reset();
     return {};
 }
 
@@ -97,7 +101,9 @@ void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
     has_clusters_ = plan.has_clusters;
+    has_old_clusters_ = false;
     buffers_.upload(model_, plan, textures);
+    buffers_.set_colours(model_, colours_);
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
@@ -106,6 +112,25 @@ void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
                   textures);
     upload_seconds_ = seconds_since(start);
     bake_seconds_ = 0.0;
+}
+
+void ForestPass::set_colours(BranchColours by) {
+    if (by == std::exchange(colours_, by) || lod_ == nullptr) {
+        return;
+    }
+    buffers_.set_colours(model_, by);
+    impostors_.begin(model_, plan_impostors(*lod_), buffers_);
+}
+
+void ForestPass::show_trees() {
+    lists_ = nullptr;
+    lod_ = std::make_unique<ForestLod>(model_);
+    ImpostorPlan plan = plan_impostors(*lod_);
+    has_clusters_ = plan.has_clusters;
+    has_old_clusters_ = true;
+    buffers_.upload_forms(model_, plan);
+    impostors_.begin(model_, std::move(plan), buffers_);
+    buffers_.upload_trees(*lod_);
 }
 
 bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
@@ -168,7 +193,8 @@ void ForestPass::prepare(const Frame& frame) {
     options.wind = frame.wind;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
-    options.cluster_pixels = has_clusters_ ? options.cluster_pixels : 0.0F;
+    has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
+    options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_);
     // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
@@ -278,6 +304,102 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.waiting_trees = lists_->waiting;
     stats.detail = lists_->detail;
     stats.cull_milliseconds = 1e3 * cull_seconds_;
+}
+
+Result<void> ForestPass::make_pickable(const ShaderSource& shaders) {
+    if (pick_programs_) {
+        return {};
+    }
+    PickPrograms programs;
+    for (const bool windy : {false, true}) {
+        Result<ForestPickPrograms> made = make_pick_programs(*device_, shaders, windy);
+        if (!made) {
+            return made.error();
+        }
+        programs.forest[windy ? 1 : 0] = std::move(made.value());
+    }
+    Result<ProgramObject> ground =
+        make_program(*device_, shaders, "terrain.vert.glsl", "pick.frag.glsl", "#define GROUND\n");
+    if (!ground) {
+        return ground.error();
+    }
+    programs.ground = std::move(ground.value());
+    pick_programs_ = std::move(programs);
+    return {};
+}
+
+void ForestPass::draw_picked(MaterialTextures& textures) {
+    const ForestPickPrograms& picks = pick_programs_->forest[is_windy_ ? 1 : 0];
+    const auto use = [](const ProgramObject& program, PickedKind kind) {
+        glUseProgram(program.name());
+        glUniform1ui(kPickedContent, static_cast<GLuint>(kind));
+    };
+    buffers_.bind_storage();
+    for (const bool blends : {false, true}) {
+        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        use(blends ? picks.blending_branch : picks.branch, PickedKind::Branch);
+        for (const BranchClass kind :
+             {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
+            buffers_.draw(kind, blends);
+        }
+        use(blends ? picks.blending_cut_out : picks.cut_out, PickedKind::Branch);
+        buffers_.draw(BranchClass::CutOut, blends);
+        buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(),
+                               (blends ? picks.blending_cut_out : picks.cut_out).name(), blends);
+    }
+    glDisable(GL_CULL_FACE);
+    const auto draw_impostors = [&](std::span<const DrawEntry> entries, PickedKind kind) {
+        if (entries.empty()) {
+            return;
+        }
+        quad_trees_.fill(entries);
+        const auto whole = static_cast<std::size_t>(
+            std::partition_point(entries.begin(), entries.end(),
+                                 [](const DrawEntry& entry) { return entry.range.is_whole(); }) -
+            entries.begin());
+        use(picks.impostor, kind);
+        draw_quads(picks.impostor, 0, whole);
+        use(picks.blending_impostor, kind);
+        draw_quads(picks.blending_impostor, whole, entries.size() - whole);
+    };
+    draw_impostors(lists_->trees, PickedKind::Impostor);
+    if (!lists_->clusters.empty()) {
+        buffers_.bind_clusters();
+        draw_impostors(lists_->clusters, PickedKind::Cluster);
+        buffers_.bind_storage();
+    }
+    use(pick_programs_->ground, PickedKind::Ground);
+    terrain_.draw_with(pick_programs_->ground);
+}
+
+Picked ForestPass::picked(PickedKind kind, std::uint32_t item) const {
+    Picked picked;
+    picked.kind = kind;
+    if (kind == PickedKind::Cluster) {
+        picked.trees = lod_->cells()[item].count;
+        return picked;
+    }
+    std::uint32_t number = item;
+    if (kind == PickedKind::Branch) {
+        const PoolBranch& branch = lod_->pool().branches()[item];
+        picked.instance = branch.mesh;
+        number = branch.tree;
+    }
+    if (kind == PickedKind::Branch || kind == PickedKind::Impostor) {
+        picked.form = lod_->lod_tree(number).form;
+        picked.tree = lod_->tree_of(number);
+    }
+    return picked;
+}
+
+std::vector<std::uint32_t> ForestPass::trees_of(std::uint32_t form) const {
+    std::vector<std::uint32_t> numbers;
+    lod_->for_each_alive([&](const LodTree& tree, const Tree& full) {
+        if (tree.form == form) {
+            numbers.push_back(full.number);
+        }
+    });
+    return numbers;
 }
 
 ForestSizes ForestPass::sizes() const {

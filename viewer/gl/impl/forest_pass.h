@@ -18,7 +18,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace lsys::view {
 
@@ -31,8 +33,12 @@ public:
     /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
     /// must outlive the pass or the next call.
     void show(ForestModel model, const MaterialTextures& textures);
+    /// Shows the trees of the forest anew. Clusters wait until their impostors are baked.
+    void show_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
+    /// Colours the branches of this forest and of all later ones.
+    void set_colours(BranchColours by);
     /// Adds or removes a tree: ForestLod::change_tree().
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
@@ -46,6 +52,15 @@ public:
     /// Draws into the bound framebuffer. Texture unit 0 must hold the shadow map.
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 
+    /// Compiles the programs of draw_picked() at the first call. Error: a shader does not compile.
+    [[nodiscard]] Result<void> make_pickable(const ShaderSource& shaders);
+    /// Draws what each pixel shows into the bound framebuffer. After prepare().
+    void draw_picked(MaterialTextures& textures);
+    /// Names what draw_picked() has written.
+    [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t item) const;
+    /// Numbers of the living trees of a form.
+    [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
+
     [[nodiscard]] ForestSizes sizes() const;
 
 private:
@@ -58,6 +73,12 @@ private:
 
     Device* device_;
     std::array<ForestPrograms, 2> programs_; // without wind, with wind
+    struct PickPrograms {
+        std::array<ForestPickPrograms, 2> forest; // without wind, with wind
+        ProgramObject ground;
+    };
+    std::optional<PickPrograms> pick_programs_;
+    BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
@@ -69,7 +90,8 @@ private:
     Frustum frustum_;
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
-    bool has_clusters_ = false; // the atlas has cluster impostors
+    bool has_clusters_ = false;     // the atlas has cluster impostors
+    bool has_old_clusters_ = false; // they are of other trees until all are baked
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

@@ -46,4 +46,38 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
     return programs;
 }
 
+Result<ForestPickPrograms>
+make_pick_programs(Device& device, const ShaderSource& shaders, bool windy) {
+    ForestPickPrograms programs;
+    struct Wanted {
+        ProgramObject* program;
+        const char* vertex;
+        const char* fragment;
+        const char* defines;
+    };
+    constexpr const char* kBranch = "branch.vert.glsl";
+    constexpr const char* kPick = "pick.frag.glsl";
+    constexpr const char* kImpostor = "impostor.vert.glsl";
+    constexpr const char* kImpostorPick = "impostor.frag.glsl";
+    const std::array<Wanted, 6> wanted = {
+        {{&programs.branch, kBranch, kPick, ""},
+         {&programs.cut_out, kBranch, kPick, "#define CUT_OUT\n"},
+         {&programs.blending_branch, kBranch, kPick, "#define BLENDS\n"},
+         {&programs.blending_cut_out, kBranch, kPick, "#define CUT_OUT\n#define BLENDS\n"},
+         {&programs.impostor, kImpostor, kImpostorPick, "#define DEPTH\n"},
+         {&programs.blending_impostor, kImpostor, kImpostorPick,
+          "#define DEPTH\n#define BLENDS\n"}}};
+    const std::string common =
+        windy ? "#define PICK\n#define ONE_TAP\n#define WIND\n" : "#define PICK\n#define ONE_TAP\n";
+    for (const Wanted& one : wanted) {
+        Result<ProgramObject> made =
+            make_program(device, shaders, one.vertex, one.fragment, common + one.defines);
+        if (!made) {
+            return made.error();
+        }
+        *one.program = std::move(made.value());
+    }
+    return programs;
+}
+
 } // namespace lsys::view

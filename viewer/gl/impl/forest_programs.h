@@ -24,6 +24,20 @@ struct ForestPrograms {
     ProgramObject impostor_shadow;
 };
 
+/// Programs that write what a pixel shows: shaders/pick.frag.glsl.
+struct ForestPickPrograms {
+    ProgramObject branch; // all classes but cut-out leaves
+    ProgramObject cut_out;
+    ProgramObject blending_branch;
+    ProgramObject blending_cut_out;
+    ProgramObject impostor;
+    ProgramObject blending_impostor;
+};
+
+/// As make_forest_programs().
+[[nodiscard]] Result<ForestPickPrograms>
+make_pick_programs(Device& device, const ShaderSource& shaders, bool windy);
+
 /// `windy`: trees sway; a variant without wind is faster. Error: a shader does not compile.
 [[nodiscard]] Result<ForestPrograms>
 make_forest_programs(Device& device, const ShaderSource& shaders, bool windy);

@@ -16,6 +16,7 @@ constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4
 // Uniforms and bindings of mesh.frag.glsl.
 constexpr GLint kColour = 0;
 constexpr GLint kKind = 1;
+constexpr GLint kFirstTriangle = 2; // of pick.frag.glsl
 constexpr GLuint kBaseTexture = 1;
 constexpr GLuint kNormalTexture = 2;
 
@@ -69,7 +70,8 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     }
 }
 
-std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
+std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
+    const bool shaded = pass == Pass::Colour;
     glBindVertexArray(array_.name());
     std::uint64_t draws = 0;
     for (const MeshPart& part : parts_) {
@@ -98,6 +100,9 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, bool shaded) const {
         constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
         for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
             const std::uint64_t count = std::min(part.index_count - first, kMax);
+            if (pass == Pass::Pick) {
+                glUniform1ui(kFirstTriangle, static_cast<GLuint>((part.first_index + first) / 3));
+            }
             const std::uintptr_t offset = (part.first_index + first) * sizeof(std::uint32_t);
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's signature

@@ -16,9 +16,10 @@ public:
 
     /// Reuses buffers that are large enough.
     void upload(const Mesh& mesh, const MaterialTextures& textures);
-    /// Draws with the bound program of shaders/mesh or shaders/shadow; returns the count of draw
+    enum class Pass : std::uint8_t { Colour, Shadow, Pick };
+    /// Draws with the bound program of shaders/mesh, shadow or pick; returns the count of draw
     /// calls.
-    std::uint64_t draw(MaterialTextures& textures, bool shaded) const;
+    std::uint64_t draw(MaterialTextures& textures, Pass pass) const;
 
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }

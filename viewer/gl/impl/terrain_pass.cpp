@@ -166,25 +166,8 @@ void TerrainPass::prepare(const Frustum& frustum) {
 }
 
 FrameStats TerrainPass::draw() {
-    FrameStats stats;
-    const std::vector<TerrainPatch>& patches = lod_->patches();
-    if (patches.empty()) {
-        return stats;
-    }
-    static_assert(sizeof(TerrainPatch) == 12);
-    patches_.fill(std::span<const TerrainPatch>(patches));
-    glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
-    glUseProgram(colour_ ? picture_program_.name() : program_.name());
-    std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
-    for (std::uint32_t level = 0; level < lod_->levels(); ++level) {
-        origins[std::size_t{2} * level] = lod_->grid(level).origin.x;
-        origins[std::size_t{2} * level + 1] = lod_->grid(level).origin.y;
-    }
-    glUniform2iv(kOrigins, static_cast<GLsizei>(kTerrainLevels), origins.data());
-    glUniform4f(kRanges, kFinestCell, TerrainLod::range(0),
-                TerrainLod::morph_start(0) / TerrainLod::range(0), lod_->eye_height());
-    glUniform1i(kLevels, static_cast<GLint>(lod_->levels()));
-    glBindTextureUnit(kHeights, heights_.name());
+    const ProgramObject& program = colour_ ? picture_program_ : program_;
+    glUseProgram(program.name());
     if (colour_) {
         glUniform4f(kTiles, static_cast<float>(pictures_.origin_x),
                     static_cast<float>(pictures_.origin_z), static_cast<float>(pictures_.width),
@@ -196,6 +179,29 @@ FrameStats TerrainPass::draw() {
     } else {
         glBindTextureUnit(kNoise, noise_.name());
     }
+    return draw_with(program);
+}
+
+FrameStats TerrainPass::draw_with(const ProgramObject& program) {
+    FrameStats stats;
+    const std::vector<TerrainPatch>& patches = lod_->patches();
+    if (patches.empty()) {
+        return stats;
+    }
+    static_assert(sizeof(TerrainPatch) == 12);
+    patches_.fill(std::span<const TerrainPatch>(patches));
+    glVertexArrayVertexBuffer(array_.name(), 1, patches_.name(), 0, sizeof(TerrainPatch));
+    glUseProgram(program.name());
+    std::array<GLint, std::size_t{2} * kTerrainLevels> origins{};
+    for (std::uint32_t level = 0; level < lod_->levels(); ++level) {
+        origins[std::size_t{2} * level] = lod_->grid(level).origin.x;
+        origins[std::size_t{2} * level + 1] = lod_->grid(level).origin.y;
+    }
+    glUniform2iv(kOrigins, static_cast<GLsizei>(kTerrainLevels), origins.data());
+    glUniform4f(kRanges, kFinestCell, TerrainLod::range(0),
+                TerrainLod::morph_start(0) / TerrainLod::range(0), lod_->eye_height());
+    glUniform1i(kLevels, static_cast<GLint>(lod_->levels()));
+    glBindTextureUnit(kHeights, heights_.name());
     glEnable(GL_CULL_FACE);
     glBindVertexArray(array_.name());
     glDrawElementsInstanced(GL_TRIANGLES, kPatchIndices, GL_UNSIGNED_BYTE, nullptr,

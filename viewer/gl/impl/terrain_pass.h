@@ -29,6 +29,8 @@ public:
     void prepare(const Frustum& frustum);
     /// Draws the selected patches.
     FrameStats draw();
+    /// The same with another program of terrain.vert.glsl.
+    FrameStats draw_with(const ProgramObject& program);
 
     [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;

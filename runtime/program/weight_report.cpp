@@ -1,4 +1,4 @@
-#include "runtime/cli/weight_report.h"
+#include "runtime/program/weight_report.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys {
 
 namespace {
 
@@ -116,19 +116,33 @@ std::string weight_json(const WeightReport& report) {
     return object.dump() + '\n';
 }
 
-ExitStatus
-warn_of_fall(const WeightReport& report, const Grammar& grammar, const Console& console) {
-    if (report.stands()) {
-        return ExitStatus::Ok;
-    }
+Diagnostics fall_warning(const WeightReport& report) {
     Diagnostics diagnostics;
+    if (report.stands()) {
+        return diagnostics;
+    }
     Diagnostic& warning =
         diagnostics.add(DiagnosticCode::WeakStem, {},
                         fmt::format("the plant sinks to {:.0f} % of its height under {:.4g} m/s2",
                                     100.0 * report.height_left, report.gravity));
     const std::string ways = advice(report);
     warning.help.push_back(ways.empty() ? "make its segments wider or stiffer" : ways);
-    return console.show(diagnostics, *grammar.sources);
+    return diagnostics;
 }
 
-} // namespace lsys::lsc
+Diagnostics
+weigh_for_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options) {
+    if (!(options.gravity > 0.0F) || plant.segments.size() > kMaxWeighedSegments) {
+        return {};
+    }
+    options.wind = {};
+    return fall_warning(weigh(plant, settings, options));
+}
+
+ExitStatus
+warn_of_fall(const WeightReport& report, const Grammar& grammar, const Console& console) {
+    Diagnostics warning = fall_warning(report);
+    return report.stands() ? ExitStatus::Ok : console.show(warning, *grammar.sources);
+}
+
+} // namespace lsys

@@ -1,5 +1,5 @@
 // Reports of a plant under its weight: a table for `lsc stats --gravity`, and the warning that it
-// falls, with the widths or the stiffness that would hold it.
+// falls, with the widths or the stiffness that would hold it, of `lsc` and `lsview`.
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -8,10 +8,11 @@
 #include "runtime/program/console.h"
 #include "runtime/turtle/skeleton.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
-namespace lsys::lsc {
+namespace lsys {
 
 /// A plant under its weight. For a plant that falls, also the values with which it would stand,
 /// rounded up to two digits; unset if none was found.
@@ -34,8 +35,16 @@ weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& opt
 /// One JSON object and a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);
 
+/// Largest plant that is weighed for a warning alone, segments: each trial settles it.
+inline constexpr std::size_t kMaxWeighedSegments = 20'000;
+/// The warning of a plant that falls; empty if it stands.
+[[nodiscard]] Diagnostics fall_warning(const WeightReport& report);
+/// fall_warning() of the plant under the gravity of `options` without their wind; empty for a plant
+/// that is too large to be weighed, and without gravity.
+[[nodiscard]] Diagnostics
+weigh_for_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options);
 /// Prints the warning of a plant that falls. Returns AuthorErrors with --deny warnings.
 [[nodiscard]] ExitStatus
 warn_of_fall(const WeightReport& report, const Grammar& grammar, const Console& console);
 
-} // namespace lsys::lsc
+} // namespace lsys

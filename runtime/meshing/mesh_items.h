@@ -1,0 +1,28 @@
+// Which segment, object or polygon of a skeleton a triangle of its mesh belongs to.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace lsys {
+
+struct SkeletonItem {
+    enum class Kind : std::uint8_t { Segment, Object, Polygon };
+    Kind kind = Kind::Segment;
+    std::uint32_t index = 0; // in Skeleton::segments, objects or polygons
+
+    friend bool operator==(const SkeletonItem&, const SkeletonItem&) = default;
+};
+
+/// The item that triangle number `triangle` of make_mesh(skeleton, user_meshes, options) shows; a
+/// triangle that two segments share is of the one that carries all its corners. Makes the mesh
+/// again. None: no such triangle, or no memory.
+[[nodiscard]] std::optional<SkeletonItem> item_of_triangle(const Skeleton& skeleton,
+                                                           const std::vector<UserMesh>& user_meshes,
+                                                           const MeshOptions& options,
+                                                           std::uint64_t triangle);
+
+} // namespace lsys

@@ -1,0 +1,31 @@
+// The module of a word that drew a segment, object or polygon of its plant, and the production that
+// wrote it. Derives the word again, since a plant keeps neither.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/meshing/mesh_items.h"
+#include "runtime/pipeline/plant.h"
+
+#include <cstdint>
+#include <string>
+
+namespace lsys {
+
+struct ItemOrigin {
+    std::string module;           // as words show it: "F(1.5)"
+    std::uint64_t number = 0;     // of the module in the word, from 0
+    std::uint64_t modules = 0;    // of the word
+    std::string origin;           // "from p2 at tree.lsys:7:14, generation 3"
+    std::uint32_t generation = 0; // of the word
+};
+
+/// `options.generations`: those of the derivation; `generation`: of the word, at most as many.
+/// `grammar`, whose bytecode is folded. An item that the word does not draw has an empty module.
+/// Fails as grow_plant() does.
+[[nodiscard]] Outcome<ItemOrigin> origin_of_item(const PlantOptions& options,
+                                                 std::uint32_t generation,
+                                                 const SkeletonItem& item,
+                                                 Grammar& grammar,
+                                                 const Project& project);
+
+} // namespace lsys

@@ -1,0 +1,46 @@
+// ForestFilm: makes moments of a forest's growth on a thread of its own, for a window that plays it.
+#pragma once
+
+#include "runtime/pipeline/forest_growth.h"
+#include "viewer/app/forest_document.h"
+#include "viewer/app/latest_request_worker.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace lsys::view {
+
+struct ForestFilmRequest {
+    std::shared_ptr<const ForestDocument> document; // its trees are not read
+    std::uint32_t years = 0;                        // at the end of the film
+    RunOptions run;
+    GrowthMoment moment;
+    SteadyClock::time_point since;
+    bool again = false;
+};
+
+/// The trees at a moment, without painting.
+struct ForestFilmMoment {
+    std::shared_ptr<const ForestDocument> document;
+    LargeVector<Tree> trees;
+    GrowthMoment moment;
+    Messages messages;
+    bool failed = false;
+};
+
+class ForestFilm {
+public:
+    /// `done` is called on the film's thread whenever take() has a moment.
+    explicit ForestFilm(std::function<void()> done);
+
+    /// Growth goes on from the moment before if the document is the same.
+    void request(ForestFilmRequest request) { worker_.request(std::move(request)); }
+    [[nodiscard]] std::optional<ForestFilmMoment> take() { return worker_.take(); }
+    [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
+
+private:
+    LatestRequestWorker<ForestFilmRequest, ForestFilmMoment> worker_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,191 @@
+#include "viewer/app/picking.h"
+
+#include "grammar/base/counted_text.h"
+#include "runtime/base/out_of_memory.h"
+#include "runtime/meshing/mesh_items.h"
+#include "runtime/pipeline/item_origin.h"
+#include "runtime/pipeline/step.h"
+#include "runtime/program/host.h"
+#include "viewer/app/widgets.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+std::string place_text(const glm::vec3& place) {
+    return fmt::format("at {:.4g}, {:.4g}, {:.4g} m", place.x, place.y, place.z);
+}
+
+std::string item_text(const SkeletonItem& item, const Skeleton& pose) {
+    switch (item.kind) {
+    case SkeletonItem::Kind::Object:
+        return fmt::format("object {} of {}", item.index, grouped(pose.objects.size()));
+    case SkeletonItem::Kind::Polygon:
+        return fmt::format("polygon {} of {}", item.index, grouped(pose.polygons.size()));
+    case SkeletonItem::Kind::Segment:
+        break;
+    }
+    const Segment& segment = pose.segments[item.index];
+    return fmt::format("segment {} of {}, {:.4g} m long, {:.4g} m wide, order {}", item.index,
+                       grouped(pose.segments.size()), segment.length, 2.0F * segment.base_radius,
+                       segment.order);
+}
+
+/// How often a branch stands in a forest.
+struct BranchCount {
+    std::uint64_t branches = 0;
+    std::uint64_t trees = 0; // with at least one
+};
+
+std::optional<BranchCount> count_branch(const InstanceCache& cache,
+                                        std::uint64_t key,
+                                        std::uint32_t instance,
+                                        const std::vector<std::uint32_t>& trees,
+                                        const Project& project) {
+    BranchCount count;
+    TreeExpander expander(cache, key);
+    for (const std::uint32_t number : trees) {
+        if (project.is_cancelled()) {
+            return std::nullopt;
+        }
+        Tree tree;
+        tree.number = number;
+        std::uint64_t here = 0;
+        expander.expand_instances(tree,
+                                  [&](std::uint32_t each) { here += each == instance ? 1 : 0; });
+        count.branches += here;
+        count.trees += here != 0 ? 1 : 0;
+    }
+    return count;
+}
+
+std::string tree_text(const Picked& picked, const ForestDocument& document) {
+    const Forest& forest = document.grown.forest;
+    const Tree& tree = picked.tree;
+    const ForestSpecies& species = forest.species[tree.species];
+    const TreeForm& form = document.model.forms[picked.form];
+    return fmt::format("tree {} of `{}`: {}, {:.3g} m high, {}", tree.number, species.name,
+                       counted(species.stages[forest.stage_of(tree)].generations, "generation"),
+                       tree.scale * form.height(), place_text(tree.position));
+}
+
+} // namespace
+
+Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
+                                           const PlantDocument& document,
+                                           const ViewOptions& options,
+                                           const Project& project) {
+    Step step(project);
+    MeshOptions mesh = picked.mesh;
+    mesh.threads = project.threads;
+    const std::optional<SkeletonItem> item =
+        item_of_triangle(*picked.pose, document.plant.user_meshes, mesh, picked.triangle);
+    if (!item) {
+        return step.fail("there is no memory to name what was picked");
+    }
+    // Only what a derivation needs: a program cannot be copied.
+    Grammar grammar;
+    grammar.sources = document.grammar.sources;
+    grammar.bytecode = document.grammar.bytecode;
+    grammar.is_module_file = document.grammar.is_module_file;
+    PlantOptions plant;
+    plant.file = options.file;
+    plant.generations = options.grammar.generations.value_or(document.plant.generations);
+    plant.seed = document.plant.seed;
+    const std::uint32_t generation =
+        picked.moment ? picked.moment->generation + (picked.moment->part > 0.0 ? 1 : 0)
+                      : document.plant.generations;
+    ItemOrigin origin;
+    if (!step.take(origin_of_item(plant, generation, *item, grammar, project), origin)) {
+        return step.end();
+    }
+    std::vector<std::string> lines;
+    if (origin.module.empty()) {
+        lines.push_back(
+            fmt::format("a part that generation {} no longer draws", origin.generation));
+    } else {
+        lines.push_back(fmt::format("{}, module {} of {}", origin.module, origin.number,
+                                    grouped(origin.modules)));
+        lines.push_back(origin.origin);
+    }
+    lines.push_back(item_text(*item, *picked.pose));
+    lines.push_back(place_text(picked.place));
+    return step.done(std::move(lines));
+}
+
+Outcome<std::vector<std::string>> describe(const Picked& picked,
+                                           const std::vector<std::uint32_t>& alike,
+                                           const ForestDocument& document,
+                                           const std::string& file,
+                                           const Project& project) {
+    Step step(project);
+    switch (picked.kind) {
+    case PickedKind::Cluster:
+        return step.done(std::vector<std::string>{
+            fmt::format("a picture of {}; move closer", counted(picked.trees, "tree"))});
+    case PickedKind::Impostor:
+        return step.done(std::vector<std::string>{
+            tree_text(picked, document), "drawn as a picture; move closer to pick its branches"});
+    case PickedKind::Ground:
+        return step.done(std::vector<std::string>{"the ground, " + place_text(picked.place)});
+    case PickedKind::Branch:
+        break;
+    case PickedKind::Nothing:
+    case PickedKind::Plant:
+        return step.done(std::vector<std::string>{"nothing"});
+    }
+    const Forest& forest = document.grown.forest;
+    const InstanceCache& cache = *document.model.forms[picked.form].cache;
+    const Instance& instance = cache.instances[picked.instance];
+    const InstanceSlot& slot = cache.slots[instance.slot];
+    const std::size_t stage = picked.form - document.model.first_form[picked.tree.species];
+    const std::string folder =
+        is_scene(file) ? std::filesystem::path(file).parent_path().string() : std::string();
+    std::vector<std::string> origins;
+    if (!step.take(origins_of_branches(document.scene.species[picked.tree.species], folder, stage,
+                                       project),
+                   origins)) {
+        return step.end();
+    }
+    if (origins.size() != cache.instances.size()) {
+        return step.fail("the grammar has changed since the forest was made");
+    }
+    const std::optional<BranchCount> count =
+        count_branch(cache, forest.key, picked.instance, alike, project);
+    if (!count) {
+        return step.end(Stop::Cancelled);
+    }
+    std::vector<std::string> lines;
+    lines.push_back(fmt::format("branch {} of {}: id {}, age {}, hero {}", picked.instance,
+                                grouped(cache.instances.size()), slot.id, slot.age, instance.hero));
+    lines.push_back(origins[picked.instance]);
+    lines.push_back(fmt::format("it stands {} in the forest, in {}",
+                                counted(count->branches, grouped(count->branches), "time"),
+                                counted(count->trees, grouped(count->trees), "tree")));
+    lines.push_back(tree_text(picked, document));
+    return step.done(std::move(lines));
+}
+
+PickOutcome run_pick(const PickRequest& request, const std::atomic<bool>& cancelled) {
+    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads,
+                          false};
+    return catch_out_of_memory(
+        [&] {
+            PickOutcome made;
+            Outcome<std::vector<std::string>> outcome = request.describe(project);
+            if (outcome) {
+                made.lines = std::move(outcome.value());
+            } else {
+                made.lines.push_back(messages_text(outcome.messages(), MessageOptions{}, "lsview"));
+            }
+            return made;
+        },
+        [] { return PickOutcome{{"out of memory"}}; });
+}
+
+} // namespace lsys::view

@@ -1,0 +1,31 @@
+// PickTarget: offscreen framebuffer of one pixel, which holds what it shows instead of a colour.
+#pragma once
+
+#include "viewer/gl/impl/objects.h"
+
+#include <cstdint>
+
+namespace lsys::view {
+
+class PickTarget {
+public:
+    /// Values of shaders/pick.frag.glsl. Nothing drawn: all are 0.
+    struct Content {
+        std::uint32_t kind = 0; // PickedKind
+        std::uint32_t item = 0;
+        float depth = 0.0F; // reversed: 1 at the near plane, 0 at infinity
+    };
+
+    explicit PickTarget(Device& device);
+
+    /// Binds and clears.
+    void begin() const;
+    [[nodiscard]] Content read() const;
+
+private:
+    Renderbuffer content_;
+    Renderbuffer depth_;
+    Framebuffer drawn_;
+};
+
+} // namespace lsys::view

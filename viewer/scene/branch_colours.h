@@ -1,0 +1,40 @@
+// Colours that tell the branches of a forest apart, by what instancing knows of them
+// (docs/language.md section 9). Branches of one value have one colour in every forest and on every
+// machine.
+#pragma once
+
+#include "viewer/scene/forest_model.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys::view {
+
+enum class BranchColours : std::uint8_t {
+    Natural, // of their materials
+    Id,      // of the branch in its grammar; 0: the axiom
+    Age,     // of the word that the branch was written in
+    Hero,    // from which the branch was cut
+};
+
+struct LegendEntry {
+    std::uint32_t value = 0; // id, age or number of the hero
+    glm::vec3 colour{};      // linear RGB
+
+    friend bool operator==(const LegendEntry&, const LegendEntry&) = default;
+};
+
+/// Id, age or hero of an instance. Precondition: `by` is not Natural.
+[[nodiscard]] std::uint32_t
+branch_value(BranchColours by, const InstanceCache& cache, std::uint32_t instance);
+
+/// Linear RGB. Ids and heroes have hues that lie far apart for neighbours; ages go from dark blue
+/// over green to yellow, `last` being the greatest. Precondition: `by` is not Natural.
+[[nodiscard]] glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t last);
+
+/// Colours of all branches of the heroes, by rising value. Empty for Natural.
+[[nodiscard]] std::vector<LegendEntry> legend_of(const ForestModel& model, BranchColours by);
+
+} // namespace lsys::view
