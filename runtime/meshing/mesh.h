@@ -97,6 +97,8 @@ struct MeshOptions {
     /// each four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box with fewer than two
     /// vertices per groove is as thick as grooves leave it on average.
     float grooves = 0.0F;
+    /// Tubes: axes bend along smooth curves through their joints.
+    bool smooth_joints = false;
     /// Bending of leaves by gravity, 0 (none) to 1 (they hang); not set: that of the skeleton.
     std::optional<float> droop = std::nullopt;
     /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for

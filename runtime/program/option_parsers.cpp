@@ -203,13 +203,12 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         "otherwise")
         ->type_name("DEPTH")
         ->group("Mesh");
-    add_droop(app, mesh.droop);
-}
-
-void add_droop(CLI::App& app, std::optional<float>& droop) {
-    add_parsed(app, "--droop", droop, fraction,
+    add_parsed(app, "--droop", mesh.droop, fraction,
                "Bending of leaves by gravity, 0 to 1 (default: 0.25 in .l++ files, else 0)")
         ->type_name("D")
+        ->group("Mesh");
+    app.add_flag("--smooth-joints", mesh.smooth_joints,
+                 "Bend tubes along smooth curves through their joints")
         ->group("Mesh");
 }
 

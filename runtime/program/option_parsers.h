@@ -92,8 +92,6 @@ void add_height(CLI::App& app, std::optional<float>& height);
 void add_tree_height(CLI::App& app, std::optional<HeightRange>& height);
 /// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
-// One of them, which forests have too.
-void add_droop(CLI::App& app, std::optional<float>& droop);
 void add_run_limits(CLI::App& app, RunOptions& run);
 
 /// Options that override a scene: key, placement, instances. `size`: the name of the option for the

@@ -292,6 +292,9 @@ void draw_mesh(PlantViewSettings& settings, float own_droop) {
     if (ImGui::SliderFloat("Droop", &droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
         mesh.droop = droop;
     }
+    if (mesh.method == MeshMethod::Tubes) {
+        ImGui::Checkbox("Smooth joints", &mesh.smooth_joints);
+    }
 }
 
 void draw_bending(PlantViewSettings& settings) {

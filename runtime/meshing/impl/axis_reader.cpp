@@ -2,6 +2,7 @@
 
 #include "runtime/meshing/impl/axis_levels.h"
 #include "runtime/meshing/impl/directions.h"
+#include "runtime/meshing/impl/joint_curves.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -37,15 +38,6 @@ float max_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-/// The radius that can be drawn around `centre`; 0 if none can.
-float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
-    const float far = max_coordinate(centre);
-    if (!(radius > std::max(kNoRadius * far, kMinRadius))) {
-        return 0.0F;
-    }
-    return std::min(std::max(radius, kRadiusPerSide * static_cast<float>(sides) * far), kMaxRadius);
-}
-
 bool thick_beside(float radius, const Joint& before, float length) {
     return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
 }
@@ -54,10 +46,6 @@ bool thick_beside(float radius, const Joint& before, float length) {
 std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
     const float cosine = glm::dot(before, after);
     return cosine >= 0.5F ? 1 : cosine >= -0.5F ? 2 : 3;
-}
-
-bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
-    return !(max_coordinate(b - a) > kResolution * (max_coordinate(a) + radius));
 }
 
 /// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
@@ -74,6 +62,18 @@ void prefetch(const Segment& segment) {
 }
 
 } // namespace
+
+float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides) {
+    const float far = max_coordinate(centre);
+    if (!(radius > std::max(kNoRadius * far, kMinRadius))) {
+        return 0.0F;
+    }
+    return std::min(std::max(radius, kRadiusPerSide * static_cast<float>(sides) * far), kMaxRadius);
+}
+
+bool coincide(const glm::vec3& a, const glm::vec3& b, float radius) {
+    return !(max_coordinate(b - a) > kResolution * (max_coordinate(a) + radius));
+}
 
 AxisReader::AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options)
     : skeleton_(skeleton), axes_(axes), options_(options) {
@@ -167,11 +167,15 @@ bool AxisReader::read(Run& run) {
     run.end = joints_.back().radius == 0.0F ? TubeEnd::Point
               : at == kForked               ? TubeEnd::Ball
                                             : TubeEnd::Blunt;
-    const bool open = attached_ && begins_in_parent(run);
+    std::optional<CurveStart> start;
+    const bool open = attached_ && begins_in_parent(run, start);
     run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
                 : open                         ? TubeEnd::Open
                                                : TubeEnd::Flat;
     attached_ = false;
+    if (options_.smooth_joints && bend_edges(joints_, spare_, start)) {
+        rings_final_ = false;
+    }
     if (options_.level > 0) {
         const float tolerance =
             std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
@@ -254,7 +258,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
 }
 
 /// Fits the base into the tube that the axis branches from; returns false if it lies outside.
-bool AxisReader::begins_in_parent(Run& run) {
+bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& start) {
     const Segment& child = skeleton_.segments[run.first_segment];
     if (child.parent >= run.first_segment) {
         return false;
@@ -277,21 +281,48 @@ bool AxisReader::begins_in_parent(Run& run) {
         drawn_radius(hidden, base.centre, base.sides) == 0.0F) {
         return false;
     }
-    if (options_.level == 0) {
+    const float own = base.radius;
+    const glm::vec3 tangent = tip_tangent(parent, after);
+    const bool leaves_along = options_.smooth_joints && can_leave_along(tangent, base.heading);
+    float reach = 0.0F;
+    if (leaves_along) {
+        reach = collar_length(parent, radius);
+        if (options_.level == 0 && reach < kMaxCollar * base.length && own > 0.0F) {
+            joints_.front().radius += kCollarSlope * reach;
+        }
+    } else if (options_.level == 0) {
         add_collar(parent, radius);
     }
     joints_.front().radius = std::min(joints_.front().radius, hidden);
+    if (leaves_along) {
+        start = CurveStart{tangent, joints_.front().radius - own, reach};
+    }
     hidden_ = hidden;
     flare_[0] = std::min(flare_[0], hidden);
     return true;
 }
 
+/// The tangent of a curve through the tip of a segment that `next` continues, if it is one.
+glm::vec3 AxisReader::tip_tangent(const Segment& segment, std::uint32_t next) const {
+    const glm::vec3 own = direction(segment.frame);
+    if (next >= kForked || !(skeleton_.segments[next].length > 0.0F)) {
+        return own;
+    }
+    return joint_tangent(own, direction(skeleton_.segments[next].frame)).value_or(own);
+}
+
+/// Length of the collar of the run along its first edge.
+float AxisReader::collar_length(const Segment& parent, float parent_radius) const {
+    const Joint& base = joints_[0];
+    const float cosine = glm::dot(heading(parent.frame), base.heading);
+    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kMinSine * kMinSine));
+    return parent_radius / sine + 1.5F * base.radius;
+}
+
 /// Adds the collar: a branch is wider where it leaves its parent, by a cone with a ring of its own.
 void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     Joint& base = joints_[0];
-    const float cosine = glm::dot(heading(parent.frame), base.heading);
-    const float sine = std::sqrt(std::max(1.0F - cosine * cosine, kMinSine * kMinSine));
-    const float reach = parent_radius / sine + 1.5F * base.radius;
+    const float reach = collar_length(parent, parent_radius);
     if (!(reach < kMaxCollar * base.length) || base.radius == 0.0F ||
         coincide(base.centre, base.centre + reach * base.heading, base.radius)) {
         return;

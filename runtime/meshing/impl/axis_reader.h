@@ -49,6 +49,14 @@ struct Run {
     return skeleton.segments[first_segment].frame * glm::vec3(1.0F, 0.0F, 0.0F);
 }
 
+/// The radius that can be drawn around `centre`; 0 if none can.
+[[nodiscard]] float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides);
+
+/// Whether two places are equal in floats, for joints of that radius.
+[[nodiscard]] bool coincide(const glm::vec3& a, const glm::vec3& b, float radius);
+
+struct CurveStart; // joint_curves.h
+
 class AxisReader {
 public:
     AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options);
@@ -66,7 +74,9 @@ private:
     bool read(Run& run);
     void add(const Segment& segment, float radius);
     bool add_end(const glm::vec3& centre, float radius);
-    bool begins_in_parent(Run& run);
+    bool begins_in_parent(const Run& run, std::optional<CurveStart>& start);
+    [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
+    [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
     void add_collar(const Segment& parent, float parent_radius);
     void subdivide();
     void fit_sides();

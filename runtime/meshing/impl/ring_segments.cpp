@@ -4,6 +4,7 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/axes.h"
 #include "runtime/meshing/impl/axis_reader.h"
+#include "runtime/meshing/impl/joint_curves.h"
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include <glm/geometric.hpp>
@@ -18,7 +19,7 @@ namespace lsys {
 namespace {
 
 // Max joints between the bases of two consecutive segments: two edges of a collar, each cut for
-// noise into at most sixteen.
+// noise into at most sixteen. An edge of a smooth curve is cut into parts before.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
@@ -91,11 +92,13 @@ private:
         const std::size_t last = joints.size() - 1;
         places_.assign(joints.size(), kUnknown);
         places_[0] = 0;
+        const std::size_t max_between =
+            options_.smooth_joints ? kMaxBetween * kMaxCurveParts : kMaxBetween;
         std::size_t known = 0;
         std::uint32_t end = 0;
         for (std::uint32_t k = 1; k < chain_.size() && known + 1 < last; ++k) {
             const glm::vec3& base = skeleton_.segments[chain_[k]].base;
-            const std::size_t stop = std::min(last, known + 2 + kMaxBetween);
+            const std::size_t stop = std::min(last, known + 2 + max_between);
             for (std::size_t j = known + 1; j < stop; ++j) {
                 if (joints[j].centre == base) {
                     places_[j] = k;

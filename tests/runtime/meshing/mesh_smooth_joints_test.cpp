@@ -1,0 +1,238 @@
+// Tubes along smooth curves through their joints.
+#include "runtime/base/workers.h"
+#include "runtime/meshing/impl/axes.h"
+#include "runtime/meshing/impl/axis_reader.h"
+#include "runtime/meshing/mesh.h"
+#include "tests/support/mesh_checks.h"
+#include "tests/support/plants.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace lsys {
+
+using test::Plant;
+
+namespace {
+
+constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
+constexpr MeshOptions kSmooth{.smooth_joints = true, .threads = 1};
+
+Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
+    Mesh mesh;
+    REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
+    test::check_mesh(mesh, options);
+    return mesh;
+}
+
+/// Thin segments in a plane, each turned by `degrees` from the one before, in turn to both sides if
+/// `winds`.
+Skeleton chain(int count, float degrees, bool winds, float radius) {
+    Plant plant;
+    std::uint32_t last = kNoSegment;
+    float angle = 0.0F;
+    for (int i = 0; i < count; ++i) {
+        last = plant.add(last, {std::sin(angle), std::cos(angle), 0.0F}, i % 2 == 0 ? 1.0F : 0.6F,
+                         {.base_radius = radius, .tip_radius = radius});
+        angle += (winds && i % 2 == 1 ? -1.0F : 1.0F) * degrees * kDegree;
+    }
+    return plant.skeleton();
+}
+
+/// The joints of the run of the axis that begins with the segment.
+std::vector<Joint>
+joints_of(const Skeleton& skeleton, const MeshOptions& options, std::uint32_t first) {
+    Workers workers(1);
+    const Axes axes = find_axes(skeleton, workers);
+    AxisReader reader(skeleton, axes, options);
+    reader.start(first);
+    Run run;
+    REQUIRE(reader.next(run));
+    return {run.joints.begin(), run.joints.end()};
+}
+
+float max_turn(const std::vector<Joint>& joints) {
+    float least = 1.0F;
+    for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+        least = std::min(least, glm::dot(joints[i].heading, joints[i + 1].heading));
+    }
+    return std::acos(std::clamp(least, -1.0F, 1.0F)) / kDegree;
+}
+
+} // namespace
+
+TEST_CASE("a smooth curve passes through the joints and turns by small steps", "[mesh][tubes]") {
+    const float degrees = GENERATE(5.0F, 12.0F, 25.0F, 45.0F, 60.0F, 90.0F, 110.0F);
+    const bool winds = GENERATE(false, true);
+    CAPTURE(degrees, winds);
+    const Skeleton skeleton = chain(7, degrees, winds, 0.002F);
+    const std::vector<Joint> joints = joints_of(skeleton, kSmooth, 0);
+    // Each base is a joint, bit for bit, and so is the tip.
+    std::size_t at = 0;
+    for (const Segment& segment : skeleton.segments) {
+        while (at < joints.size() && joints[at].centre != segment.base) {
+            ++at;
+        }
+        CHECK(at < joints.size());
+    }
+    CHECK(joints.back().centre == tip(skeleton.segments.back()));
+    CHECK(max_turn(joints) < 15.0F);
+    CHECK(max_turn(joints_of(skeleton, {.threads = 1}, 0)) == Approx(degrees).margin(0.1));
+    for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+        CHECK(joints[i].rings == 1);
+        CHECK(joints[i].radius == Approx(0.002F));
+        const glm::vec3 way = joints[i + 1].centre - joints[i].centre;
+        CHECK(glm::length(way - joints[i].length * joints[i].heading) < 1e-6F);
+    }
+    CHECK(joints.size() <= 7 * 16 + 1);
+    const Mesh mesh = tubes(skeleton, kSmooth);
+    CHECK(test::turned_over(mesh) == 0);
+    CHECK(test::topology_of(mesh).open_edges == 0);
+}
+
+TEST_CASE("rings of a smooth curve are no more than it bends", "[mesh][tubes]") {
+    // Seven segments with six bends of 24 degrees: the whole turn is 144, a ring at most 11.5.
+    const std::size_t rings = joints_of(chain(7, 24.0F, false, 0.002F), kSmooth, 0).size();
+    CHECK(rings > 144 / 15);
+    CHECK(rings < 8 + 2 * 144 / 11);
+}
+
+TEST_CASE("a bend of equal segments keeps its curve in their circle", "[mesh][tubes]") {
+    // Chords of a circle: a curve through their ends is near the circle.
+    Plant plant;
+    std::uint32_t last = kNoSegment;
+    for (int i = 0; i < 8; ++i) {
+        const float angle = (30.0F * static_cast<float>(i) + 15.0F) * kDegree;
+        last = plant.add(last, {std::cos(angle), std::sin(angle), 0.0F}, 1.0F,
+                         {.base_radius = 0.01F, .tip_radius = 0.01F});
+    }
+    const float radius = 0.5F / std::sin(15.0F * kDegree);
+    const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, 0);
+    for (const Joint& joint : joints) {
+        const glm::vec3 from_centre = joint.centre - glm::vec3(0.0F, radius, 0.0F);
+        // Chords lie 0.066 within the circle; the first and the last of them end straight.
+        const float angle = std::atan2(joint.centre.x, radius - joint.centre.y) / kDegree;
+        const float turned = angle < -1.0F ? angle + 360.0F : angle;
+        const bool inner = turned > 29.0F && turned < 211.0F;
+        CHECK(glm::length(from_centre) == Approx(radius).margin(inner ? 0.012 : 0.066));
+    }
+}
+
+TEST_CASE("straight stems are the same with smooth joints, byte for byte", "[mesh][tubes]") {
+    Plant plant;
+    std::uint32_t last = kNoSegment;
+    for (int i = 0; i < 6; ++i) {
+        const float radius = 0.1F - 0.015F * static_cast<float>(i);
+        last = plant.add(last, {0.2F, 1.0F, 0.1F}, 0.7F,
+                         {.base_radius = radius, .tip_radius = radius - 0.015F});
+    }
+    for (const std::uint32_t level : {0U, 1U, 3U}) {
+        const Mesh plain = tubes(plant.skeleton(), {.level = level, .threads = 1});
+        const Mesh smooth =
+            tubes(plant.skeleton(), {.level = level, .smooth_joints = true, .threads = 1});
+        CHECK(plain.positions == smooth.positions);
+        CHECK(plain.normals == smooth.normals);
+        CHECK(plain.texture_coordinates == smooth.texture_coordinates);
+        CHECK(plain.tangents == smooth.tangents);
+        CHECK(plain.indices == smooth.indices);
+    }
+}
+
+TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh][tubes]") {
+    const float degrees = GENERATE(20.0F, 45.0F, 70.0F);
+    CAPTURE(degrees);
+    Plant plant;
+    const std::uint32_t trunk =
+        plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    plant.add(trunk, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    const std::uint32_t branch =
+        plant.add(trunk, {std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0.0F}, 1.0F,
+                  {.base_radius = 0.02F, .tip_radius = 0.01F, .order = 1});
+    const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, branch);
+    CHECK(joints.front().centre == plant.skeleton().segments[branch].base);
+    CHECK(joints.back().centre == tip(plant.skeleton().segments[branch]));
+    // The first chord turns from the trunk by about half of a part.
+    CHECK(glm::dot(joints.front().heading, glm::vec3(0, 1, 0)) > std::cos(10.0F * kDegree));
+    CHECK(max_turn(joints) < 15.0F);
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        CHECK(joints[i].radius <= joints[i - 1].radius + 1e-6F);
+        CHECK(joints[i].radius >= 0.0099F);
+    }
+    CHECK(test::turned_over(tubes(plant.skeleton(), kSmooth)) == 0);
+}
+
+TEST_CASE("a branch across or against its parent leaves as without smooth joints",
+          "[mesh][tubes]") {
+    const float degrees = GENERATE(91.0F, 150.0F, 180.0F);
+    Plant plant;
+    const std::uint32_t trunk =
+        plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    plant.add(trunk, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    plant.add(trunk, {std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0.0F}, 1.0F,
+              {.base_radius = 0.02F, .tip_radius = 0.01F, .order = 1});
+    CHECK(tubes(plant.skeleton(), kSmooth).positions ==
+          tubes(plant.skeleton(), {.threads = 1}).positions);
+}
+
+TEST_CASE("edges too short for their radius stay straight", "[mesh][tubes]") {
+    // Rings of a curve would cross on its inner side.
+    const float degrees = GENERATE(60.0F, 90.0F, 120.0F, 170.0F, 180.0F);
+    const float radius = GENERATE(0.05F, 0.3F, 1.0F, 5.0F);
+    CAPTURE(degrees, radius);
+    const Skeleton skeleton = chain(5, degrees, true, radius);
+    const Mesh plain = tubes(skeleton, {.threads = 1});
+    const Mesh smooth = tubes(skeleton, kSmooth);
+    CHECK(test::turned_over(smooth) <= test::turned_over(plain));
+    CHECK(test::topology_of(smooth).open_edges == test::topology_of(plain).open_edges);
+}
+
+TEST_CASE("smooth joints go with every option of tubes and any threads", "[mesh][tubes]") {
+    const std::uint32_t seed = GENERATE(1U, 2U, 3U);
+    const Skeleton skeleton = test::random_tree(seed, 3);
+    const Mesh plain = tubes(skeleton, {.threads = 1});
+    for (MeshOptions options : {MeshOptions{}, MeshOptions{.level = 1}, MeshOptions{.level = 3},
+                                MeshOptions{.deviation = 0.003F}, MeshOptions{.bark_noise = 0.2F},
+                                MeshOptions{.level = 2, .deviation = 0.01F, .bark_noise = 0.1F}}) {
+        options.smooth_joints = true;
+        options.segments = true;
+        options.threads = 1;
+        const Mesh one = tubes(skeleton, options);
+        options.threads = 3;
+        const Mesh three = tubes(skeleton, options);
+        CHECK(one.positions == three.positions);
+        CHECK(one.indices == three.indices);
+        CHECK(one.segments == three.segments);
+        // A vertex hangs on the segment that its curve replaces.
+        std::size_t far = 0;
+        for (std::size_t i = 0; i < one.positions.size(); ++i) {
+            for (const std::uint32_t number : one.segments[i]) {
+                REQUIRE(number < skeleton.segments.size());
+                const Segment& segment = skeleton.segments[number];
+                const glm::vec3 way = one.positions[i] - segment.base;
+                const float along =
+                    std::clamp(glm::dot(way, heading(segment.frame)), 0.0F, segment.length);
+                const float away = glm::length(way - along * heading(segment.frame));
+                far += away > 2.5F * segment.base_radius + 0.25F * segment.length ? 1U : 0U;
+            }
+        }
+        CHECK(far == 0);
+    }
+    CHECK(tubes(skeleton, kSmooth).positions.size() > plain.positions.size());
+}
+
+TEST_CASE("coarser levels of smooth joints are cheaper", "[mesh][tubes]") {
+    const Skeleton skeleton = test::random_tree(4, 3);
+    std::size_t triangles = tubes(skeleton, kSmooth).indices.size();
+    for (std::uint32_t level = 1; level < 5; ++level) {
+        const Mesh mesh = tubes(skeleton, {.level = level, .smooth_joints = true, .threads = 1});
+        CHECK(mesh.indices.size() < triangles);
+        triangles = mesh.indices.size();
+    }
+}
+
+} // namespace lsys
