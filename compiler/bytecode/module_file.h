@@ -42,7 +42,7 @@ static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Settings> == 30, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<TurtleTraits> == 10, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 11, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<FoldedModule> == 2, LSYS_VERSION_MATTERS);

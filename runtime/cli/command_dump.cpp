@@ -73,7 +73,7 @@ std::string find_conflict(const DumpCommand& command) {
         if (command.count && command.stage == DumpStage::Cache) {
             return "--count prints the number of modules, which --stage cache does not show";
         }
-        return command.all || command.stream || command.origins || saves
+        return command.all || command.stream || command.origins || uses_states
                    ? "--stage heroes and cache are of the last words, so --all, --stream, "
                      "--origins, --steps, --save-state and --from do not go with them"
                    : "";
@@ -278,7 +278,7 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
         return dump_instanced(command, grammar, console);
     case DumpStage::Heroes:
         if (!grammar.program) {
-            return lacks_program(command, console);
+            return report_missing_program(command, console);
         }
         return dump_heroes(command, grammar, console);
     case DumpStage::Bytecode:

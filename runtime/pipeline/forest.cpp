@@ -525,8 +525,9 @@ Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& specie
     const std::optional<std::uint32_t> generations =
         species.stages.empty() ? std::nullopt : std::optional(species.stages.at(stage));
     FileBudget budget{project.limits.max_bytes};
+    NotedAxioms noted;
     Outcome<GrownStage> grown = grow_stage(species, path_in(folder, species.grammar.path),
-                                           generations, project, budget, true);
+                                           generations, false, noted, project, budget, true);
     if (!grown) { // its warnings were shown with the forest
         step.messages.append(grown.messages());
         return step.end(grown.stop());

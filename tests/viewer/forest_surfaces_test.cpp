@@ -80,10 +80,6 @@ struct Surfaces {
     ScratchFolder folder;
 };
 
-std::array<int, 3> texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
-    const std::size_t at = std::size_t{4} * (std::size_t{y} * picture.width + x);
-    return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
-}
 bool is_red(const std::array<int, 3>& colour) {
     return colour[0] > 2 * colour[1] && colour[0] > 2 * colour[2];
 }

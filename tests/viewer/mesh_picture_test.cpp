@@ -48,11 +48,6 @@ struct CardFolder {
     ScratchFolder folder;
 };
 
-std::array<int, 3> texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
-    const std::size_t at = std::size_t{4} * (std::size_t{y} * picture.width + x);
-    return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
-}
-
 } // namespace
 
 TEST_CASE("a mesh of a file shows its picture, with holes") {

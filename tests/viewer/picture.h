@@ -1,6 +1,8 @@
 // Pictures of tests: PNG files read back, and how much two of them differ.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +14,13 @@ struct Picture {
     std::uint32_t height = 0;
     std::vector<std::uint8_t> texels; // RGBA
 };
+
+/// Red, green and blue of a texel, 0 to 255.
+[[nodiscard]] inline std::array<int, 3>
+texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+    const std::size_t at = std::size_t{4} * (std::size_t{y} * picture.width + x);
+    return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
+}
 
 /// Fails the test if it is no PNG.
 [[nodiscard]] Picture decode_picture(const std::string& png);

@@ -26,8 +26,7 @@ struct FilmState {
             scene = document->scene;
             scene.painting = {};
             scene.placement.years = request.years;
-            Outcome<ForestGrowth> begun =
-                ForestGrowth::begin(scene, *document->grown.terrain, project);
+            Outcome<ForestGrowth> begun = ForestGrowth::begin(scene, document->grown, project);
             step.messages.append(std::move(begun.messages()));
             if (!begun) {
                 return step.end(begun.stop());

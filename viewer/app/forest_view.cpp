@@ -322,8 +322,10 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Painted trees are known by their numbers among those of a whole year.
-    return !painting_.is_painted();
+    // Painted trees are known by their numbers among those of a whole year; a forest of stages shows
+    // whole stages.
+    return !painting_.is_painted() && document_ != nullptr &&
+           document_->scene.placement.method == PlacementMethod::Domination;
 }
 
 /// Shows the trees that the film has made.

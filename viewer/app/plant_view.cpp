@@ -453,7 +453,7 @@ PickRequest PlantView::request_for(const Picked& picked) const {
     triangle.mesh = shown_outcome_.options.mesh;
     ViewOptions options = shown_outcome_.options;
     std::shared_ptr<const Skeleton> pose;
-    if (is_part_grown_) {
+    if (shows_growth_) {
         pose = std::make_shared<Skeleton>(grown_.skeleton);
         triangle.mesh = grown_.mesh_options;
         triangle.moment = grown_.moment;
@@ -482,7 +482,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
-    if (is_part_grown_) {
+    if (shows_growth_) {
         frame.ground_disc = film_ground_;
     }
     if (!draw_frame(frame)) {

@@ -24,7 +24,7 @@ const char* const kBranching = "#n = 6; #set names letters; #set angle 25; #w : 
                                "#p : A : ~ 0.4 : F[+A[-A]F][-A]A; #q : A : ~ 0.4 : F[+A]A;"
                                "#r : A : ~ 0.2 : F[-F]A;";
 
-std::string lsc(const std::vector<std::string>& arguments) {
+std::string output_of(const std::vector<std::string>& arguments) {
     const LscRun run = run_lsc(arguments, "");
     INFO(run.err);
     REQUIRE(run.status == 0);
@@ -104,16 +104,16 @@ TEST_CASE("a hero's word without its operations is the plain word of its seed") 
     write_text(folder / "tree.lsys", kBranching);
     const std::string file = folder / "tree.lsys";
     const std::vector<std::string> lines =
-        lines_of(lsc({"dump", "--stage", "heroes", "--heroes", "5", "--seed", "40", file}));
+        lines_of(output_of({"dump", "--stage", "heroes", "--heroes", "5", "--seed", "40", file}));
     REQUIRE(lines.size() == 10);
     for (int hero = 0; hero < 5; ++hero) {
         const std::string seed = std::to_string(40 + hero);
         const std::size_t line = 2 * static_cast<std::size_t>(hero);
         CHECK(lines[line] == "hero " + std::to_string(hero) + ", seed " + seed + ":");
-        CHECK(plain_word(lines[line + 1]) + "\n" == lsc({"dump", "--seed", seed, file}));
+        CHECK(plain_word(lines[line + 1]) + "\n" == output_of({"dump", "--seed", seed, file}));
     }
-    CHECK(lsc({"dump", "--stage", "heroes", "--heroes", "1", "--seed", "40", "--count", file}) ==
-          lsc({"dump", "--seed", "40", "--count", file}));
+    CHECK(output_of({"dump", "--stage", "heroes", "--heroes", "1", "--seed", "40", "--count",
+                     file}) == output_of({"dump", "--seed", "40", "--count", file}));
 }
 
 TEST_CASE("the cache holds what the heroes' words record") {
@@ -123,13 +123,13 @@ TEST_CASE("the cache holds what the heroes' words record") {
     for (const char* const rho : {"0", "0.3", "0.9", "1"}) {
         KeyTable expected;
         for (const std::string& line :
-             lines_of(lsc({"dump", "--stage", "heroes", "--rho", rho, file}))) {
+             lines_of(output_of({"dump", "--stage", "heroes", "--rho", rho, file}))) {
             if (line.starts_with("@")) {
                 record(line, expected);
             }
         }
         const std::vector<std::string> lines =
-            lines_of(lsc({"dump", "--stage", "cache", "--rho", rho, file}));
+            lines_of(output_of({"dump", "--stage", "cache", "--rho", rho, file}));
         KeyTable printed;
         std::map<std::pair<int, int>, int> exits;
         std::size_t instances = 0;
@@ -180,8 +180,8 @@ TEST_CASE("a listing of forms shows the rows that are asked for") {
     // 24 branches: the sum of all probabilities by the number of branches that are taken, n choose i.
     const std::string file = write(24);
     const std::vector<std::string> rows =
-        lines_of(lsc({"dump", "--stage", "instanced", "--rho", "0.25", "--first", "16777213",
-                      "--rows", "100", file}));
+        lines_of(output_of({"dump", "--stage", "instanced", "--rho", "0.25", "--first", "16777213",
+                            "--rows", "100", file}));
     REQUIRE(rows.size() == 4); // axiom and three forms
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const std::uint64_t form = 16'777'212 + i;
@@ -198,11 +198,11 @@ TEST_CASE("a listing of forms shows the rows that are asked for") {
         const double expected = 0.5 * std::pow(0.75, recorded) * std::pow(0.25, 24 - recorded);
         CHECK(chance == Approx(expected).epsilon(1e-8));
     }
-    CHECK(lines_of(lsc({"dump", "--stage", "instanced", file, "-q"})).size() == 1 + 4096 + 1);
+    CHECK(lines_of(output_of({"dump", "--stage", "instanced", file, "-q"})).size() == 1 + 4096 + 1);
     // More branches than a number of forms has bits.
     const std::string wide = write(70);
-    const std::vector<std::string> last =
-        lines_of(lsc({"dump", "--stage", "instanced", "--first", "18446744073709551615", wide}));
+    const std::vector<std::string> last = lines_of(
+        output_of({"dump", "--stage", "instanced", "--first", "18446744073709551615", wide}));
     REQUIRE(last.size() == 2);
     CHECK(last[1].starts_with("#p.18446744073709551615 : "));
     CHECK(run_lsc({"dump", "--stage", "instanced", "--first", "256", write(8)}, "").status == 2);
