@@ -33,7 +33,8 @@ std::string find_conflict(const DumpCommand& command) {
     const bool draws = makes_mesh || command.stage == DumpStage::Skeleton;
     if (!makes_mesh && command.mesh != MeshOptions{}) {
         return "only --stage mesh makes a mesh, so --method, --sides, --level, --deviation, "
-               "--subdivisions, --bark-noise, --grooves, --droop and --smooth-joints do not go with "
+               "--subdivisions, --bark-noise, --grooves, --droop and --smooth-joints do not go "
+               "with "
                "another stage";
     }
     if (makes_mesh && command.origins) {

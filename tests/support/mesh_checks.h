@@ -128,7 +128,8 @@ struct Topology {
     std::size_t vertices = 0;
     std::size_t edges = 0;
     std::size_t triangles = 0;
-    std::size_t open_edges = 0; // not once in each direction
+    std::size_t open_edges = 0;       // not once in each direction
+    std::size_t unbalanced_edges = 0; // not equally often in both directions
 
     [[nodiscard]] std::int64_t euler() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
@@ -154,6 +155,7 @@ Topology count_edges(const Mesh& mesh, const Place& place) {
     topology.triangles = mesh.indices.size() / 3;
     for (const auto& [edge, uses] : edges) {
         topology.open_edges += uses == std::array{1, 1} ? 0U : 1U;
+        topology.unbalanced_edges += uses[0] == uses[1] ? 0U : 1U;
     }
     return topology;
 }

@@ -72,7 +72,7 @@ TEST_CASE("the heroes that --variety chooses give as many different trees as it 
     }
 }
 
-TEST_CASE("--variety and --memory that cannot be had together name the nearest that can") {
+TEST_CASE("variety and memory that cannot be had together name the nearest that can") {
     const std::vector<std::string> base{sample("carey-type-0"), "--count", "300", "--stats", "-q"};
     const LscRun refused = forest(base, {"--variety", "0.9", "--memory", "1K"});
     CHECK(refused.status == 2);
