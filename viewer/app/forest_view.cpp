@@ -113,7 +113,7 @@ std::uint32_t ForestView::default_years() const {
 }
 
 std::uint32_t ForestView::years() const {
-    return settings.edits.years.value_or(first_years_);
+    return settings.edits.years.value_or(unedited_years_);
 }
 
 void ForestView::set_years(std::uint32_t years) {
@@ -240,7 +240,7 @@ void ForestView::swap(ForestOutcome outcome) {
         default_years_ = last_year(document_->scene);
     }
     if (!outcome.request.edits.years) {
-        first_years_ = dominates ? placement.years : placement.later;
+        unedited_years_ = dominates ? placement.years : placement.stages_passed;
     }
     if (std::exchange(plays_next_, false)) {
         play_or_pause();
@@ -347,7 +347,7 @@ void ForestView::take_moment() {
     changed_ = true;
 }
 
-/// Shows the forest of a whole year, as its file says.
+/// Ends the film and shows the forest of a whole year.
 void ForestView::end_growth(std::uint32_t years) {
     settings.plays = false;
     grown_.reset();
@@ -355,7 +355,7 @@ void ForestView::end_growth(std::uint32_t years) {
     requested_.reset();
 }
 
-/// Asks for the next moment of growth. A pause is at the next whole year.
+/// Requests the next moment of growth. A pause takes effect at the next whole year.
 void ForestView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
     if ((!settings.plays && !grown_) || document_ == nullptr) {
