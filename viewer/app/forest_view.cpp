@@ -322,7 +322,7 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Painted trees are known by their numbers among those of a whole year.
+    // Painting refers to trees by their numbers in a whole year.
     return !painting_.is_painted();
 }
 

@@ -134,7 +134,7 @@ private:
     glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown
     std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;
-    MeshOptions bent_mesh_;          // that bent_ was meshed with
+    MeshOptions bent_mesh_;          // options with which bent_ was meshed
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
     std::optional<Bending> weighed_; // last request to weigher_

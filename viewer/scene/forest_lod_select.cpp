@@ -154,7 +154,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     float weight = 1.0F; // of its trees
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels of a metre
-        // Trees that stand far apart are few texels of a picture as wide as their cell.
+        // A picture is as wide as its cell: low trees far apart would cover few of its texels.
         constexpr float kTallestPart = 1.0F / 6.0F;
         const float pixels =
             scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),

@@ -264,7 +264,7 @@ private:
         return (number == kTop ? size.height : size.half) / glm::dot(direction, side.normal);
     }
 
-    /// Whether a child goes on from the top of a joint, straight and as wide.
+    /// Whether a child continues its parent from the top of a joint, about as straight and as wide.
     [[nodiscard]] bool
     continues(const BoxSocket& side, std::size_t number, float half, std::uint32_t child) const {
         const Segment& grown = skeleton_.segments[child];
@@ -274,8 +274,8 @@ private:
                grown.length > 2.0F * half;
     }
 
-    /// Whether the openings of the children `here` have room on a side, each in its tile, and end
-    /// before the child does.
+    /// Whether the openings of the children `here` have room on a side, each in its tile, and no
+    /// child ends within its opening.
     [[nodiscard]] bool has_room(const BoxSocket& side,
                                 std::size_t number,
                                 const JointSize& size,
