@@ -21,7 +21,7 @@ inline constexpr std::uint64_t kFormsOfPage = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> depends_on_vertical; // by id: whether the drawing of the branch does
+    std::vector<bool> depends_on_vertical; // by id: whether its drawing depends on up
     std::size_t kind_count = 0;            // number of different valid branches
 };
 

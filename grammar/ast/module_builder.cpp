@@ -70,15 +70,15 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
 /// for every module; the case of translated or edited text is a call.
 inline void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
-        push_mapped(name, text);
+        push_changed_text(name, text);
     } else {
         ast_.modules.push_back({name, text.begin});
     }
     last_name_ = LastName::Bare;
 }
 
-/// Appends a module if the scanned text differs from the text of the file.
-void AstBuilder::push_mapped(NameId name, TextRange text) {
+/// Appends a module of text that was translated or edited before the scan.
+void AstBuilder::push_changed_text(NameId name, TextRange text) {
     push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
 }
 

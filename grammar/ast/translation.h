@@ -42,7 +42,7 @@ public:
     [[nodiscard]] bool report_overflow(Diagnostics& diagnostics) const;
 
     [[nodiscard]] const std::string& text() const { return text_; }
-    /// Originals by replaced names of the text.
+    /// Original name of each replaced name.
     [[nodiscard]] const std::map<std::string, std::string>& replaced_names() const {
         return replaced_names_;
     }

@@ -329,7 +329,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
-    if (bends) { // the rest after meshing and writing
+    if (bends) { // all time but that of meshing and writing
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }

@@ -101,7 +101,7 @@ private:
             open_.push_back(takes ? '>' : '$');
             return;
         }
-        if (symbol.name == "$") { // a module of the grammar; `$` alone is of instancing
+        if (symbol.name == "$") { // of the grammar; a `$` alone is one of instancing
             text += "`$`";
             for (std::size_t i = 0; i < parameters.size(); ++i) {
                 text += i == 0 ? '(' : ',';
@@ -141,7 +141,7 @@ derive_options(const DumpCommand& command, const Bytecode& bytecode, const Conso
     return derive;
 }
 
-/// Leaves out notes on equal plants where one is asked for.
+/// Removes the notes that all plants are equal, which are expected of a single hero.
 void drop_notes_on_variety(Diagnostics& diagnostics) {
     Diagnostics left;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -152,7 +152,7 @@ void drop_notes_on_variety(Diagnostics& diagnostics) {
     diagnostics = std::move(left);
 }
 
-/// The value, or 0 where it is the rounding of one: sums of sines and cosines.
+/// The value, or 0 for a rounding error of sums of sines and cosines.
 float without_noise(float value) {
     constexpr float kNoise = 1e-9F;
     return std::abs(value) < kNoise ? 0.0F : value;

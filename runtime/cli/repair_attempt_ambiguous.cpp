@@ -87,8 +87,8 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
                 program) {
             return false;
         }
-        // A product in place of the comma is not plausible if it adds a module with a number of
-        // parameters that occurs nowhere else.
+        // The alternative to a missing comma is a missing `*`. It is not plausible if no other
+        // module has the name and number of parameters that it gives.
         const std::set<ModuleName> alternative_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
                alternative_modules.size() <= modules.size() ||

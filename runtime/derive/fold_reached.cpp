@@ -28,13 +28,14 @@ public:
         const std::uint32_t width = code_width(bytecode.code_count());
         max_codes_ = std::min(width == 1 ? 256U : 65'536U, kMaxCodes);
         by_symbol_.resize(bytecode.symbols.size());
-        parts_.resize(bytecode.symbols.size());
+        decompositions_.resize(bytecode.symbols.size());
         for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
             const BytecodeProduction& production = bytecode.productions[i];
             const SymbolId symbol = bytecode.patterns[production.predecessor.first].symbol;
             if (production.stage != Stage::Interpret) { // words of #interpret are never stored
-                (production.stage == Stage::Rewrite ? by_symbol_
-                                                    : parts_)[static_cast<std::size_t>(symbol)]
+                (production.stage == Stage::Rewrite
+                     ? by_symbol_
+                     : decompositions_)[static_cast<std::size_t>(symbol)]
                     .push_back(i);
             }
         }
@@ -66,7 +67,7 @@ private:
     /// Applies #decompose to the new modules until no further ones appear.
     void decompose() {
         for (std::size_t i = 0; i < next_.size() && ok_; ++i) {
-            apply(parts_, next_[i]);
+            apply(decompositions_, next_[i]);
         }
     }
 
@@ -190,7 +191,7 @@ private:
     std::vector<bool> seen_; // by code
     std::vector<Code> next_; // modules that occur first at the next age
     Table by_symbol_;
-    Table parts_; // productions of #decompose
+    Table decompositions_; // productions of #decompose
     std::uint32_t max_codes_ = 0;
     std::uint64_t trials_ = 0;
     bool axiom_is_folded_ = false; // the axiom stored parameters before it was folded

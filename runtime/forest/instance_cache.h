@@ -86,7 +86,8 @@ struct InstanceCache {
     std::vector<InstanceFork> forks; // where the skeleton lacks a branch
     std::vector<InstanceKey> keys;   // by slot; empty unless CacheOptions::keep_keys
     std::uint32_t heroes = 0;
-    /// Of the `[` of each instance, kNone for whole plants; empty unless asked for.
+    /// Origin of the `[` of each instance, kNone for whole plants; empty unless
+    /// CacheOptions::origins.
     std::vector<Origin> origins;
 
     /// Memory without the skeleton.
@@ -112,7 +113,7 @@ struct CacheOptions {
     Limits limits;                               // of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
     std::vector<float> mesh_lengths;             // as in TurtleOptions
-    bool origins = false;                        // record those of instances and drawn items
+    bool origins = false;                        // record the origins of instances and drawn items
     const std::atomic<bool>* cancelled = nullptr;
 };
 

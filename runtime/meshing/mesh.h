@@ -92,10 +92,10 @@ struct MeshOptions {
     /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
     /// none.
     float bark_noise = 0.0F;
-    /// Depth of grooves along the stem, as a part of the radius; 0: none. Tubes without `sides` then
-    /// have kGrooveSides, boxes without `subdivisions` kGrooveSubdivisions. A tube has a groove for
-    /// each four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box with fewer than two
-    /// vertices per groove is as thick as grooves leave it on average.
+    /// Depth of grooves along the stem, as a part of the radius; 0: none. Tubes without `sides`
+    /// then have kGrooveSides, boxes without `subdivisions` kGrooveSubdivisions. A tube has a
+    /// groove for each four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box with fewer
+    /// than two vertices per groove is as thick as grooves leave it on average.
     float grooves = 0.0F;
     /// Tubes: axes bend along smooth curves through their joints.
     bool smooth_joints = false;
@@ -132,7 +132,7 @@ struct UserMesh {
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };
 
-/// `options` with the method, subdivisions and sides that they mean for `skeleton`.
+/// Replaces MeshMethod::Default and unset subdivisions and sides by their values for `skeleton`.
 [[nodiscard]] MeshOptions resolved(const MeshOptions& options, const Skeleton& skeleton);
 
 /// Makes `mesh` from `skeleton`. `user_meshes`: meshes of Skeleton::mesh_files, in order. The

@@ -7,8 +7,8 @@ namespace lsys {
 
 namespace {
 
-/// The skeleton, in which the parent of an object or polygon is its own number: items are numbered
-/// segments first, then polygons, then objects.
+/// A copy of the skeleton in which each polygon and object has its item number as its parent. Items
+/// are numbered from 0: segments, then polygons, then objects.
 Skeleton with_numbered_items(const Skeleton& skeleton) {
     Skeleton numbered = skeleton;
     auto number = static_cast<std::uint32_t>(skeleton.segments.size());
@@ -21,7 +21,7 @@ Skeleton with_numbered_items(const Skeleton& skeleton) {
     return numbered;
 }
 
-/// The number that all corners have, else the first one of the first.
+/// The item number that all corners share, else the first number of the first corner.
 std::uint32_t common_number(const std::array<VertexSegments, 3>& corners) {
     const auto carries = [](const VertexSegments& corner, std::uint32_t number) {
         return corner[0] == number || corner[1] == number;

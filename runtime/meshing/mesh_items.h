@@ -1,4 +1,4 @@
-// Which segment, object or polygon of a skeleton a triangle of its mesh belongs to.
+// The segment, object or polygon of a skeleton to which a triangle of its mesh belongs.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -18,7 +18,7 @@ struct SkeletonItem {
 };
 
 /// The item that triangle number `triangle` of make_mesh(skeleton, user_meshes, options) shows; a
-/// triangle that two segments share is of the one that carries all its corners. Makes the mesh
+/// triangle between two segments belongs to the one that carries all its corners. Makes the mesh
 /// again. None: no such triangle, or no memory.
 [[nodiscard]] std::optional<SkeletonItem> item_of_triangle(const Skeleton& skeleton,
                                                            const std::vector<UserMesh>& user_meshes,

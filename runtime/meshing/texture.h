@@ -35,9 +35,9 @@ inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t kMaxTextureSide = 16384;
 /// Reads a PNG file whose texels take at most `max_bytes`. The error names any other known format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
-/// The normals of a picture that has them, or those of its brightness as height: white lies
-/// `bump` times 2 % of the picture's width above black. Pictures of normals are known by their
-/// mean, which is near (0, 0, 1).
+/// A normal map is returned unchanged; its mean near (0, 0, 1) identifies it. Any other picture is
+/// a height map, from which normals are computed: white lies `bump` times 2 % of its width above
+/// black.
 [[nodiscard]] Texture normals_of(const Texture& picture, float bump);
 /// `colour` with the opacity of another picture: its own opacity if it has holes, else its red.
 /// Precondition: both have one size.

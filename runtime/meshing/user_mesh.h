@@ -21,7 +21,7 @@ namespace lsys {
 
 /// Pictures of a material in a file of materials (MTL); no name: no picture.
 struct MaterialPicture {
-    bool has_options = false; // before a name, but for -bm
+    bool has_options = false; // an option other than -bm stands before a name
     ObjName file;             // of map_Kd
     ObjName opacity;          // of map_d
     ObjName relief;           // of map_Bump, bump or norm

@@ -44,7 +44,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
             return false;
         }
         if (body.parent != kNoSegment && !own_load) {
-            // k - k P^-1 k = k P^-1 (P - k)
+            // k - k P^-1 k = k P^-1 (P - k), for the spring k and P = `sum`
             const Rows inverted = rows_of(inverse(sum));
             added[body.parent] +=
                 scaled(symmetric_product(inverted, rows_of(without_spring)), body.spring);
@@ -130,13 +130,13 @@ Skeleton stiffened(const Skeleton& rest, Stiffening way, double factor) {
     constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
     const bool widens = way == Stiffening::Widths;
     const double square = widens ? factor * factor : 1.0;
-    const double stiff = widens ? square * square : factor;
+    const double spring_factor = widens ? square * square : factor;
     const auto times = [kMax](float value, double by) {
         return static_cast<float>(std::min(static_cast<double>(value) * by, kMax));
     };
     Skeleton out = rest;
     for (Segment& segment : out.segments) {
-        segment.spring = times(segment.spring, stiff);
+        segment.spring = times(segment.spring, spring_factor);
         segment.mass = times(segment.mass, square);
         if (widens) {
             segment.base_radius = times(segment.base_radius, factor);
@@ -182,10 +182,10 @@ bool has_automatic_springs(const Skeleton& rest, double elasticity) {
         const auto width =
             static_cast<double>(segment.base_radius) + static_cast<double>(segment.tip_radius);
         const auto length = static_cast<double>(segment.length);
-        const double stiff =
+        const double expected =
             elasticity * std::numbers::pi / 64.0 * width * width * width * width / length;
         return !(length > 0.0) ||
-               std::abs(static_cast<double>(segment.spring) - stiff) <= 1e-4 * stiff;
+               std::abs(static_cast<double>(segment.spring) - expected) <= 1e-4 * expected;
     });
 }
 

@@ -27,7 +27,7 @@ namespace {
 constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
-/// The whole path of `path`, which a file of `folder` names. Without `..`, unless a symbolic link
+/// The path of a file that is named relative to `folder`. Removes `..`, unless a symbolic link
 /// makes the shorter path another file.
 std::string path_in(const std::string& folder, const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(folder) / path;
@@ -39,9 +39,8 @@ std::string path_in(const std::string& folder, const std::string& path) {
 /// Places of axioms whose notes on equal plants have been given: path and offset.
 using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 
-/// Takes notes on equal plants out of `diagnostics`: all where the scene asks for one plant or
-/// `is_wanted` is false, else those that have been given for the place. Returns whether there were
-/// any.
+/// Removes notes on equal plants from `diagnostics`: all if the species has one hero or `is_wanted`
+/// is false, else those of places in `noted`. Returns whether `diagnostics` had such notes.
 bool drop_notes(const SceneSpecies& species,
                 bool is_wanted,
                 const std::string& path,

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Trees of a forest whose trees have stages, so many stages after the start.
+/// `trees`, each `stages` stages later, at most its last.
 LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
                               std::span<const Tree> start,
                               std::uint32_t stages) {
@@ -38,7 +38,7 @@ struct ForestGrowth::State {
     const Terrain& terrain;
     PlacementOptions options;
     std::optional<Domination> domination;
-    LargeVector<Tree> start;  // without domination: painted, at the stages where they start
+    LargeVector<Tree> start;  // methods but Domination: the trees of year 0, painting applied
     LargeVector<Tree> before; // of the year before that of `domination`; empty in year 0
     LargeVector<Tree> after;  // of the year of `domination`
 

@@ -23,8 +23,8 @@ public:
     ForestGrowth(ForestGrowth&&) noexcept;
     ForestGrowth& operator=(ForestGrowth&&) noexcept;
 
-    /// The last year: last_year() of the scene. In the last year of stages every tree has reached
-    /// its last one.
+    /// The last year: last_year() of the scene. If trees have stages, it is the year in which the
+    /// last tree reaches its last stage.
     [[nodiscard]] std::uint32_t last_year() const;
     /// Advances to `moment`, which is not after the last year, and writes the trees of `moment` to
     /// `trees`, painting applied: at whole years those of place_forest() with that number of years,

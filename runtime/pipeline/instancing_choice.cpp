@@ -21,13 +21,13 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kNoBytes = std::numeric_limits<std::uint64_t>::max();
-// The default first: the first of several that are equal is taken.
+// The default comes first: of equal choices the first is taken.
 constexpr std::array<float, 9> kRhos{0.6F, 0.5F, 0.7F, 0.4F, 0.8F, 0.3F, 0.2F, 0.1F, 0.0F};
 constexpr std::array<std::uint32_t, 16> kHeroes{1,  2,  3,  4,  6,  8,   12,  16,
                                                 24, 32, 48, 64, 96, 128, 192, 256};
 static_assert(kHeroes.back() == kMaxChosenHeroes);
 constexpr std::array<std::uint32_t, 12> kCaps{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// Steps of kHeroes without further different trees after which more heroes are not tried.
+/// The search ends after this many steps of kHeroes that give no more different trees.
 constexpr int kIdleSteps = 4;
 
 struct Choice {
@@ -64,22 +64,22 @@ public:
            std::size_t species,
            std::vector<Tree> trees,
            const Project& project)
-        : project_(project), trees_(std::move(trees)), one_(loaded) {
-        one_.scene.species = {loaded.scene.species[species]};
-        one_.scene.placement.species = {loaded.scene.placement.species[species]};
-        one_.scene.terrain = {};
-        one_.scene.density_map = {};
-        one_.scene.painting = {};
+        : project_(project), trees_(std::move(trees)), one_species_(loaded) {
+        one_species_.scene.species = {loaded.scene.species[species]};
+        one_species_.scene.placement.species = {loaded.scene.placement.species[species]};
+        one_species_.scene.terrain = {};
+        one_species_.scene.density_map = {};
+        one_species_.scene.painting = {};
         for (Tree& tree : trees_) {
             tree.species = 0;
         }
     }
 
-    /// Fills `least`, `within` and `most`. `budget`: bytes of `within`. `most_bytes`: where the
-    /// search for `least` ends.
+    /// Fills `smallest`, `best_in_budget` and `best`. `budget`: max bytes of `best_in_budget`.
+    /// `most_bytes`: max bytes of `smallest`.
     Outcome<void> run(std::uint64_t budget, std::uint64_t most_bytes) {
         Step step(project_);
-        const SceneSpecies& species = one_.scene.species.front();
+        const SceneSpecies& species = one_species_.scene.species.front();
         const WrittenInstancing& written = species.written;
         const std::vector<float> rhos =
             written.rho ? std::vector{species.rho} : std::vector(kRhos.begin(), kRhos.end());
@@ -94,8 +94,8 @@ public:
                 if (!step.take(try_choice(choice, budget))) {
                     return step.end();
                 }
-                if (!choice.is_set() || choice.bytes >= least.bytes || choice.bytes > most_bytes ||
-                    choice.different >= needed) {
+                if (!choice.is_set() || choice.bytes >= smallest.bytes ||
+                    choice.bytes > most_bytes || choice.different >= needed) {
                     break; // more heroes take more memory
                 }
                 idle = choice.different > shapes ? 0 : idle + 1;
@@ -105,18 +105,18 @@ public:
                 }
             }
         }
-        if (least.is_set() && !written.cap) {
+        if (smallest.is_set() && !written.cap) {
             for (const std::uint32_t cap : kCaps) {
-                Choice choice = least;
+                Choice choice = smallest;
                 choice.cap = cap;
-                const std::uint64_t bytes = least.bytes;
-                if (cap >= least.most_variants) {
+                const std::uint64_t bytes = smallest.bytes;
+                if (cap >= smallest.most_variants) {
                     break;
                 }
                 if (!step.take(try_choice(choice, budget))) {
                     return step.end();
                 }
-                if (least.bytes < bytes) {
+                if (smallest.bytes < bytes) {
                     break; // a larger cap takes more memory
                 }
             }
@@ -128,12 +128,12 @@ public:
     Outcome<bool> has_different_heroes() {
         Step step(project_);
         constexpr std::uint32_t kSeeds = 4;
-        SceneSpecies& species = one_.scene.species.front();
+        SceneSpecies& species = one_species_.scene.species.front();
         species.cache.heroes = kSeeds;
         species.rho = 0.0F;
         GrownForest grown;
         Step quiet(project_);
-        if (!quiet.take(grow_species(one_, project_, {}), grown)) {
+        if (!quiet.take(grow_species(one_species_, project_, {}), grown)) {
             return quiet.end();
         }
         grown.forest.trees.assign(trees_.begin(), trees_.end());
@@ -142,24 +142,26 @@ public:
     }
 
     [[nodiscard]] std::uint64_t tree_count() const { return trees_.size(); }
-    [[nodiscard]] const std::string& name() const { return one_.scene.species.front().name; }
+    [[nodiscard]] const std::string& name() const {
+        return one_species_.scene.species.front().name;
+    }
 
     std::uint64_t needed = 0; // different trees
-    Choice least;             // least memory with all that are needed
-    Choice within;            // most different trees within the budget
-    Choice most;              // most different trees of all
+    Choice smallest;          // of least memory with at least `needed` different trees
+    Choice best_in_budget;    // most different trees within the budget
+    Choice best;              // most different trees of all
 
 private:
     /// Fills `choice`, and keeps it if it is better than those before. Leaves it unset if a limit
     /// of the project or the grammar does not allow it.
     Outcome<void> try_choice(Choice& choice, std::uint64_t budget) {
         Step step(project_);
-        SceneSpecies& species = one_.scene.species.front();
+        SceneSpecies& species = one_species_.scene.species.front();
         species.cache.heroes = choice.heroes;
         species.rho = choice.rho;
         species.cache.cap = choice.cap;
         choice.bytes = kNoBytes;
-        Outcome<GrownForest> outcome = grow_species(one_, project_, {});
+        Outcome<GrownForest> outcome = grow_species(one_species_, project_, {});
         if (!outcome) {
             return outcome.stop() == Stop::Cancelled ? Outcome<void>(step.end(Stop::Cancelled))
                                                      : step.done();
@@ -173,7 +175,7 @@ private:
                     std::max(choice.most_variants, stage.cache.slots[i].variant_count);
             }
         }
-        if (choice.bytes >= least.bytes) {
+        if (choice.bytes >= smallest.bytes) {
             return step.done();
         }
         forest.trees.assign(trees_.begin(), trees_.end());
@@ -182,22 +184,22 @@ private:
             return !b.is_set() || a.different > b.different ||
                    (a.different == b.different && a.bytes < b.bytes);
         };
-        most = is_more(choice, most) ? choice : most;
-        if (choice.bytes <= budget && is_more(choice, within)) {
-            within = choice;
+        best = is_more(choice, best) ? choice : best;
+        if (choice.bytes <= budget && is_more(choice, best_in_budget)) {
+            best_in_budget = choice;
         }
         if (choice.different >= needed) {
-            least = choice;
+            smallest = choice;
         }
         return step.done();
     }
 
     const Project& project_;
     std::vector<Tree> trees_;
-    LoadedScene one_; // with this species alone, on flat ground
+    LoadedScene one_species_; // with this species alone, on flat ground
 };
 
-/// Least number of different trees of `count` that is the share `variety`.
+/// Min number of different trees that is the share `variety` of `count` trees.
 std::uint64_t share_of(double variety, std::uint64_t count) {
     return static_cast<std::uint64_t>(std::ceil(variety * static_cast<double>(count) - 1e-9));
 }
@@ -206,14 +208,14 @@ double part_of(std::uint64_t part, std::uint64_t all) {
     return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Places the trees, whose places depend on no hero; by species.
+/// Places the trees, by species, with one hero each: places do not depend on heroes.
 Outcome<std::vector<std::vector<Tree>>>
 place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bool>& is_noted) {
     Step step(project);
     LoadedScene cheap = loaded;
     cheap.scene.goal = {};
     for (SceneSpecies& species : cheap.scene.species) {
-        species.cache.heroes = 1; // without notes on variety
+        species.cache.heroes = 1; // drops notes on variety
         species.rho = species.written.rho ? species.rho : 0.0F;
     }
     Step quiet(project); // the forest itself gives these messages again
@@ -232,7 +234,7 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
     return step.done(std::move(trees));
 }
 
-/// The nearest goals that can be had, as help.
+/// The nearest goals that can be reached, as text for help.
 std::string nearest_goals(const std::vector<Search>& searches, const InstancingGoal& goal) {
     std::uint64_t bytes = 0;
     bool all_least = true;
@@ -247,18 +249,18 @@ std::string nearest_goals(const std::vector<Search>& searches, const InstancingG
             text += searches.size() > 1 ? search.name() + ": " : std::string();
             text += options_text(choice);
         };
-        all_least = all_least && search.least.is_set();
-        all_within = all_within && search.within.is_set();
-        if (search.least.is_set()) {
-            bytes += search.least.bytes;
-            add(search.least, least);
+        all_least = all_least && search.smallest.is_set();
+        all_within = all_within && search.best_in_budget.is_set();
+        if (search.smallest.is_set()) {
+            bytes += search.smallest.bytes;
+            add(search.smallest, least);
         }
-        if (search.within.is_set()) {
+        if (search.best_in_budget.is_set()) {
             least_part =
-                std::min(least_part, part_of(search.within.different, search.tree_count()));
-            add(search.within, within);
+                std::min(least_part, part_of(search.best_in_budget.different, search.tree_count()));
+            add(search.best_in_budget, within);
         }
-        most_part = std::min(most_part, part_of(search.most.different, search.tree_count()));
+        most_part = std::min(most_part, part_of(search.best.different, search.tree_count()));
     }
     const auto floor_text = [](double part) {
         return fmt::format("{}", std::floor(part * 1e4 + 1e-9) / 1e4);
@@ -324,12 +326,13 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
                     wanted, species.name));
             }
         }
-        // With a share, `least` is looked for beyond the budget, to name it.
+        // With a goal of variety the search goes beyond the budget, so that the error can name the
+        // memory that is enough.
         const std::uint64_t most_bytes = goal.variety > 0.0 ? kNoBytes : budget;
         if (!step.take(search.run(budget, most_bytes))) {
             return step.end();
         }
-        const Choice& chosen = goal.variety > 0.0 ? search.least : search.within;
+        const Choice& chosen = goal.variety > 0.0 ? search.smallest : search.best_in_budget;
         is_met = is_met && chosen.is_set();
         bytes += chosen.is_set() ? chosen.bytes : 0;
     }
@@ -343,7 +346,7 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
     }
     for (std::size_t s = 0; s < searches.size(); ++s) {
         const Search& search = searches[s];
-        const Choice& chosen = goal.variety > 0.0 ? search.least : search.within;
+        const Choice& chosen = goal.variety > 0.0 ? search.smallest : search.best_in_budget;
         apply(chosen, loaded.scene.species[s]);
         step.messages.add_info(fmt::format(
             "{}: chose {}: {} of {} different, {}", search.name(), options_text(chosen),

@@ -8,15 +8,16 @@
 
 namespace lsys {
 
-/// The most heroes of a species that choose_instancing() tries, unless a scene writes more.
+/// Max heroes of a species that choose_instancing() tries; a scene may set more.
 inline constexpr std::uint32_t kMaxChosenHeroes = 256;
 
-/// Sets heroes, rho and cache cap of each species for `scene.goal`, if that is set; values that a
-/// scene or command line has written stay. For each species it takes, of all combinations that it
-/// tries, the one of least memory in which the share of its placed trees is different, counted as
-/// count_different_trees() does. Memory is that of skeletons and instance records. Without a share
-/// it takes the one with most different trees within an equal part of the memory. Depends on scene,
-/// grammars and key alone. Fails where no combination does, and names the nearest ones.
+/// Sets heroes, rho and cache cap of each species for `scene.goal`, if that is set. Keeps values
+/// that the scene or command line sets. Tries combinations for each species: with a goal of variety
+/// it takes the one of least memory whose placed trees reach that share of different ones, counted
+/// by count_different_trees(); else the one with most different trees in an equal part of the
+/// memory. Memory is that of skeletons and instance records. Depends on scene, grammars and key
+/// alone. If no combination reaches the goal, fails and names the nearest goals that can be
+/// reached.
 [[nodiscard]] Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project);
 
 } // namespace lsys

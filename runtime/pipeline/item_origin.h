@@ -19,9 +19,9 @@ struct ItemOrigin {
     std::uint32_t generation = 0; // of the word
 };
 
-/// `options.generations`: those of the derivation; `generation`: of the word, at most as many.
-/// `grammar`, whose bytecode is folded. An item that the word does not draw has an empty module.
-/// Fails as grow_plant() does.
+/// Finds the module that draws `item` in the word of `generation`, which is at most
+/// `options.generations`. Folds the bytecode of `grammar`. The module is empty if the word does not
+/// draw the item. Fails as grow_plant() does.
 [[nodiscard]] Outcome<ItemOrigin> origin_of_item(const PlantOptions& options,
                                                  std::uint32_t generation,
                                                  const SkeletonItem& item,

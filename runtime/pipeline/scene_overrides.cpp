@@ -45,7 +45,7 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     return {};
 }
 
-/// A message about options of stages that say nothing; empty if there are none.
+/// The error of stage options that have no effect or contradict others; empty if all fit.
 std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) {
     const bool has_stages =
         std::any_of(scene.species.begin(), scene.species.end(),
@@ -154,7 +154,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     replace_if_set(overrides.spacing, placement.spacing);
     replace_if_set(overrides.density, placement.density);
     const bool dominates = placement.method == PlacementMethod::Domination;
-    replace_if_set(overrides.years, dominates ? placement.years : placement.later);
+    replace_if_set(overrides.years, dominates ? placement.years : placement.stages_passed);
     if (!overrides.density_map.empty()) {
         scene.density_map.path = std::filesystem::absolute(overrides.density_map).string();
     }
@@ -175,7 +175,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             scene.terrain.region = placement.region;
         }
     }
-    settle_stages(scene);
+    copy_stages_to_placement(scene);
     if (const std::string conflict = stage_conflict(overrides, scene); !conflict.empty()) {
         return Error{conflict};
     }

@@ -63,7 +63,7 @@ struct SceneOverrides {
     std::optional<double> spacing;      // m
     std::optional<double> density;      // places per square metre
     std::string density_map;            // absolute, or relative to the working folder
-    std::optional<std::uint32_t> years; // of domination; of other methods: stages since the start
+    std::optional<std::uint32_t> years; // Domination: years; others: stages grown since the start
     std::vector<std::uint32_t> stages;  // for all species: generations, rising; empty: none
     std::optional<StageStart> start;    // for all species
     std::optional<float> years_of_stage;
@@ -86,8 +86,8 @@ struct SceneOverrides {
 };
 
 /// Replaces values of `scene`. To combine several overrides, apply one after the other, the
-/// strongest last. Errors: a tile of a placement without tiles; normals or a tile of the ground
-/// without a picture of it; a stage at the start, or years of a stage, without stages.
+/// strongest last. Errors: `tile` for a method that has no tiles; `ground_normals` or `ground_tile`
+/// without a picture of the ground; `start` or `years_of_stage` without stages.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Sets `method`, and the values that `method` reads but the method of `scene` does not, for about

@@ -40,7 +40,7 @@ struct SettingControl {
 
 /// Numbers as the values of a `#set`: `0.5 -1 0 0.2`. Reading the text gives the same numbers.
 [[nodiscard]] std::string setting_text(std::span<const float> numbers);
-/// The numbers of `values` if it is exactly `count` numbers; none if not, as with constants.
+/// The numbers of `values` if it is exactly `count` numbers; else none, as for names of constants.
 [[nodiscard]] std::optional<std::array<float, 4>> numbers_of(std::string_view values,
                                                              std::size_t count);
 

@@ -49,12 +49,12 @@ Step::Ended Step::end_diagnosed() {
     const auto is_limit = [](const Diagnostic& diagnostic) {
         return diagnostic.code == DiagnosticCode::LimitReached;
     };
-    const bool limit =
+    const bool reached_limit =
         std::any_of(messages.all().begin(), messages.all().end(), [&](const Message& message) {
             const std::vector<Diagnostic>& all = message.diagnostics.all();
             return std::any_of(all.begin(), all.end(), is_limit);
         });
-    return end(limit ? Stop::Limit : Stop::Diagnosed);
+    return end(reached_limit ? Stop::Limit : Stop::Diagnosed);
 }
 
 Step::Ended Step::end_too_large(Stop stop, std::string_view what) {

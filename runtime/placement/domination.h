@@ -48,8 +48,8 @@ public:
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
     /// The living plants as trees, in the same order. A tree's scale is the drawn one times the
     /// ratio of its radius to that of a plant of its age and full vigour that was never dominated.
-    /// A tree of year 0 whose species has several stages is older by the years of the stages before
-    /// that at which it starts; seedlings start at the first stage.
+    /// A plant of year 0 may start at a later stage: its tree is older by the years of the stages
+    /// before. Seedlings start at the first stage.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 

@@ -20,8 +20,8 @@ namespace lsys {
 
 inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
 inline constexpr std::uint32_t kMaxYears = 10'000;
-/// Age of a plant per stage where plants do not compete: ages are odd, since age 0 means the last
-/// stage.
+/// Years per stage for methods other than Domination. Stage s has age 2 s + 1, because age 0 means
+/// the last stage.
 inline constexpr float kYearsOfFreeStage = 2.0F;
 /// Limit of the years that all stages of a species take, so that ages have 16 bits.
 inline constexpr float kMaxStageYears = 40'000.0F;
@@ -69,7 +69,7 @@ struct PlacementSpecies {
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees
     SpeciesGrowth growth;
-    std::uint32_t stages = 1; // 1: ages of trees tell no stage
+    std::uint32_t stages = 1; // of different ages; 1: ages do not matter
     StageStart start = StageStart::Random;
     float years_of_stage = 0.0F; // Domination: above 0 where there are several stages
 };
@@ -85,8 +85,8 @@ struct PlacementOptions {
     const GreyMap* density_map = nullptr;
     std::optional<Region> map_region; // extent of the map, black outside; none: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t later = 0;   // other methods: stages that trees have passed since the start
-    std::uint32_t threads = 0; // 0: as many as the machine has
+    std::uint32_t stages_passed = 0;  // other methods: since the start, by each tree
+    std::uint32_t threads = 0;        // 0: as many as the machine has
 };
 
 struct PlacementReport {

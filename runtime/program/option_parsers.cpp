@@ -227,7 +227,7 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
     UsageError usage;
     usage.help = fmt::format("`{} --help` lists the options", command);
     usage.message = error.what();
-    const auto is = [&](CLI::ExitCodes code) {
+    const auto has_code = [&](CLI::ExitCodes code) {
         return error.get_exit_code() == static_cast<int>(code);
     };
     const std::vector<std::string> extras = app.remaining(true);
@@ -235,11 +235,11 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
     const auto unknown = std::find_if(extras.begin(), extras.end(), [](const std::string& extra) {
         return extra.starts_with('-');
     });
-    if (is(CLI::ExitCodes::ExtrasError) ||
-        (is(CLI::ExitCodes::RequiredError) && unknown != extras.end())) {
-        const std::string extra = is(CLI::ExitCodes::RequiredError) ? *unknown
-                                  : extras.empty()                  ? std::string()
-                                                                    : extras.front();
+    if (has_code(CLI::ExitCodes::ExtrasError) ||
+        (has_code(CLI::ExitCodes::RequiredError) && unknown != extras.end())) {
+        const std::string extra = has_code(CLI::ExitCodes::RequiredError) ? *unknown
+                                  : extras.empty()                        ? std::string()
+                                                                          : extras.front();
         usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
                                                : fmt::format("unexpected argument `{}`", extra);
         std::vector<std::string> names;
@@ -252,7 +252,7 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         if (const auto nearest = nearest_name(extra, candidates)) {
             usage.help = fmt::format("did you mean `{}`?", *nearest);
         }
-    } else if (is(CLI::ExitCodes::RequiredError)) {
+    } else if (has_code(CLI::ExitCodes::RequiredError)) {
         usage.message =
             fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
     }

@@ -35,7 +35,7 @@ weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& opt
 /// One JSON object and a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);
 
-/// Largest plant that is weighed for a warning alone, segments: each trial settles it.
+/// Max segments of a plant that is weighed only for a warning: each trial settles the plant.
 inline constexpr std::size_t kMaxWeighedSegments = 20'000;
 /// The warning of a plant that falls; empty if it stands.
 [[nodiscard]] Diagnostics fall_warning(const WeightReport& report);

@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-void settle_stages(Scene& scene) {
+void copy_stages_to_placement(Scene& scene) {
     const bool dominates = scene.placement.method == PlacementMethod::Domination;
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const SceneSpecies& species = scene.species[i];
@@ -66,7 +66,7 @@ std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnost
     read_species_list(*root, scene, found);
     read_painting_table(reader.table("painted"), scene, found);
     reader.finish();
-    settle_stages(scene);
+    copy_stages_to_placement(scene);
     found.sort_by_place();
     for (const Diagnostic& diagnostic : found.all()) {
         diagnostics.add(diagnostic);

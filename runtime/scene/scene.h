@@ -51,7 +51,7 @@ struct SceneTerrain {
     SceneFile normals;       // its relief; only with `colour`
     double tile_width = 4.0; // m, of the pictures along X
     double tile_depth = 4.0; // m, along Z
-    /// m, a corner of a tile: `origin` of the file, also where another region is grown.
+    /// m, a corner of a tile: `origin` of the scene file. Overrides of the region do not move it.
     double tile_x = 0.0;
     double tile_z = 0.0;
     SourceSpan span; // of `[terrain]`; kNoFile if missing
@@ -64,16 +64,16 @@ struct SceneDefinition {
     SourceSpan span; // of the name
 };
 
-/// What choose_instancing() (runtime/pipeline/instancing_choice.h) looks for.
+/// Goal of choose_instancing() (runtime/pipeline/instancing_choice.h).
 struct InstancingGoal {
-    double variety = 0.0;        // least share of trees that differ, 0 to 1; 0: as many as fit
+    double variety = 0.0; // min share of different trees, 0 to 1; 0: max that `max_bytes` allows
     std::uint64_t max_bytes = 0; // of all heroes and their branches; 0: no limit
 
     [[nodiscard]] bool is_set() const { return variety > 0.0 || max_bytes != 0; }
     friend bool operator==(const InstancingGoal&, const InstancingGoal&) = default;
 };
 
-/// Values that the author of a scene or command line wrote, so that nothing else chooses them.
+/// Values that the scene or command line sets; choose_instancing() keeps them.
 struct WrittenInstancing {
     bool heroes = false;
     bool rho = false;
@@ -91,7 +91,7 @@ struct SceneSpecies {
     std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
-    /// Of a forest placed by domination; 0: one stage, or not said.
+    /// Domination: age per stage; 0: one stage, or unset.
     float years_of_stage = 0.0F;
     std::optional<StageStart> start; // none: First with domination, else Random
     float rho = kSceneRho;
@@ -112,10 +112,10 @@ struct Scene {
     SourceSpan span;       // of `[placement]`; kNoFile if missing
 };
 
-/// Tells the placement how many stages each species has and where its plants start. Called after
-/// the last change of `scene`. Where a forest placed by domination does not say how long a stage
-/// takes, its years are shared evenly among the stages.
-void settle_stages(Scene& scene);
+/// Copies number of stages, start and years per stage of each species to `scene.placement`. Called
+/// after the last change of `scene`. Domination without years per stage divides its years evenly
+/// among the stages.
+void copy_stages_to_placement(Scene& scene);
 /// Age per stage of trees of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
 [[nodiscard]] float years_of_stage(const Scene& scene, std::size_t index);
 /// Stages or years that a forest grows: the years of domination; else the steps from the first

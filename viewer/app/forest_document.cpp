@@ -41,8 +41,8 @@ Outcome<void> make_model(const ViewOptions& options,
     return step.done();
 }
 
-/// Takes heroes, rho and cache cap that were chosen for the same goal and species, so that an edit of
-/// a window does not search again. Returns whether `before` is such a scene.
+/// Copies the chosen heroes, rho and cache cap of `before` if its goal and species are the same, so
+/// that an edit in a window does not search again. Returns whether they are the same.
 bool keep_choice(const Scene& before, Scene& scene) {
     if (!scene.goal.is_set() || before.goal != scene.goal ||
         before.species.size() != scene.species.size()) {

@@ -15,8 +15,8 @@ namespace lsys::view {
 
 struct ForestDocument {
     Scene scene; // after all overrides
-    /// While a window plays growth, its trees are those of a moment; only its main thread reads or
-    /// changes them then.
+    /// While a window plays growth, the trees are those of the moment shown; then only the main
+    /// thread of the window reads or changes them.
     GrownForest grown;
     ForestModel model; // refers to `grown`
     MeshOptions mesh_options;

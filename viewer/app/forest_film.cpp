@@ -11,7 +11,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The growth at hand. Used by the film's thread only.
+/// The current growth. Used by the film's thread only.
 struct FilmState {
     std::shared_ptr<const ForestDocument> document; // that `growth` was begun with
     Scene scene;

@@ -287,7 +287,7 @@ void draw_cache(ForestView& view) {
     }
 }
 
-/// Values of the colours, several in a row.
+/// Colours and their values, several in a row.
 void draw_legend(const ForestView& view) {
     const std::vector<LegendEntry>& legend = view.legend();
     constexpr std::size_t kMaxShown = 60;

@@ -113,7 +113,7 @@ std::uint32_t ForestView::default_years() const {
 }
 
 std::uint32_t ForestView::years() const {
-    return settings.edits.years.value_or(first_years_);
+    return settings.edits.years.value_or(unedited_years_);
 }
 
 void ForestView::set_years(std::uint32_t years) {
@@ -240,7 +240,7 @@ void ForestView::swap(ForestOutcome outcome) {
         default_years_ = last_year(document_->scene);
     }
     if (!outcome.request.edits.years) {
-        first_years_ = dominates ? placement.years : placement.later;
+        unedited_years_ = dominates ? placement.years : placement.stages_passed;
     }
     if (std::exchange(plays_next_, false)) {
         play_or_pause();
@@ -322,8 +322,7 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Painted trees are known by their numbers among those of a whole year; a forest of stages shows
-    // whole stages.
+    // Painting refers to trees by their numbers in a whole year; a forest of stages shows whole ones.
     return !painting_.is_painted() && document_ != nullptr &&
            document_->scene.placement.method == PlacementMethod::Domination;
 }
@@ -349,7 +348,7 @@ void ForestView::take_moment() {
     changed_ = true;
 }
 
-/// Shows the forest of a whole year, as its file says.
+/// Ends the film and shows the forest of a whole year.
 void ForestView::end_growth(std::uint32_t years) {
     settings.plays = false;
     grown_.reset();
@@ -357,7 +356,7 @@ void ForestView::end_growth(std::uint32_t years) {
     requested_.reset();
 }
 
-/// Asks for the next moment of growth. A pause is at the next whole year.
+/// Requests the next moment of growth. A pause takes effect at the next whole year.
 void ForestView::grow() {
     const SteadyClock::time_point now = SteadyClock::now();
     if ((!settings.plays && !grown_) || document_ == nullptr) {

@@ -65,7 +65,7 @@ struct ForestViewStats {
     double draw_seconds = 0.0;   // last picture
     FrameStats drawn;
     std::uint64_t swaps = 0;
-    std::uint64_t moments = 0; // of growth, shown
+    std::uint64_t moments = 0; // count of moments of growth shown
     std::vector<CacheNumbers> caches;
 };
 
@@ -112,7 +112,7 @@ public:
     /// errors that was opened since is not written.
     void save();
 
-    /// The moment of growth that is shown instead of the last forest; none: there is none.
+    /// The moment of growth shown; none: a whole forest is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
     /// Last forest without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
@@ -148,7 +148,7 @@ private:
     std::shared_ptr<ForestDocument> document_;
     ForestPainting painting_;
     std::vector<std::string> files_;
-    bool frame_next_ = false; // at the next swap
+    bool frame_next_ = false; // the next swap fits the camera to the forest
     bool plays_next_ = false; // from the next swap on
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
@@ -156,9 +156,9 @@ private:
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
-    std::uint32_t first_years_ = 0;   // shown without edits
-    bool is_other_placement_ = false; // the forest shown is not placed as its file says
-    SteadyClock::time_point since_;   // change that led to the forest shown
+    std::uint32_t unedited_years_ = 0; // years of the forest if the user edits none
+    bool is_other_placement_ = false;  // the forest shown is not placed as its file says
+    SteadyClock::time_point since_;    // change that led to the forest shown
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // years
     std::optional<GrowthMoment> grown_;

@@ -118,7 +118,7 @@ private:
     std::optional<Request> last_;
     std::optional<Outcome> outcome_;
     bool is_running_ = false;
-    bool running_again_ = false;
+    bool running_again_ = false; // Request::again of the running or last request
     bool stops_ = false;
     SteadyClock::time_point began_;
     std::atomic<bool> cancelled_{false};

@@ -60,7 +60,7 @@ struct ViewOptions {
     float frames_per_second = 24.0F;
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window growth plays at once
-    std::optional<PicturePixel> pick; // tell what the pixel shows
+    std::optional<PicturePixel> pick; // report what this pixel shows
     std::string stats;                // JSON file; `-`: standard output
 };
 

@@ -173,7 +173,7 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
-/// What was picked last, in the corner opposite to the statistics; below a note.
+/// Lines about the last pick, in the corner opposite to the statistics, below a note.
 void draw_picked(const View& view, const Area& area) {
     if (view.picked().empty()) {
         return;

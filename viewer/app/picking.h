@@ -1,4 +1,4 @@
-// Picking: what is known of the part of a plant or forest that a pixel shows, as lines of text.
+// Picking: description of the part of a plant or forest that a pixel shows, as lines of text.
 // Renderer::pick() finds the part; the production that wrote it is found by deriving again, on a
 // thread of its own in a window.
 #pragma once
@@ -44,7 +44,7 @@ struct PickedTriangle {
                                                          const std::string& file,
                                                          const Project& project);
 
-/// Work for another thread: calls describe() with what it holds.
+/// Work for another thread: a call of describe() with its arguments bound.
 struct PickRequest {
     std::function<Outcome<std::vector<std::string>>(const Project&)> describe;
     RunOptions run;

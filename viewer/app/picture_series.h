@@ -39,8 +39,8 @@ struct PictureSeries {
                                      const std::function<ExitStatus(const Frame& frame)>& after,
                                      PictureSeries& series);
 
-/// Writes what --pick tells of the frame to standard output, after a line with the number of the
-/// picture where there is a series. `describe`: of Renderer::pick(), unless that is Nothing.
+/// Writes the lines of --pick for the frame to standard output; in a series, after a line with the
+/// number of the picture. `describe`: called with the result of Renderer::pick(), unless Nothing.
 [[nodiscard]] ExitStatus write_picked(
     const ViewOptions& options,
     const Frame& frame,

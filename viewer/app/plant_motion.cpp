@@ -35,7 +35,7 @@ WeighOutcome weigh_plant(const WeighRequest& request, const std::atomic<bool>& /
         },
         [&] {
             return WeighOutcome{request.document, {}};
-        }); // the simulation will say so
+        }); // the simulation will report missing memory
 }
 
 struct PlantMotion::State {

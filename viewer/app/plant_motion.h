@@ -33,7 +33,8 @@ struct WeighRequest {
 };
 struct WeighOutcome {
     std::shared_ptr<const PlantDocument> document;
-    Diagnostics warning; // that it falls under its weight; empty: it stands, or is too large
+    /// The plant falls under its weight; empty: it stands, or is too large to be weighed.
+    Diagnostics warning;
 };
 [[nodiscard]] WeighOutcome weigh_plant(const WeighRequest& request,
                                        const std::atomic<bool>& cancelled);

@@ -254,7 +254,7 @@ void draw_look(PlantViewSettings& settings) {
     draw_camera(settings.camera);
 }
 
-/// `own_droop`: of the plant's leaves, where the user sets none.
+/// `own_droop`: droop of the plant's leaves unless the user sets one.
 void draw_mesh(PlantViewSettings& settings, float own_droop) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;

@@ -119,7 +119,7 @@ private:
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
     std::vector<std::string> files_;
-    bool frame_next_ = false; // at the next swap
+    bool frame_next_ = false; // the next swap fits the camera to the plant
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
@@ -134,7 +134,7 @@ private:
     glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown
     std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;
-    MeshOptions bent_mesh_;          // that bent_ was meshed with
+    MeshOptions bent_mesh_;          // options with which bent_ was meshed
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
     std::optional<Bending> weighed_; // last request to weigher_

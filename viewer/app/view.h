@@ -86,9 +86,10 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// Work that tells what a pixel shows; an empty function for nothing. `picked` is not Nothing.
+    /// The request that describes `picked`, which is not Nothing; its function is empty if nothing
+    /// can be said.
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
-    /// Takes what was found out. Returns whether there is news.
+    /// Takes the outcome of picker_. Returns whether picked() changed.
     bool take_picked();
     [[nodiscard]] bool is_picking() const { return picker_ != nullptr && picker_->is_busy(); }
     /// Draws `frame` unless nothing changed. Returns whether it drew.
@@ -121,7 +122,7 @@ private:
     bool failed_ = false;
     std::atomic<bool> shaders_changed_{false};
     std::vector<std::string> picked_;
-    bool wants_picked_ = false;          // the outcome of picker_ was not forgotten
+    bool wants_picked_ = false; // the outcome of picker_ is still wanted: no forget_picked() since
     std::unique_ptr<PickWorker> picker_; // made by the first pick
 };
 

@@ -149,7 +149,7 @@ public:
     /// it. Impostors of the previous forest are drawn until bake_impostors() has made new ones.
     /// Error: a shader does not compile.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
-    /// Shows the trees of the forest anew after they were changed; all else of it is the same.
+    /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void show_trees() = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
@@ -165,9 +165,9 @@ public:
 
     /// Draws the part of a picture within `area` to an offscreen target.
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
-    /// What the middle of a pixel shows in the picture that draw() makes of the frame; lines over all
-    /// are left out, and of wireframes the surfaces are taken. `x`, `y`: from the lower left corner
-    /// of the picture. Keeps the last picture. Error: a shader does not compile.
+    /// Finds the part at the middle of a pixel of the picture that draw() makes of the frame.
+    /// Ignores lines drawn over it; wireframes count as surfaces. `x`, `y`: from the lower left
+    /// corner of the picture. Keeps the last picture. Error: a shader does not compile.
     [[nodiscard]] virtual Result<Picked>
     pick(const Frame& frame, std::uint32_t x, std::uint32_t y) = 0;
     /// Numbers (Tree::number) of the trees of a form that stand in the forest.

@@ -36,9 +36,9 @@ void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, 
     if (slot < added_.size()) {
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
-        Added none;
-        none.made.impostor = LodTree::kRemoved;
-        added_.resize(std::size_t{slot} + 1, none);
+        Added removed;
+        removed.made.impostor = LodTree::kRemoved;
+        added_.resize(std::size_t{slot} + 1, removed);
     }
     added_[slot] = {tree, made};
     const std::uint32_t number = cell_of(tree.position);

@@ -1,6 +1,5 @@
-// Colours that tell the branches of a forest apart, by what instancing knows of them
-// (docs/language.md section 9). Branches of one value have one colour in every forest and on every
-// machine.
+// Colours that distinguish the branches of a forest by id, age or hero (docs/language.md section
+// 9). Branches of one value have one colour in every forest and on every machine.
 #pragma once
 
 #include "viewer/scene/forest_model.h"

@@ -195,7 +195,7 @@ private:
         std::uint32_t end = 0;
         std::uint32_t first_mesh = 0; // in mesh_counts_
     };
-    /// Group of mesh_counts_ for blended trees; groups below it are levels.
+    /// Group of mesh_counts_ for blended trees; the groups before it are those of the levels.
     static constexpr std::uint32_t kBlending = kTreeLevels;
 
     void sort_into_cells();
@@ -209,9 +209,9 @@ private:
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
-    /// m, by which trees at the edges of a cell stand too high or low in the picture of its cluster,
-    /// which is taken from one of few elevations.
-    [[nodiscard]] float flattened(const ForestCell& cell, const glm::vec3& eye) const;
+    /// Max error in m of the heights at which trees at the edges of a cell appear in the picture of
+    /// its cluster, which is taken from one of few elevations.
+    [[nodiscard]] float cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,
                     float distance,

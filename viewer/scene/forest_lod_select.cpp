@@ -136,7 +136,7 @@ bool ForestLod::is_occluded(const Bounds& box, float sway) const {
     return ground_ != nullptr && ground_->occludes(box.low - sway, box.high + sway);
 }
 
-float ForestLod::flattened(const ForestCell& cell, const glm::vec3& eye) const {
+float ForestLod::cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const {
     // Elevations of the pictures and the limits between them: shaders/impostor.vert.glsl.
     constexpr std::array<float, 3> kSines = {0.0F, 0.573576F, 0.965926F};
     constexpr std::array<float, 2> kLimits = {0.300676F, 0.819127F};
@@ -154,10 +154,11 @@ void ForestLod::visit_cell(std::uint32_t index,
     float weight = 1.0F; // of its trees
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels of a metre
-        // Trees that stand far apart are few texels of a picture as wide as their cell.
+        // A picture is as wide as its cell: low trees far apart would cover few of its texels.
         constexpr float kTallestPart = 1.0F / 6.0F;
-        const float pixels = scale * std::max({cell.tallest, 2.0F * flattened(cell, frustum.eye),
-                                               kTallestPart * static_cast<float>(cell_size_)});
+        const float pixels =
+            scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),
+                              kTallestPart * static_cast<float>(cell_size_)});
         weight = pixels < options.cluster_pixels
                      ? 0.0F
                      : finer_weight(pixels, options.cluster_pixels, options.blend);

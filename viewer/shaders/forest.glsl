@@ -6,7 +6,7 @@ struct Branch {
 };
 struct Form {
     vec4 cylinder; // m at scale 1: radius, low, high; half side of the box of vertices
-    vec4 layers; // first layer of its impostors; 1 for clusters
+    vec4 layers; // x: first layer of its impostors; y: 1 for clusters
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three per tree

@@ -52,8 +52,8 @@ public:
 private:
     /// A rule with several predecessor modules.
     struct SequenceRule {
-        std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules of a match
-        std::vector<ClassTerm> max_written;                   // by a match
+        std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules that a match replaces
+        std::vector<ClassTerm> max_written; // most modules of each class that a match writes
         ProductionId first = kNoProduction;
     };
     struct Rule {

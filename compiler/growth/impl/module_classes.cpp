@@ -139,19 +139,19 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
                               return true;
                           });
     }
-    std::vector<Code> met;
-    std::size_t variable = 0;
+    std::vector<Code> fixed_codes; // without duplicates
+    std::size_t next_variable = 0;
     for (std::uint32_t i = 0; i < word.codes.count; ++i) {
         const Code code = bytecode_->template_codes[word.codes.first + i];
-        if (variable < out.variable.size() && out.variable[variable].code == code) {
-            ++variable; // variable modules are listed in the order of the word
+        if (next_variable < out.variable.size() && out.variable[next_variable].code == code) {
+            ++next_variable; // variable modules are listed in the order of the word
             continue;
         }
         if (code_counts_[code]++ == 0) {
-            met.push_back(code);
+            fixed_codes.push_back(code);
         }
     }
-    for (const Code code : met) {
+    for (const Code code : fixed_codes) {
         out.fixed.push_back({unknown_class(code), std::exchange(code_counts_[code], 0)});
     }
 }
@@ -446,7 +446,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
         expansion = shared;
         if (shared.copies && id != unknown_class(static_cast<Code>(symbol))) {
             if (exhausted()) {
-                covers_folded_ = true; // a copied module stands for all codes of its symbol
+                covers_folded_ = true; // the symbol's class now counts its folded modules
             } else {
                 const std::vector<KnownValue> values = parameters(id);
                 expansion = expand_matches(match_everywhere(symbol, values), id, values);

@@ -122,8 +122,8 @@ private:
 
     [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
-    /// The productions that may be taken. Conditions are evaluated at `point`; those of productions
-    /// with contexts with the known values of `parameters`.
+    /// The productions that may be taken. Evaluates conditions at `point`, but conditions of
+    /// productions with contexts for the known values of `parameters`.
     Matches match(SymbolId symbol,
                   std::span<const KnownValue> point,
                   std::span<const KnownValue> parameters);

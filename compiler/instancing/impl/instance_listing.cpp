@@ -73,8 +73,8 @@ private:
         return sources_.file(span.file).text().substr(span.begin, span.end - span.begin);
     }
 
-    /// Whether form `form` takes branch `number`. Branches from 64 on have no bit in the number of a
-    /// form, so the forms that can be asked for take them all.
+    /// Whether form `form` takes branch `number`. The number of a form has 64 bits, so every form
+    /// that can be listed takes the branches from number 64 on.
     [[nodiscard]] static bool takes(std::uint64_t form, std::size_t number) {
         return number >= kFormBits || (form >> number & 1U) == 0;
     }

@@ -21,12 +21,12 @@ namespace lsys {
 /// draw of its own. Precondition: rho in [0, 1].
 void instance_branches(Program& program, const Branches& branches, float rho);
 
-/// The last number of a form, 2^n - 1 for n branches, or 2^64 - 1 for more than 64.
+/// The greatest number of a form of a production with n branches: 2^n - 1, or 2^64 - 1 for n > 64.
 [[nodiscard]] std::uint64_t last_form(std::size_t branch_count);
 
 /// Lists forms [first, first + count) of each production that has them, with their probabilities,
-/// `@(id,#)[...]$` where a branch is recorded and `<(id,#)[...]>` where it is taken. `put` takes the
-/// text in pieces; false ends the list. Precondition: `program` has not been instanced.
+/// `@(id,#)[...]$` where a branch is recorded and `<(id,#)[...]>` where it is taken. `put` takes
+/// the text in pieces; false ends the list. Precondition: `program` has not been instanced.
 void list_branches(const Program& program,
                    const Branches& branches,
                    const Names& names,

@@ -96,7 +96,8 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// A parameter compared with parameter `axis` that equals it at a point.
+    /// Another parameter that equals parameter `axis` at a point, if conditions compare parameters
+    /// with both.
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {
@@ -238,18 +239,18 @@ void check_conditions(const CheckInput& input, Diagnostics& diagnostics) {
     const analysis::ProductionIndex index(bytecode);
     for (std::uint32_t s = 0; s < bytecode.symbols.size(); ++s) {
         const std::span<const std::uint32_t> productions = index.productions_of(SymbolId{s});
-        bool contexts = false;
-        bool conditions = false;
-        bool unconditional = false;
+        bool has_contexts = false;
+        bool has_conditions = false;
+        bool has_unconditional = false;
         for (const std::uint32_t p : productions) {
             const BytecodeProduction& production = bytecode.productions[p];
             check_constant(input, index, p, SymbolId{s}, diagnostics);
-            contexts = contexts || production.has_left || production.has_right;
-            conditions = conditions || production.condition != kNone;
-            unconditional = unconditional || production.condition == kNone;
+            has_contexts = has_contexts || production.has_left || production.has_right;
+            has_conditions = has_conditions || production.condition != kNone;
+            has_unconditional = has_unconditional || production.condition == kNone;
         }
         // With a production for every value, or with contexts, a gap may be intended.
-        if (contexts || unconditional || !conditions || productions.size() < 2 ||
+        if (has_contexts || has_unconditional || !has_conditions || productions.size() < 2 ||
             productions.size() > kMaxCompared) {
             continue;
         }

@@ -1,4 +1,4 @@
-// A probability that no other production shares.
+// A probability without effect, because its production is the only choice.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 

@@ -1,5 +1,5 @@
 // Edge rewriting in which one of two edges is never drawn: Sierpinski's gasket of `F` and `X`, of
-// which only `F` is a branch. Two edges are told from the tips of plants by their productions,
+// which only `F` is a branch. Edges are distinguished from the tips of plants by their productions,
 // which are mirror images of each other and have no brackets.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/reachable.h"

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether the file is a picture by its name; `{` shows one on polygons.
+/// Whether the name of the file is that of a PNG, which `#object {` puts on polygons.
 bool is_picture(std::string_view file) {
     constexpr std::string_view kExtension = ".png";
     return file.size() > kExtension.size() &&

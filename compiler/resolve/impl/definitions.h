@@ -35,7 +35,7 @@ public:
     /// Names of -D without #define or #param.
     [[nodiscard]] std::vector<std::string> unknown_definitions() const;
 
-    /// The number of the next range among #define, #param and #w.
+    /// Index of the next random range among those of #define, #param and #w.
     [[nodiscard]] std::uint32_t draw_position() const { return draw_position_; }
     void advance_draw_position(std::uint32_t count) { draw_position_ += count; }
 

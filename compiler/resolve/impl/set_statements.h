@@ -18,7 +18,7 @@ public:
     /// Origin of the statements of `resolution`.
     enum class Origin : std::uint8_t {
         Grammar,
-        Options, // they replace values of the grammar, `names` the one of the root file
+        Options, // replace values of the grammar; `names` only that of the root file
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 

@@ -56,11 +56,11 @@ void write_axiom(const CareyFile& file,
     }
 }
 
-/// How a rule stands among the others.
+/// Properties of a rule that depend on the other rules.
 struct RulePlace {
     std::size_t number = 0;
-    bool chosen = false;   // its left side has other rules
-    std::string condition; // of its turn; empty: `rewriting cyclic` gives it one
+    bool chosen = false;   // other rules have the same left side
+    std::string condition; // true in the generations of its turn; empty: `rewriting cyclic` decides
 };
 
 /// Writes the condition and the probability of a rule.
@@ -81,8 +81,8 @@ void write_choice(const CareyRule& rule,
     }
 }
 
-/// Writes a rule as a production whose left side ends in a module with `parameters` parameters,
-/// which its right side hands on.
+/// Writes a rule as a production whose left side ends in a module with `parameters` parameters. The
+/// last module of its right side gets them.
 void write_production(const CareyRule& rule,
                       const RulePlace& place,
                       std::size_t parameters,

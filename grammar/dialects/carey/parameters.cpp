@@ -38,11 +38,11 @@ public:
         }
         for (const CareySetting& setting : file.settings) {
             if (setting.key->name == "axiom") {
-                meet_all(modules_of(setting.value));
+                enqueue_all(modules_of(setting.value));
             }
         }
         for (const TextRule& rule : rules_) {
-            meet_all(rule.right);
+            enqueue_all(rule.right);
         }
     }
 
@@ -85,15 +85,15 @@ private:
                    left, [](const TextModule& module) { return module.form.second == 0; });
     }
 
-    void meet(const TextModule& module) {
-        if (module.form.second != 0 && met_.insert(module.form).second) {
+    void enqueue(const TextModule& module) {
+        if (module.form.second != 0 && enqueued_.insert(module.form).second) {
             forms_.push_back(module);
         }
     }
 
-    void meet_all(const std::vector<TextModule>& modules) {
+    void enqueue_all(const std::vector<TextModule>& modules) {
         for (std::size_t i = 0; i < modules.size(); ++i) {
-            meet(modules[i]);
+            enqueue(modules[i]);
             for (const TextRule& rule : rules_) {
                 if (modules[i].form.second != 0 && matches(rule.left, modules, i)) {
                     note(rule, modules[i]);
@@ -119,7 +119,7 @@ private:
     /// after reporting that it cannot have them.
     bool follow(const TextRule& rule, const TextModule& module) {
         if (takes_parameters(rule)) {
-            meet({{rule.right.back().form.first, module.form.second}, module.span});
+            enqueue({{rule.right.back().form.first, module.form.second}, module.span});
             return true;
         }
         const std::string problem =
@@ -167,8 +167,8 @@ private:
     Diagnostics ignored_;
     ParseContext quiet_;
     std::vector<TextRule> rules_;
-    std::set<Form> met_;
-    std::vector<TextModule> forms_; // met, and not followed yet
+    std::set<Form> enqueued_;
+    std::vector<TextModule> forms_; // enqueued and not followed yet
 };
 
 } // namespace

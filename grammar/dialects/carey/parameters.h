@@ -1,5 +1,5 @@
-// Parameters that the rules of a .rules file leave behind. The forest generator replaces text: the
-// rule `F=FF` makes `FF(2)` of `F(2)`.
+// Parameters that stay in the text when a rule of a .rules file replaces the symbol before them:
+// the forest generator replaces text, so the rule `F=FF` makes `FF(2)` of `F(2)`.
 #pragma once
 
 #include "grammar/ast/parse_context.h"

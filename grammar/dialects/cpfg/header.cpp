@@ -140,8 +140,8 @@ void CpfgWriter::write_setting(const char* begin, int expression, const char* fa
     out_.put(";\n", span);
 }
 
-/// Writes the number of passes of a stage. Bound random numbers take additional passes: those of
-/// this stage up to one per pass, those of Rewrite one pass of Decompose.
+/// Writes the number of passes of a stage. Drawing bound random numbers takes additional passes: up
+/// to one per pass of this stage, and one pass of Decompose for those of Rewrite.
 void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;

@@ -75,7 +75,7 @@ public:
 private:
     struct Condition {
         bool holds = false;
-        bool held = false; // one of its branches has been taken
+        bool was_taken = false; // one of its branches has been taken
         std::uint32_t begin = 0;
     };
 
@@ -148,8 +148,8 @@ private:
                 conditions_.pop_back();
             } else {
                 Condition& condition = conditions_.back();
-                condition.holds = !condition.held && (word == "else" || holds(rest));
-                condition.held = condition.held || condition.holds;
+                condition.holds = !condition.was_taken && (word == "else" || holds(rest));
+                condition.was_taken = condition.was_taken || condition.holds;
             }
         } else if (!active()) {
             return;

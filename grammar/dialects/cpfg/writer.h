@@ -33,7 +33,7 @@ private:
     struct BoundDraws {
         Binding binding = Binding::None;
         int first_draw = 0; // in a group: index of the first number of this production
-        int draws = 0;      // count of the numbers of the module
+        int draws = 0;      // count of random numbers of the module
     };
 
     // --- names

@@ -175,7 +175,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
         translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
     }
     const std::uint32_t generations = write_header(file, context, translation);
-    if (!file.has_mark) {
+    if (!file.has_end_mark) {
         report_missing_mark(root, context);
     }
     if (axiom) {

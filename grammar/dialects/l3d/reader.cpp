@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kNumbers = 3;
+constexpr std::size_t kHeaderNumbers = 3;
 constexpr std::string_view kLineEnds("\n\0", 2);
 
 std::size_t word_length(std::string_view ahead) {
@@ -25,7 +25,7 @@ std::size_t key_length(std::string_view ahead) {
 L3dFile read_l3d(FileId root, const ParseContext& context) {
     LineReader reader(whole_file(root, context), {kL3dBlanks, '#'}, context);
     L3dFile file;
-    while (file.numbers.size() < kNumbers) {
+    while (file.numbers.size() < kHeaderNumbers) {
         const LinePiece word = reader.next(word_length);
         if (!reader.expect(is_number(word.text, "+-"), word, {"a number"})) {
             return file;
@@ -35,7 +35,7 @@ L3dFile read_l3d(FileId root, const ParseContext& context) {
     while (!reader.ahead().empty()) {
         const LinePiece key = reader.take(key_length(reader.rest()));
         if (key.text == "@") {
-            file.has_mark = true;
+            file.has_end_mark = true;
             return file;
         }
         if (!reader.rest().starts_with('=')) {

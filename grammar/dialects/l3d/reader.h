@@ -20,7 +20,7 @@ struct L3dFile {
     std::vector<SourceSpan> numbers; // three, else an error has been reported
     std::vector<SourceSpan> axioms;  // the last one counts
     std::vector<L3dRule> rules;
-    bool has_mark = false; // a `@`, which ends the file
+    bool has_end_mark = false; // a `@`, which ends the file
 };
 
 /// Stops at the first mistake.

@@ -112,7 +112,7 @@ private:
     std::uint32_t generations_;
 };
 
-/// Exchanges of neighbours that turn `order` into a rising one, in turn, by their first places.
+/// The swaps of an insertion sort of `order`, in order: the index of the first of two neighbours.
 std::vector<std::size_t> exchanges(Order order) {
     std::vector<std::size_t> places;
     for (std::size_t i = 1; i < order.size(); ++i) {
@@ -160,7 +160,7 @@ void report_rule_order(const std::vector<L3dRule>& rules,
     if (!generation) {
         return;
     }
-    // Of the exchanges between the two orders, one that changes the word.
+    // Bisection finds a swap between the two orders that changes the word.
     const std::vector<std::size_t> places = exchanges(sorted);
     std::size_t same = 0;
     std::size_t differs = places.size();

@@ -1,5 +1,5 @@
-// The note about a file of L3D whose rules give another word in the order of their lines than in
-// the order of their keys, by which L3D sorts them.
+// The note about an L3D file whose order of rules matters: L3D sorts the rules by key, which gives
+// another word than the order of the lines.
 #pragma once
 
 #include "grammar/ast/parse_context.h"

@@ -14,9 +14,9 @@ namespace lsys {
 namespace {
 
 /// Commands whose parameter is an angle or a percentage with a default in the header.
-constexpr std::string_view kByHeader = "+-&^\\/<>";
+constexpr std::string_view kWithHeaderDefault = "+-&^\\/<>";
 /// Other commands with a parameter.
-constexpr std::string_view kOthers = "FfGg=%*";
+constexpr std::string_view kWithoutDefault = "FfGg=%*";
 
 bool is_blank(char c) {
     return is_one_of(c, kL3dBlanks);
@@ -109,13 +109,14 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);
-    if (!is_one_of(command, kByHeader) && !is_one_of(command, kOthers)) {
+    if (!is_one_of(command, kWithHeaderDefault) && !is_one_of(command, kWithoutDefault)) {
         return;
     }
     if (!is_parameter(inner)) {
         warn(parameter.open + 1, parameter.end - 1,
              "only the number at the start of `" + shown(inner) + "` is read");
-    } else if (is_one_of(command, kByHeader) && is_one(inner) && !context_.bug_compatible) {
+    } else if (is_one_of(command, kWithHeaderDefault) && is_one(inner) &&
+               !context_.bug_compatible) {
         warn(parameter.open, parameter.end,
              "L3D takes a parameter of 1 for none, which means the angle of the header; here it "
              "is 1");
@@ -147,7 +148,8 @@ void L3dWriter::write(SourceSpan text) {
     };
     for (std::uint32_t at = text.begin; at < text.end;) {
         const char c = source_[at];
-        const bool has_parameter = is_one_of(command, kByHeader) || is_one_of(command, kOthers);
+        const bool has_parameter =
+            is_one_of(command, kWithHeaderDefault) || is_one_of(command, kWithoutDefault);
         if (is_blank(c) && has_parameter && !context_.bug_compatible) {
             const std::size_t open =
                 std::min(whole.find_first_not_of(" \t\r\v\f", at), whole.size());

@@ -110,7 +110,7 @@ bool has_arguments(const LetterModule& module) {
     return module.arguments.begin != module.arguments.end;
 }
 
-/// Parameters of a module as they are written, without a look at what they are.
+/// Number of parameters of a module by their commas, without parsing them.
 std::size_t count_parameters(const LetterModule& module, const ParseContext& context) {
     const std::string_view text = context.sources.text(module.arguments);
     return has_arguments(module)
@@ -199,7 +199,7 @@ void check_count(const SysFile& file, const ParseContext& context) {
     }
 }
 
-/// Writes a rule for its symbol with so many parameters.
+/// Writes a rule as a production for its symbol with `parameters` parameters.
 void write_rule(const SysRule& rule,
                 const std::string& name,
                 std::size_t parameters,

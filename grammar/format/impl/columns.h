@@ -16,7 +16,7 @@ namespace lsys {
 /// Cells of a production: name, predecessor, condition, successor. Other statements have fewer.
 inline constexpr std::size_t kCells = 4;
 
-/// The measures of a statement without columns.
+/// A statement as measured before its cells are aligned.
 struct LayoutRow {
     std::uint32_t begin = 0; // bytes
     std::uint32_t end = 0;
@@ -37,7 +37,7 @@ struct LayoutRow {
 /// Replaces the widths of cells by blanks.
 void line_up(std::span<LayoutRow> rows);
 
-/// In place of the padding of a width that is not aligned.
+/// Stands for the padding of a cell that is not aligned.
 inline constexpr std::uint32_t kUnaligned = 0xFFFFFFFFu;
 
 /// Replaces each width by its difference from the common column, or by kUnaligned.

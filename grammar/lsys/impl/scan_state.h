@@ -82,8 +82,8 @@ struct ScanState {
     std::size_t first_diagnostic = 0;    // of the statement, as an index of the diagnostics
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
-    std::uint32_t next_statement = 0; // where a missing `;` was noticed
-    int comment_return = 0;           // start condition
+    std::uint32_t next_statement = 0; // first character after a missing `;`
+    int comment_return = 0;           // start condition after the comment
 
     // Inside expressions. Right-associative operators (unary, `^`) count as nesting.
     std::vector<OpenBracket> open;

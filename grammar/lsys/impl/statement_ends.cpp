@@ -90,9 +90,9 @@ likely_comments(std::string_view text, std::uint32_t begin, std::uint32_t end, b
             const std::size_t close = text.find("*/", at + 2);
             at = static_cast<std::uint32_t>(std::min<std::size_t>(close, end - 2)) + 2;
         } else if (text.substr(at, 2) == "//") {
-            const bool is_apart = at == begin || is_blank(text[at - 1]) || text[at - 1] == '\n';
+            const bool after_blank = at == begin || is_blank(text[at - 1]) || text[at - 1] == '\n';
             const char next = at + 2 < text.size() ? text[at + 2] : '\n';
-            if (is_apart && (is_blank(next) || next == '\n' || (!letters && is_letter(next)))) {
+            if (after_blank && (is_blank(next) || next == '\n' || (!letters && is_letter(next)))) {
                 found.push_back(at);
                 at = static_cast<std::uint32_t>(line_end(text, at));
             } else {

@@ -610,7 +610,7 @@ bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const std::string_view parameters = head.substr(open);
     for (std::uint32_t at = first; at < scan.begin;) {
         const std::string_view word = leading_word(text.substr(at, scan.begin - at));
-        if (text[at] == '(') { // arguments name parameters
+        if (text[at] == '(') { // skip arguments: those of a successor may name parameters
             at = static_cast<std::uint32_t>(std::min<std::size_t>(text.find(')', at), scan.begin));
         } else if (!word.empty() && parameters.find(word) != std::string_view::npos) {
             return false;

@@ -105,7 +105,7 @@ std::vector<Mark> append_frame(const Mark& primary,
     const SourceSpan span = trim_line_ends(primary.span, file.text());
     const std::uint32_t first = file.line_column(span.begin).line;
     const std::uint32_t last = file.line_column(span.end).line;
-    std::vector<Mark> rest;
+    std::vector<Mark> remaining;
     for (std::uint32_t number = first; number <= last; ++number) {
         if (number == first + 1 && last > first + 2) {
             append_line(0, "...", colours, out);
@@ -140,11 +140,11 @@ std::vector<Mark> append_frame(const Mark& primary,
                     columns_of(excerpt, other.span.begin - line_begin, other.span.end - line_begin),
                     other, colours, out);
             } else {
-                rest.push_back(other);
+                remaining.push_back(other);
             }
         }
     }
-    return rest;
+    return remaining;
 }
 
 // --- fixes
@@ -232,12 +232,12 @@ std::uint32_t append_preview(const Preview& preview,
         }
         const bool is_first = begin == 0;
         const bool is_last = line_end == preview.text.size();
-        const auto here = [&](std::size_t i) {
+        const auto is_on_line = [&](std::size_t i) {
             return preview.added[i].first >= begin && preview.added[i].first <= line_end;
         };
         std::size_t focus = 0;
         for (std::size_t i = preview.added.size(); i-- > 0;) {
-            focus = here(i) ? preview.added[i].first - begin : focus;
+            focus = is_on_line(i) ? preview.added[i].first - begin : focus;
         }
         const Excerpt excerpt =
             make_excerpt({std::string_view(preview.text).substr(begin, end - begin),
@@ -247,7 +247,7 @@ std::uint32_t append_preview(const Preview& preview,
         std::string marks;
         for (std::size_t i = 0; i < preview.added.size(); ++i) {
             const std::size_t to = std::min(preview.added[i].second, end);
-            if (here(i) && to > preview.added[i].first) {
+            if (is_on_line(i) && to > preview.added[i].first) {
                 const Columns columns =
                     columns_of(excerpt, preview.added[i].first - begin, to - begin);
                 marks.resize(std::max<std::size_t>(marks.size(), columns.last), ' ');

@@ -38,7 +38,7 @@ struct LevelSteps {
     [[nodiscard]] std::uint32_t age_of(std::uint64_t level) const {
         return first_age + static_cast<std::uint32_t>(level / (std::uint64_t{depth} + 1));
     }
-    /// Whether the step after `level` is a generation; otherwise it is a pass.
+    /// Whether the step after `level` is a generation, not a pass of the later stage.
     [[nodiscard]] bool rewrites(std::uint64_t level) const {
         return level % (std::uint64_t{depth} + 1) == depth;
     }

@@ -49,7 +49,7 @@ struct alignas(64) Entry {
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
 enum class RowKind : std::uint8_t {
-    Fixed,   // always by entry c
+    Fixed,   // always by the entry of its code
     Choice,  // by chance, among the same productions for every module
     Tests,   // by the first comparison of its parameters that holds
     General, // by trying the candidates of the family
@@ -241,7 +241,8 @@ private:
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
     void set_special(Entry& entry);
-    /// Whether the plan is made for one generation, as far as the family depends on it.
+    /// Whether the family does not depend on the generation, or the plan is made for one
+    /// generation.
     [[nodiscard]] bool knows_generation(const Family& family) const {
         return each_generation_ || !family.varies;
     }

@@ -188,7 +188,7 @@ bool AxisReader::read(Run& run) {
     if (counts_) {
         fit_sides();
         joints_.front().radius =
-            open ? std::min(joints_.front().radius, hidden_) : joints_.front().radius;
+            open ? std::min(joints_.front().radius, max_base_radius_) : joints_.front().radius;
         run.radii = radii_;
     }
     if (!rings_final_ || counts_ || options_.level > 0 || has_relief) {
@@ -297,7 +297,7 @@ bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& sta
     if (leaves_along) {
         start = CurveStart{tangent, joints_.front().radius - own, reach};
     }
-    hidden_ = hidden;
+    max_base_radius_ = hidden;
     flare_[0] = std::min(flare_[0], hidden);
     return true;
 }

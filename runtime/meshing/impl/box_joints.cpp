@@ -27,21 +27,22 @@ constexpr float kOutside = 1.25F;
 // narrows in its opening; an unsmoothed box does not narrow.
 constexpr float kSmoothedOpening = 0.4F;
 constexpr float kExactOpening = 0.98F;
-// A flat end that is smoothed: inner square of its face, and distance of the last ring before it, in
-// half sides.
+// A flat end that is smoothed: inner square of its face, and distance of the last ring before it,
+// in half sides.
 constexpr float kRim = 0.72F;
 constexpr float kBevel = 0.28F;
-// Least half side with a rim, as a part of the distance from the origin.
+// Min half side with a rim, relative to the distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// A parent with branches that are cut off ends that far behind its tip, and they begin that far
-// before it, in half sides: by less, so that a thick branch does not look out on the other side.
+// Overlap at a tip whose branches have surfaces of their own, in half sides: the parent ends beyond
+// its tip, and branches begin before it, by less so that a thick one does not show on the far side.
 constexpr float kParentOverlap = 0.6F;
 constexpr float kBranchOverlap = 0.1F;
-// Difference of widths, as a part, from which an unsmoothed box has a step.
+// Min relative difference of widths at which an unsmoothed box has a step.
 constexpr float kStep = 0.01F;
-// Least step that floats can represent, as a part of the distance from the origin.
+// Min step that floats can represent, relative to the distance from the origin.
 constexpr float kMinStep = 4e-6F;
-// Cosine of the bend and difference of widths up to which a child goes on from the top of a joint.
+// Min cosine of the bend and max relative difference of widths with which a child continues its
+// parent from the top of a joint.
 constexpr float kContinues = 0.97F;
 constexpr float kSameWidth = 0.15F;
 constexpr std::size_t kSides = 5; // of a joint: four and the top
@@ -216,7 +217,7 @@ private:
         const float height = std::min(half, 0.5F * (own.length - reach));
         writer_.add_ring(own.length - height, along, half);
         const BoxJoint joint = writer_.add_joint(own.length + height, along, half);
-        // By direction, so that a child that continues its parent has the top.
+        // Children by angle to the parent, so that one that continues it gets the top.
         const std::span<const std::uint32_t> all = children(segment);
         std::vector<std::uint32_t> order(all.begin(), all.end());
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -263,7 +264,7 @@ private:
         return (number == kTop ? size.height : size.half) / glm::dot(direction, side.normal);
     }
 
-    /// Whether a child goes on from the top of a joint, straight and as wide.
+    /// Whether a child continues its parent from the top of a joint, about as straight and as wide.
     [[nodiscard]] bool
     continues(const BoxSocket& side, std::size_t number, float half, std::uint32_t child) const {
         const Segment& grown = skeleton_.segments[child];
@@ -273,8 +274,8 @@ private:
                grown.length > 2.0F * half;
     }
 
-    /// Whether the openings of the children `here` have room on a side, each in its tile, and end
-    /// before the child does.
+    /// Whether the openings of the children `here` have room on a side, each in its tile, and no
+    /// child ends within its opening.
     [[nodiscard]] bool has_room(const BoxSocket& side,
                                 std::size_t number,
                                 const JointSize& size,
@@ -311,7 +312,7 @@ private:
             }
             const float fits = std::min({room.x / extent.x, room.y / extent.y, 1.0F});
             const float out = way_out(side, number, size, on);
-            // An exact box leaves the side around its axis.
+            // The opening of an unsmoothed box is centred on the axis of its segment.
             const glm::vec2 centre(out * std::abs(glm::dot(on, side.right)),
                                    out * std::abs(glm::dot(on, side.up)));
             if (!shape_.smoothed &&

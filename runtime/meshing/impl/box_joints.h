@@ -1,7 +1,8 @@
 // The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined
 // at the joints into one closed mesh per plant (the report of the .sys forest, 2005). Children grow
-// out of the sides of a box at the joint, each out of the one nearest to its direction; a side that
-// several want is divided. A child for which no side has room is a closed box that begins inside.
+// out of the sides of a box at the joint, each out of the side that it faces most; a side with
+// several children is divided. A child for which no side has room is a closed box that begins
+// within its parent.
 #pragma once
 
 #include "runtime/meshing/impl/catmull_clark.h"
@@ -11,8 +12,8 @@ namespace lsys {
 
 struct BoxShape {
     float width = 1.0F; // half side of a box for a radius of 1
-    /// The mesh is to be smoothed: flat ends get a rim that keeps them flat, and branches may narrow
-    /// in an opening. Else each box has the widths of its segment exactly.
+    /// The mesh is to be smoothed: flat ends get a rim that keeps them flat, and branches may
+    /// narrow in an opening. Else each box has the widths of its segment exactly.
     bool smoothed = true;
 };
 

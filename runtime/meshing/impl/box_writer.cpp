@@ -19,8 +19,9 @@ constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}
 // u goes there and back around a branch, without a seam.
 constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
 
-// Distance of an opening from the axis of its branch, in half sides of the socket, that shows.
-constexpr float kMoved = 0.01F;
+// Min distance of an opening from the axis of its branch that is visible, in half sides of the
+// socket.
+constexpr float kMinVisibleOffset = 0.01F;
 
 /// `v`, turned the shortest way that turns unit vector `from` into unit vector `to`.
 glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
@@ -150,7 +151,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
         const float room = std::max(kRoomOfOpening - size * extent, 0.0F);
         const float from = 0.5F * (low[axis] + high[axis]);
         const float to = std::clamp(from, -room, room);
-        opening.moved = opening.moved || std::abs(to - from) > kMoved;
+        opening.moved = opening.moved || std::abs(to - from) > kMinVisibleOffset;
         for (glm::vec2& place : places) {
             place[axis] = to + size * (place[axis] - from);
         }

@@ -23,9 +23,9 @@ struct BoxSocket {
     glm::vec3 right{};
     glm::vec3 up{};
     glm::vec3 normal{};
-    float reach = 0.0F;     // from the base of the segment to the square
+    float reach = 0.0F;     // distance from the base of the segment to the square
     bool continues = false; // the segment is as wide as the square and needs no opening
-    float v = 0.0F;         // texture coordinate there
+    float v = 0.0F;         // texture coordinate of the square
 };
 
 /// Sides 0 to 3 go around, side 4 is the top.
@@ -35,9 +35,9 @@ struct BoxJoint {
 
 /// A ring in the side of a joint.
 struct BoxOpening {
-    float reach = 0.0F; // from the base of the segment to its farthest corner
+    float reach = 0.0F; // distance from the base of the segment to the farthest corner
     float size = 1.0F;  // relative to the cross-section of the segment, 1 where there is room
-    bool moved = false; // away from the axis of the segment
+    bool moved = false; // its middle is not on the axis of the segment
 };
 /// Part of a side of a joint, or of one of its tiles, that an opening may take.
 inline constexpr float kRoomOfOpening = 0.94F;
@@ -58,8 +58,8 @@ public:
     /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
     /// ring or socket before it.
     void add_ring(float distance, const glm::vec3& direction, float half);
-    /// Adds a ring in the plane of the socket that was begun at: the cross-section of a branch along
-    /// unit vector `along`, cut by that plane, made smaller where the socket has no room for it.
+    /// Adds a ring in the plane of the socket of begin_at(): the section of that plane through a
+    /// box along unit vector `along`, scaled down if the socket has no room for it.
     BoxOpening add_opening(const glm::vec3& along, float half);
     /// Adds a ring that is not joined yet: the sides between are sides of a joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);

@@ -199,20 +199,21 @@ void write(const CatmullClark& surface,
     }
 }
 
-/// Grooves along the stems, moved in by `depth` of the radius across the smoothed surface. u goes
-/// there and back around a stem, so grooves of both halves mirror each other; their wandering fades
-/// where u turns. `steps`: of smoothing so far, of `wanted`, by which the grooves are counted.
+/// Moves vertices of grooves along the stems inwards, by up to `depth` times the radius. Around a
+/// stem u rises over one half and falls over the other, so the grooves of the halves mirror each
+/// other; they wander less where u turns. `steps`: steps of smoothing made so far. `wanted`: steps
+/// in all, which decide the number of grooves.
 void carve_grooves(CatmullClark& surface,
                    float depth,
                    std::uint32_t steps,
                    std::uint32_t wanted,
                    Workers& workers) {
-    constexpr std::uint32_t kMaxSteps = 4; // more refine the same grooves
+    constexpr std::uint32_t kMaxSteps = 4; // further steps add no grooves
     if (wanted < 2) {
         return;
     }
     const std::uint32_t grooves = 1U << (std::min(wanted, kMaxSteps) - 1); // of each half
-    const bool shows = 1U << steps >= grooves; // two vertices per groove
+    const bool has_grooves = 1U << steps >= grooves; // at least two vertices per groove
     constexpr float kCircumference = 1.0F;
     const Grooves wander(grooves, kCircumference, 0);
     const PolygonMesh& mesh = surface.mesh();
@@ -231,7 +232,7 @@ void carve_grooves(CatmullClark& surface,
             const float turn =
                 static_cast<float>(grooves) * at.x +
                 4.0F * at.x * (1.0F - at.x) * wander.wandered(-static_cast<double>(at.y));
-            const float value = shows ? groove_depth(turn) : -0.5F;
+            const float value = has_grooves ? groove_depth(turn) : -0.5F;
             positions[i] = mesh.positions[i] +
                            (depth * value * mesh.radii[i]) * unit_or(area, glm::vec3(0.0F));
         }

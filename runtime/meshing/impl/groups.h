@@ -18,8 +18,8 @@ struct Group {
 };
 
 struct Groups {
-    std::vector<Group> groups;        // by rising key
-    LargeVector<std::uint32_t> items; // of one key together, each group in the items' own order
+    std::vector<Group> groups;        // by ascending key
+    LargeVector<std::uint32_t> items; // sorted by key, equal keys in ascending order
 };
 
 /// Sorts the items 0 ... count - 1 by key_of(item), which is called twice for each.

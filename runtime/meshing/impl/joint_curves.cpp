@@ -37,7 +37,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0.0 ? v / length : v;
 }
 
-/// Derivative at the joint between two edges, along the edge of length `own`; `heading`: of it.
+/// Derivative at the joint between two edges for the curve of one of them, which has length `own`
+/// and heading `heading`.
 glm::dvec3 derivative(
     const glm::vec3& in, const glm::vec3& out, const glm::vec3& heading, float own, float other) {
     if (!joint_tangent(in, out)) {
@@ -62,7 +63,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
         curve.leaving =
             derivative(before.heading, from.heading, from.heading, from.length, before.length);
     } else if (start) {
-        // As if an edge of the same length were before it.
+        // As at a joint after an edge of equal length that leads there along `tangent`.
         const glm::dvec3 tangent(start->tangent);
         curve.leaving = glm::dot(straight, tangent) * tangent;
     } else {
@@ -81,7 +82,7 @@ struct Places {
 };
 
 Places find_places(const Cubic& curve) {
-    // The turn from the begin of the curve to the middle of each part of equal parameters.
+    // Turn of the curve from its begin to the middle of each of kSamples equal ranges of t.
     std::array<double, kSamples + 2> parameters{};
     std::array<double, kSamples + 2> turns{};
     glm::dvec3 heading = unit(curve.leaving);
@@ -129,8 +130,8 @@ struct Neighbours {
     std::optional<glm::vec3> after;
 };
 
-/// Whether all parts can be drawn, and no ring crosses the next one, whether the edges beside are
-/// curves too or stay straight.
+/// Whether all parts can be drawn and no ring crosses the next one. Holds for edges beside that are
+/// curves as for edges that stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
     // Normals of the planes of a ring: of the curve, and halfway between two headings.
     struct Planes {

@@ -13,7 +13,7 @@ inline constexpr std::size_t kMaxCurveParts = 16;
 /// The base of a branch that leaves its parent along the parent's axis.
 struct CurveStart {
     glm::vec3 tangent{}; // unit, of the curve at the first joint
-    float flare = 0.0F;  // the radius there exceeds that of the branch, which is less if negative
+    float flare = 0.0F;  // radius at the first joint minus that of the branch; may be negative
     float reach = 0.0F;  // length over which the flare fades
 };
 
@@ -21,7 +21,8 @@ struct CurveStart {
 /// between them. None where the axis turns back.
 [[nodiscard]] std::optional<glm::vec3> joint_tangent(const glm::vec3& in, const glm::vec3& out);
 
-/// Whether a branch of unit heading `heading` can leave along `tangent` by a curve worth rings.
+/// Whether a branch of unit heading `heading` can begin along `tangent`, and turns enough to need
+/// rings.
 [[nodiscard]] bool can_leave_along(const glm::vec3& tangent, const glm::vec3& heading);
 
 /// Replaces edges by parts of a centripetal Catmull-Rom curve through the joints, which stay where

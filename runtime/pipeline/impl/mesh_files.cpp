@@ -242,7 +242,8 @@ private:
                        [&] { return with_opacity(*colour, *opacity); });
     }
 
-    /// A picture that is made of others, once. No path contains the line break of its key.
+    /// The picture that `make` computes from pictures of files, cached by `key`. Keys contain a
+    /// line break, so none is a path.
     template <typename Make>
     std::shared_ptr<const Texture> derived(const std::string& key, const Make& make) {
         std::shared_ptr<const Texture>& picture = budget_.pictures[key];

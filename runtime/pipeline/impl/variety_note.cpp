@@ -16,9 +16,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kFirstLook = 512; // trees; where nearly all differ, the others do too
+constexpr std::size_t kFirstSample = 512; // trees; if nearly all differ, no more are compared
 constexpr double kNearlyAll = 0.9;
-constexpr std::size_t kMostLooked = 20'000; // trees
+constexpr std::size_t kMaxSample = 20'000; // trees of a species that are compared
 constexpr std::uint64_t kManyShapes = 1'000;
 
 /// Whether most keys of branches hold one instance alone.
@@ -58,7 +58,7 @@ void note_variety(const Scene& scene, const GrownForest& grown, Step& step) {
     std::vector<std::uint64_t> counts(forest.species.size(), 0);
     for (const Tree& tree : forest.trees) {
         ++counts[tree.species];
-        if (trees[tree.species].size() < kMostLooked) {
+        if (trees[tree.species].size() < kMaxSample) {
             trees[tree.species].push_back(tree);
         }
     }
@@ -71,7 +71,7 @@ void note_variety(const Scene& scene, const GrownForest& grown, Step& step) {
             continue;
         }
         const std::span<const Tree> all(trees[s]);
-        const std::span<const Tree> first = all.first(std::min(kFirstLook, all.size()));
+        const std::span<const Tree> first = all.first(std::min(kFirstSample, all.size()));
         std::uint64_t different = count_different_trees(forest, first);
         if (static_cast<double>(different) >= kNearlyAll * static_cast<double>(first.size())) {
             continue;

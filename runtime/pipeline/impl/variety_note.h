@@ -1,4 +1,4 @@
-// The note on a forest of which few trees differ.
+// The note on a forest in which few trees differ from each other.
 #pragma once
 
 #include "runtime/pipeline/forest.h"
@@ -6,10 +6,10 @@
 
 namespace lsys {
 
-/// Notes each species of which fewer than half of the trees differ, and fewer than 1,000, at the
-/// axiom of its grammar, with what would make them more. Silent where the scene asks for it: for one
-/// hero, for a written rho of 0, whose trees are whole heroes, and for a goal, whose choice is
-/// reported; and where another note says that the plants are alike.
+/// Notes each species with fewer than 1,000 different trees and fewer than half of all, at the
+/// axiom of its grammar, with options for more of them. No note if the scene asks for few: one
+/// hero, or a rho of 0 (trees are then whole heroes). None for a scene with a goal, which reports
+/// its choice, and none if another note says that the plants are alike.
 void note_variety(const Scene& scene, const GrownForest& grown, Step& step);
 
 } // namespace lsys

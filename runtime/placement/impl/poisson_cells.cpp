@@ -53,7 +53,7 @@ public:
 
     /// Decides on all candidates of `cells`.
     void decide(const CellRange& cells);
-    /// Whether a candidate is accepted. Candidates count from the first cell on, by rows.
+    /// Whether a candidate is accepted. Candidates are numbered from the first cell on, row by row.
     [[nodiscard]] bool is_accepted(std::uint32_t candidate) const {
         return accepted_in_[candidate] != kUndecided;
     }

@@ -75,7 +75,7 @@ Tree TreeMaker::make_appearance(std::uint32_t number,
         constexpr auto kYears = static_cast<std::uint64_t>(kYearsOfFreeStage);
         const std::uint64_t last = kind.stages - 1;
         const std::uint64_t stage = std::min<std::uint64_t>(
-            start_of(number, species) + std::uint64_t{options_.later}, last);
+            start_of(number, species) + std::uint64_t{options_.stages_passed}, last);
         tree.age = static_cast<std::uint16_t>(kYears * stage + 1);
     }
     return tree;

@@ -133,6 +133,7 @@ struct Turtle::State {
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
+    /// Skips a module of a branch that `%` cut off; its `]` restores the turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;

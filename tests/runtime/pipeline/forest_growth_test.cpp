@@ -172,7 +172,7 @@ TEST_CASE("trees with stages go through them, each from where it starts") {
             REQUIRE(trees[i].scale == start[i].scale);
         }
         Scene later = wood.loaded.scene; // and so does --years
-        later.placement.later = year;
+        later.placement.stages_passed = year;
         REQUIRE(place_forest(later, wood.project, wood.grown));
         CHECK(is_same_wood(trees, wood.grown.forest.trees));
     }

@@ -55,7 +55,7 @@ TEST_CASE("options give every species stages, and years are stages without domin
     CHECK(scene.species[1].stages == std::vector<std::uint32_t>{1, 3, 4});
     CHECK(scene.placement.species[1].stages == 3);
     CHECK(scene.placement.species[1].start == StageStart::Random);
-    CHECK(scene.placement.later == 1);
+    CHECK(scene.placement.stages_passed == 1);
     CHECK(last_year(scene) == 2);
     // Domination shares its years among the stages, unless they are said.
     SceneOverrides wood;

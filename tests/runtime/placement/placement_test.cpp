@@ -191,7 +191,7 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
             REQUIRE(stage_of(tree) == 0);
         }
         if (!dominates) {
-            options.later = 2;
+            options.stages_passed = 2;
             const LargeVector<Tree> third = place_trees(options, ground).value().trees;
             for (const Tree& tree : third) {
                 REQUIRE(stage_of(tree) == 2);

@@ -1,4 +1,4 @@
-// What a pixel shows, beside rays through all triangles of a forest; colours of branches.
+// What a pixel shows, compared with rays through all triangles of a forest; colours of branches.
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"

@@ -53,7 +53,7 @@ public:
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
     /// Uploads forms anew, for other trees of the same meshes. After upload().
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
-    /// Colours the branches from now on. After upload().
+    /// Sets the colours of the branches. After upload().
     void set_colours(const ForestModel& model, BranchColours by);
     /// Uploads all trees, and clusters as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
@@ -71,16 +71,16 @@ public:
     /// Draws a class with the bound program of branch.*.glsl; returns the count of draw calls.
     /// `blends`: runs of blended trees; the program needs BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
-    /// Draws all that shows a picture of a file: with the program `cut_out` where the picture has
-    /// holes, else with `solid`. Binds these programs and textures of bark, leaves and relief;
-    /// returns the count of draw calls.
+    /// Draws the branches whose material has a picture file: with the program `cut_out` if the
+    /// picture has holes, else with `solid`. Binds these programs and textures of bark, leaves and
+    /// relief; returns the count of draw calls.
     std::uint64_t draw_pictures(GLuint solid, GLuint cut_out, bool blends) const;
     void bind_storage() const;
     /// After bind_storage(): tree indices are those of clusters from now on.
     void bind_clusters() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
-    /// Of pictures of files.
+    /// Memory of the textures of picture files.
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint64_t tree_bytes() const {
         return forest_.trees.capacity() + clusters_.capacity();
@@ -121,7 +121,8 @@ private:
         std::vector<Commands> commands; // of each class unblended, then blended
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
-    /// Makes textures of the pictures of all materials; equal ones once, those of before again.
+    /// Makes textures of the pictures of all materials. Equal pictures share a texture; textures of
+    /// the previous forest are reused.
     void upload_pictures(const ForestModel& model, const MaterialTextures& textures);
     [[nodiscard]] std::size_t class_of(const Material& material) const;
     [[nodiscard]] static std::size_t command_index(std::size_t kind, bool blends) {

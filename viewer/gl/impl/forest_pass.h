@@ -91,7 +91,7 @@ private:
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
     bool has_clusters_ = false;     // the atlas has cluster impostors
-    bool has_old_clusters_ = false; // they are of other trees until all are baked
+    bool has_old_clusters_ = false; // they show the previous trees until all are baked
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

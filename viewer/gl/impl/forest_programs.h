@@ -17,7 +17,7 @@ struct BranchPrograms {
 struct ForestPrograms {
     BranchPrograms branches;
     ProgramObject impostor_depth; // depth pass before the colour pass
-    // For entries in two LOD bands; the colour pass is the same.
+    // Variants for entries drawn in two LOD bands; `impostor` draws the colours of both.
     BranchPrograms blending_branches;
     ProgramObject blending_impostor_depth;
     ProgramObject impostor;

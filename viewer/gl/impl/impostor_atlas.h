@@ -34,7 +34,7 @@ public:
     /// they are baked.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
-    /// Bakes one elevation of one missing layer. Leaves other shaders, programs and targets bound.
+    /// Bakes one elevation of one missing layer. Changes bound programs, textures, framebuffer.
     void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
