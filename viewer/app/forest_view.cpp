@@ -322,7 +322,8 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Painting refers to trees by their numbers in a whole year; a forest of stages shows whole ones.
+    // Painting refers to trees by their numbers in a whole year; a forest of
+    // stages shows whole ones.
     return !painting_.is_painted() && document_ != nullptr &&
            document_->scene.placement.method == PlacementMethod::Domination;
 }
