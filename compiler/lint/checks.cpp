@@ -30,6 +30,7 @@ constexpr ListedCheck kChecks[] = {
     {check_branch_depth, true},
     {check_drawing, true},
     {check_undrawn_edges, true},
+    {check_rolled_sides, true},
     {check_growth, true},
 };
 

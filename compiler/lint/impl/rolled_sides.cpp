@@ -1,0 +1,149 @@
+// Productions that put branches on two sides by `/` and `\\`, which roll: the branches of both point
+// the same way. With the turtle of Crankshaw's thesis these modules pitch, as in its equation 2.11.
+#include "compiler/lint/impl/lints.h"
+#include "compiler/program/message_words.h"
+#include "compiler/resolve/profiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+bool is_roll(TurtleOperation operation) {
+    return operation == TurtleOperation::RollLeft || operation == TurtleOperation::RollRight;
+}
+
+/// Whether what follows points where the turtle did before.
+bool keeps_heading(TurtleOperation operation) {
+    return operation == TurtleOperation::Nothing || draws(operation) ||
+           info(operation).has(TurtleInfo::PreparesDrawing);
+}
+
+class RolledSides {
+public:
+    RolledSides(const CheckInput& input, Diagnostics& diagnostics)
+        : input_(input), program_(input.program), diagnostics_(diagnostics),
+          last_(input.program.symbols.size(), nullptr) {}
+
+    /// Compares each production with the one before it for the same module. Reports the first pair.
+    void check() {
+        is_rewritten_.assign(program_.symbols.size(), 0);
+        for (const Production& production : program_.productions) {
+            for (const ProgramPatternItem& item : production.predecessor.items) {
+                is_rewritten_[static_cast<std::size_t>(item.symbol)] = 1;
+            }
+        }
+        for (const Production& production : program_.productions) {
+            if (!is_alone(production)) {
+                continue;
+            }
+            const SymbolId symbol = production.predecessor.items[0].symbol;
+            const Production*& last = last_[static_cast<std::size_t>(symbol)];
+            if (last != nullptr && check(*last, production)) {
+                return;
+            }
+            last = &production;
+        }
+    }
+
+private:
+    [[nodiscard]] const Symbol& symbol_at(std::size_t module) const {
+        return program_.symbol(program_.modules[module].symbol);
+    }
+
+    /// Whether the production replaces one module whatever stands beside it.
+    [[nodiscard]] static bool is_alone(const Production& production) {
+        return production.stage == Stage::Rewrite && !production.has_left &&
+               !production.has_right && production.predecessor.items.size() == 1;
+    }
+
+    /// Whether each module with the symbol stands before a `]`.
+    [[nodiscard]] bool ends_branches(SymbolId symbol) const {
+        const auto ends_in = [&](const ProgramWord& word) {
+            const std::size_t end = std::size_t{word.first_module} + word.module_count;
+            for (std::size_t i = word.first_module; i < end; ++i) {
+                if (program_.modules[i].symbol == symbol &&
+                    (i + 1 == end || symbol_at(i + 1).kind != SymbolKind::BranchClose)) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        return ends_in(program_.axiom) &&
+               std::all_of(
+                   program_.productions.begin(), program_.productions.end(),
+                   [&](const Production& production) { return ends_in(production.successor); });
+    }
+
+    /// Reports two productions that differ by rolls in opposite directions, after which something
+    /// is drawn and nothing turns until the branch ends. Returns whether they do.
+    bool check(const Production& one, const Production& other) {
+        const std::size_t count = one.successor.module_count;
+        if (other.successor.module_count != count) {
+            return false;
+        }
+        const Symbol* roll = nullptr;
+        bool found_drawing = false;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Symbol& a = symbol_at(one.successor.first_module + i);
+            const Symbol& b = symbol_at(other.successor.first_module + i);
+            if (is_roll(a.turtle) && is_roll(b.turtle)) {
+                roll = roll == nullptr && a.turtle != b.turtle ? &a : roll;
+                continue;
+            }
+            if (a.name != b.name || a.turtle != b.turtle) {
+                return false;
+            }
+            const SymbolId symbol = program_.modules[one.successor.first_module + i].symbol;
+            if (roll != nullptr && (!keeps_heading(a.turtle) ||
+                                    is_rewritten_[static_cast<std::size_t>(symbol)] != 0)) {
+                return false;
+            }
+            found_drawing = found_drawing || (roll != nullptr && draws(a.turtle));
+        }
+        if (roll == nullptr || !found_drawing || !pitches_in_thesis(*roll) ||
+            !ends_branches(one.predecessor.items[0].symbol)) {
+            return false;
+        }
+        Diagnostic& note = diagnostics_.add(
+            DiagnosticCode::RolledSides, one.predecessor.span,
+            fmt::format(
+                "what {} draws points one way in both productions: `/` and `\\` only roll it",
+                quoted(input_.name(one.predecessor.items[0].symbol))));
+        note.labels.push_back({other.predecessor.span, "the same direction"});
+        note.help.push_back(
+            "`#set turtle thesis;` turns it to two sides: there `/` and `\\` pitch, as "
+            "in tables 2.1, 3.1 and 5.1 of Crankshaw's thesis");
+        return true;
+    }
+
+    [[nodiscard]] bool pitches_in_thesis(const Symbol& roll) const {
+        const TurtleCommand* command =
+            find_turtle_command(TurtleProfile::Thesis, input_.name(roll.name));
+        return command != nullptr && (command->operation == TurtleOperation::PitchUp ||
+                                      command->operation == TurtleOperation::PitchDown);
+    }
+
+    const CheckInput& input_;
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::vector<const Production*> last_;    // by symbol: the production before, null: none
+    std::vector<std::uint8_t> is_rewritten_; // by symbol: it has a production
+};
+
+} // namespace
+
+void check_rolled_sides(const CheckInput& input, Diagnostics& diagnostics) {
+    // A turtle that the grammar names is meant.
+    if (input.program.settings.turtle == Settings{}.turtle) {
+        RolledSides(input, diagnostics).check();
+    }
+}
+
+} // namespace lsys
