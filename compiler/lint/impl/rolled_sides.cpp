@@ -114,11 +114,11 @@ private:
         Diagnostic& note = diagnostics_.add(
             DiagnosticCode::RolledSides, one.predecessor.span,
             fmt::format(
-                "what {} draws points one way in both productions: `/` and `\\` only roll it",
+                "{} draws in the same direction in both productions: `/` and `\\` only roll",
                 quoted(input_.name(one.predecessor.items[0].symbol))));
         note.labels.push_back({other.predecessor.span, "the same direction"});
         note.help.push_back(
-            "`#set turtle thesis;` turns it to two sides: there `/` and `\\` pitch, as "
+            "`#set turtle thesis;` gives two directions: there `/` and `\\` pitch, as "
             "in tables 2.1, 3.1 and 5.1 of Crankshaw's thesis");
         return true;
     }
