@@ -98,8 +98,9 @@ private:
         for (const std::size_t number : order) {
             const Key& key = keys_[number];
             work += text.size() + 1;
-            text = replaced(text, key.text,
-                            key.values[(generation * choice + number) % key.values.size()]);
+            text = replaced(
+                text, key.text,
+                key.values[(std::size_t{generation} * choice + number) % key.values.size()]);
             if (text.size() > kMaxText) {
                 return false;
             }
