@@ -143,20 +143,15 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     return count;
 }
 
-/// Moments of all instances, by cache.
+/// Moments of the instances of a cache.
 using MomentsOfCaches = std::map<const InstanceCache*, std::vector<Moments>>;
 
-MomentsOfCaches moments_of_caches(const Forest& forest) {
-    MomentsOfCaches of_caches;
-    for (const ForestSpecies& species : forest.species) {
-        for (const ForestStage& stage : species.stages) {
-            std::vector<Moments>& moments = of_caches[&stage.cache];
-            for (const Instance& instance : stage.cache.instances) {
-                moments.push_back(moments_of(stage.cache, instance));
-            }
-        }
+std::vector<Moments> moments_of(const InstanceCache& cache) {
+    std::vector<Moments> moments;
+    for (const Instance& instance : cache.instances) {
+        moments.push_back(moments_of(cache, instance));
     }
-    return of_caches;
+    return moments;
 }
 
 TreeLook look_of(const Forest& forest, const MomentsOfCaches& of_caches, const Tree& tree) {
@@ -176,7 +171,12 @@ TreeLook look_of(const Forest& forest, const MomentsOfCaches& of_caches, const T
 } // namespace
 
 std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads) {
-    const MomentsOfCaches of_caches = moments_of_caches(forest);
+    MomentsOfCaches of_caches;
+    for (const ForestSpecies& species : forest.species) {
+        for (const ForestStage& stage : species.stages) {
+            of_caches.emplace(&stage.cache, moments_of(stage.cache));
+        }
+    }
     std::vector<TreeLook> looks(forest.trees.size());
     for_each_piece(forest, threads, [&](std::uint64_t, std::span<const Tree> trees) {
         for (const Tree& tree : trees) {
@@ -188,9 +188,13 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
-    const MomentsOfCaches of_caches = moments_of_caches(forest);
+    MomentsOfCaches of_caches; // of these trees only: a forest may have many species
     std::vector<TreeLook> looks;
     for (const Tree& tree : trees) {
+        const InstanceCache& cache = forest.cache_of(tree);
+        if (of_caches.count(&cache) == 0) {
+            of_caches.emplace(&cache, moments_of(cache));
+        }
         looks.push_back(look_of(forest, of_caches, tree));
     }
     return count_different(looks);

@@ -15,7 +15,7 @@ namespace lsys {
 /// has.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
 
-/// The same for some trees of `forest`, on one thread.
+/// Counts the different trees among `trees`, which are trees of `forest`; on one thread.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest,
                                                   std::span<const Tree> trees);
 

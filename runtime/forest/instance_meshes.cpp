@@ -3,6 +3,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/base/workers.h"
+#include "runtime/meshing/mesh_items.h"
 
 #include <algorithm>
 #include <iterator>
@@ -85,23 +86,15 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// The heroes' skeleton with its forks marked and its items numbered: segments first, then
-/// polygons, then objects. The parent of a polygon or object is set to its own number, so that
-/// Mesh::segments names the item of each vertex.
-Skeleton number_items(const InstanceCache& cache) {
+/// The heroes' skeleton with its forks marked and its items numbered.
+Skeleton numbered_heroes(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
     const std::vector<bool> begins = find_slots_with_segments(cache);
     for (const InstanceFork& fork : cache.forks) {
         skeleton.segments[fork.segment].forked =
             skeleton.segments[fork.segment].forked || begins[fork.slot];
     }
-    auto number = static_cast<std::uint32_t>(skeleton.segments.size());
-    for (Polygon& polygon : skeleton.polygons) {
-        polygon.parent = number++;
-    }
-    for (PlacedObject& object : skeleton.objects) {
-        object.parent = number++;
-    }
+    number_items(skeleton);
     return skeleton;
 }
 
@@ -303,7 +296,7 @@ std::optional<Stop> build(const InstanceCache& cache,
         return Stop::Failed;
     }
     options.segments = true;
-    Skeleton skeleton = number_items(cache);
+    Skeleton skeleton = numbered_heroes(cache);
     if (resolved(options, skeleton).method == MeshMethod::Boxes) {
         cut_instances(cache, skeleton);
     }

@@ -117,7 +117,7 @@ struct ObjName {
 };
 
 /// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
-/// Of a picture for polygons, `#object { "leaf.png"`, only the picture is set.
+/// A picture for polygons, `#object { "leaf.png"`, sets `picture` only.
 struct UserMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;

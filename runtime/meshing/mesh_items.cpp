@@ -7,20 +7,6 @@ namespace lsys {
 
 namespace {
 
-/// A copy of the skeleton in which each polygon and object has its item number as its parent. Items
-/// are numbered from 0: segments, then polygons, then objects.
-Skeleton with_numbered_items(const Skeleton& skeleton) {
-    Skeleton numbered = skeleton;
-    auto number = static_cast<std::uint32_t>(skeleton.segments.size());
-    for (Polygon& polygon : numbered.polygons) {
-        polygon.parent = number++;
-    }
-    for (PlacedObject& object : numbered.objects) {
-        object.parent = number++;
-    }
-    return numbered;
-}
-
 /// The item number that all corners share, else the first number of the first corner.
 std::uint32_t common_number(const std::array<VertexSegments, 3>& corners) {
     const auto carries = [](const VertexSegments& corner, std::uint32_t number) {
@@ -54,14 +40,26 @@ std::optional<SkeletonItem> item_of_number(const Skeleton& skeleton, std::uint64
 
 } // namespace
 
+void number_items(Skeleton& skeleton) {
+    auto number = static_cast<std::uint32_t>(skeleton.segments.size());
+    for (Polygon& polygon : skeleton.polygons) {
+        polygon.parent = number++;
+    }
+    for (PlacedObject& object : skeleton.objects) {
+        object.parent = number++;
+    }
+}
+
 std::optional<SkeletonItem> item_of_triangle(const Skeleton& skeleton,
                                              const std::vector<UserMesh>& user_meshes,
                                              const MeshOptions& options,
                                              std::uint64_t triangle) {
     MeshOptions named = options;
     named.segments = true;
+    Skeleton numbered = skeleton;
+    number_items(numbered);
     Mesh mesh;
-    if (make_mesh(with_numbered_items(skeleton), user_meshes, named, mesh)) {
+    if (make_mesh(numbered, user_meshes, named, mesh)) {
         return std::nullopt;
     }
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();

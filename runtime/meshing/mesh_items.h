@@ -17,6 +17,10 @@ struct SkeletonItem {
     friend bool operator==(const SkeletonItem&, const SkeletonItem&) = default;
 };
 
+/// Sets the parent of each polygon and object to its item number, so that Mesh::segments names the
+/// item of each vertex. Items are numbered from 0: segments, then polygons, then objects.
+void number_items(Skeleton& skeleton);
+
 /// The item that triangle number `triangle` of make_mesh(skeleton, user_meshes, options) shows; a
 /// triangle between two segments belongs to the one that carries all its corners. Makes the mesh
 /// again. None: no such triangle, or no memory.

@@ -2,7 +2,7 @@
 // base (Crankshaw 2019, chapter 6, after Barron et al. 2001), bent by its weight and by wind.
 // Metres, kilograms, seconds, radians. Made from the skeleton at rest; gives bent skeletons.
 //
-// What always holds: all values are finite, for any skeleton; without wind the energy never grows,
+// Guarantees: all values are finite, for any skeleton; without wind the energy never grows,
 // for any springs, masses, lengths and time step; results are the same for any number of threads.
 // The comment at the top of physics.cpp describes a step and proves this. With the ground, no end
 // of a segment, object or corner is below y = 0 unless it is below y = 0 at rest.

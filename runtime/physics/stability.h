@@ -19,9 +19,9 @@ struct Stability {
     /// generalised eigenvalue of the stiffness of joints and of weight. Infinite without weight, or
     /// if the whole plant hangs; below 1 the plant does not stand.
     double load_factor = 0.0;
-    /// The same factor for the trunk alone, as a column of constant width: 7.837 E I / (w l^3) with
-    /// mean E I and weight per length w (Greenhill 1881). None for a trunk without weight or
-    /// length.
+    /// Multiple of its weight at which the trunk alone buckles, as a column of constant width:
+    /// 7.837 E I / (w l^3) with mean E I and weight per length w (Greenhill 1881). None for a trunk
+    /// without weight or length.
     std::optional<double> trunk_factor;
     double trunk_length = 0.0; // m
     double trunk_width = 0.0;  // m, mean diameter

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,22 +28,22 @@ class RolledSides {
 public:
     RolledSides(const CheckInput& input, Diagnostics& diagnostics)
         : input_(input), program_(input.program), diagnostics_(diagnostics),
-          last_(input.program.symbols.size(), nullptr) {}
+          is_rewritten_(input.program.symbols.size(), 0) {}
 
     /// Compares each production with the one before it for the same module. Reports the first pair.
     void check() {
-        is_rewritten_.assign(program_.symbols.size(), 0);
         for (const Production& production : program_.productions) {
             for (const ProgramPatternItem& item : production.predecessor.items) {
                 is_rewritten_[static_cast<std::size_t>(item.symbol)] = 1;
             }
         }
+        std::vector<const Production*> last_of(program_.symbols.size(), nullptr);
         for (const Production& production : program_.productions) {
             if (!is_alone(production)) {
                 continue;
             }
             const SymbolId symbol = production.predecessor.items[0].symbol;
-            const Production*& last = last_[static_cast<std::size_t>(symbol)];
+            const Production*& last = last_of[static_cast<std::size_t>(symbol)];
             if (last != nullptr && check(*last, production)) {
                 return;
             }
@@ -63,22 +62,25 @@ private:
                !production.has_right && production.predecessor.items.size() == 1;
     }
 
-    /// Whether each module with the symbol stands before a `]`.
-    [[nodiscard]] bool ends_branches(SymbolId symbol) const {
-        const auto ends_in = [&](const ProgramWord& word) {
-            const std::size_t end = std::size_t{word.first_module} + word.module_count;
-            for (std::size_t i = word.first_module; i < end; ++i) {
-                if (program_.modules[i].symbol == symbol &&
-                    (i + 1 == end || symbol_at(i + 1).kind != SymbolKind::BranchClose)) {
-                    return false;
-                }
+    /// Whether each module with the symbol stands before a `]`. Reads all words once.
+    [[nodiscard]] bool ends_branches(SymbolId symbol) {
+        if (ends_branch_.empty()) {
+            ends_branch_.assign(program_.symbols.size(), 1);
+            find_inner_modules(program_.axiom);
+            for (const Production& production : program_.productions) {
+                find_inner_modules(production.successor);
             }
-            return true;
-        };
-        return ends_in(program_.axiom) &&
-               std::all_of(
-                   program_.productions.begin(), program_.productions.end(),
-                   [&](const Production& production) { return ends_in(production.successor); });
+        }
+        return ends_branch_[static_cast<std::size_t>(symbol)] != 0;
+    }
+
+    void find_inner_modules(const ProgramWord& word) {
+        const std::size_t end = std::size_t{word.first_module} + word.module_count;
+        for (std::size_t i = word.first_module; i < end; ++i) {
+            if (i + 1 == end || symbol_at(i + 1).kind != SymbolKind::BranchClose) {
+                ends_branch_[static_cast<std::size_t>(program_.modules[i].symbol)] = 0;
+            }
+        }
     }
 
     /// Reports two productions that differ by rolls in opposite directions, after which something
@@ -133,8 +135,8 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<const Production*> last_;    // by symbol: the production before, null: none
     std::vector<std::uint8_t> is_rewritten_; // by symbol: it has a production
+    std::vector<std::uint8_t> ends_branch_;  // by symbol, see ends_branches(); empty: not read yet
 };
 
 } // namespace

@@ -66,7 +66,8 @@ public:
     /// Name of the parameter that holds bound random number `index`.
     [[nodiscard]] std::string draw_name(int index) const;
     /// Notes that a decision depends on a random number, which must be bound; reports an error if
-    /// random numbers are drawn inline. Returns a placeholder.
+    /// random numbers are drawn inline. Returns the term 0, so that reading
+    /// goes on.
     [[nodiscard]] CpfgTerm chosen_by_chance(SourceSpan span, const std::string& message);
 
     /// Warns once per `what` that lsc leaves it out.

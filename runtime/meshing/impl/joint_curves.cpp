@@ -63,7 +63,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
         curve.leaving =
             derivative(before.heading, from.heading, from.heading, from.length, before.length);
     } else if (start) {
-        // As at a joint after an edge of equal length that leads there along `tangent`.
+        // The derivative behind an edge of the same length along `tangent`.
         const glm::dvec3 tangent(start->tangent);
         curve.leaving = glm::dot(straight, tangent) * tangent;
     } else {
