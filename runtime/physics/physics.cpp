@@ -24,14 +24,16 @@
 // too fast for the time step.
 //
 // The ground is part of V: a spring under each tip that is above the ground at rest, with energy 0
-// at rest. pose() raises tips that the springs leave in the ground (impl/ground.h).
+// at rest. pose() raises tips that the springs leave in the ground (impl/ground.h). Friction brakes
+// tips that slide, so it takes energy.
 //
 // With LoadRule::Own a joint moves as if its segment stood alone on its parent; V counts weights
 // at bases that stand still. settle() then solves joint by joint, from the root to the tips.
 //
 // settle() takes long steps, each from standstill and without dampers. Each lowers the energy. Near
 // the end, steps use more of the true second derivative of the energy; the last ones are Newton's
-// method, which doubles the number of correct digits per round.
+// method, which doubles the number of correct digits per round. On the ground it leaves friction
+// out, and stops where friction would hold the plant.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -49,11 +51,48 @@ namespace lsys {
 namespace {
 
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
+constexpr double kFriction = 0.5;        // approximate value of bark on soil
 constexpr int kTrials = 12;
+constexpr int kInexactTrials = 2; // with Forces::exactness: the next round comes nearer
 constexpr double kTrialShare = 0.25;
 constexpr double kRounding = 1e-12;
-constexpr double kMinDoubt = 1e-3; // in settle(): min of 1 - exactness, unless it is 0
-constexpr double kRestStep = 1e3;  // s, step of settle(), so long that inertia does not matter
+constexpr double kRestStep = 1e6; // s, step of settle(), so long that inertia does not matter
+// A plant that slides in settle() is at rest when friction with this coefficient, less than that of
+// ice, would stop it. Compared are energy and friction of some ten rounds.
+constexpr double kRestFriction = 0.03;
+constexpr double kRememberedShare = 0.9;
+
+/// How little the rounds of settle() trust the true second derivatives: 1 - Forces::exactness. After
+/// steps that were taken whole it sinks. If that was too early it waits for more of them next time.
+class Doubt {
+public:
+    [[nodiscard]] double value() const { return value_; }
+
+    /// `whole`: whether the step of the last round was taken whole.
+    void update(bool whole) {
+        if (whole) {
+            patience_ = sank_ ? 1 : patience_;
+            sank_ = ++in_a_row_ >= patience_;
+            if (sank_) {
+                in_a_row_ = 0;
+                value_ = value_ > kMin ? 0.5 * value_ : 0.0;
+            }
+        } else {
+            patience_ = sank_ ? std::min(2 * patience_, kMaxPatience) : patience_;
+            sank_ = false;
+            in_a_row_ = 0;
+            value_ = std::clamp(4.0 * value_, kMin, 1.0);
+        }
+    }
+
+private:
+    static constexpr double kMin = 1e-3; // unless it is 0
+    static constexpr int kMaxPatience = 16;
+    double value_ = 1.0;
+    int in_a_row_ = 0;  // steps taken whole since it last changed
+    int patience_ = 1;  // steps taken whole before it sinks
+    bool sank_ = false; // in the last round
+};
 
 float finite_or(float value, float other) {
     return std::isfinite(value) ? value : other;
@@ -121,6 +160,7 @@ Forces forces_of(const PhysicsOptions& options) {
     forces.drag = 0.5 * kDragCoefficient * static_cast<double>(options.air_density);
     forces.windy = forces.drag > 0.0 && glm::length(forces.wind) > 0.0;
     forces.ground = options.ground;
+    forces.friction = kFriction;
     forces.own_load = options.load == LoadRule::Own;
     return forces;
 }
@@ -190,7 +230,9 @@ struct PlantPhysics::State {
 
     struct Step {
         double share = 0.0; // part of the solved motion that was taken
-        double turn = 0.0;  // rad, max
+        double turn = 0.0;  // rad, max of the whole solved motion
+        double fall = 0.0;  // J, energy lost, with the work of the wind
+        double slide = 0.0; // J, see Energies
     };
     /// Moves the plant to rest where each joint bears its own segment only: joint by joint, from
     /// the root to the tips.
@@ -219,11 +261,14 @@ struct PlantPhysics::State {
     /// Makes a step; without `keep_velocity` it ends at standstill.
     Step advance(const Forces& now, bool keep_velocity) {
         solve_spins(plant, now, workers);
+        const int trials = now.exactness > 0.0 ? kInexactTrials : kTrials;
         double share = 1.0;
-        for (int trial = 0; trial <= kTrials; ++trial) {
-            share = trial == kTrials ? 0.0 : share;
+        double turn = 0.0;
+        for (int trial = 0; trial <= trials; ++trial) {
+            share = trial == trials ? 0.0 : share;
             const Energies energies =
                 move_bodies(plant, now, share * now.step, keep_velocity ? share : 0.0, workers);
+            turn = trial == 0 ? energies.turn : turn;
             const double allowed = energy + std::max(now.windy ? energies.work : 0.0, 0.0);
             const bool known = std::isfinite(energies.potential + energies.kinetic);
             if (share > 0.0 && !(known && energies.potential <=
@@ -239,7 +284,7 @@ struct PlantPhysics::State {
             }
             energy = std::min(allowed, energies.potential + kinetic);
             plant.poses.swap(plant.next_poses);
-            return {share, energies.turn};
+            return {share, turn, allowed - energy, energies.slide};
         }
         return {};
     }
@@ -284,17 +329,21 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
     Forces long_step = s.forces;
     long_step.step = kRestStep;
     long_step.damping = 0.0;
+    long_step.friction = 0.0;
     scale_velocities(s.plant, 0.0, s.workers);
     s.update_energy();
-    double doubt = 1.0;
+    Doubt doubt;
+    double fall = 0.0;  // J, energy of the last rounds, older ones weighing less
+    double slide = 0.0; // J, in the same way
     for (std::uint32_t round = 0; round < max_rounds; ++round) {
         const State::Step made = s.advance(long_step, false);
-        if (made.turn <= tolerance && made.share == 1.0) {
+        fall = kRememberedShare * fall + made.fall;
+        slide = kRememberedShare * slide + made.slide;
+        if (made.turn <= tolerance || (made.share == 1.0 && fall < kRestFriction * slide)) {
             return true;
         }
-        doubt = made.share == 1.0 ? (doubt > kMinDoubt ? doubt * 0.25 : 0.0)
-                                  : std::clamp(doubt * 8.0, kMinDoubt, 1.0);
-        long_step.exactness = 1.0 - doubt;
+        doubt.update(made.share == 1.0);
+        long_step.exactness = 1.0 - doubt.value();
     }
     return false;
 }

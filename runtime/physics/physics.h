@@ -35,7 +35,7 @@ struct PhysicsOptions {
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
     LoadRule load = LoadRule::Carried;
-    bool ground = true;        // the plane y = 0 holds parts that are above it at rest
+    bool ground = true; // the plane y = 0 holds parts that are above it at rest, and brakes them
     std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
@@ -55,8 +55,8 @@ public:
     /// One time step.
     void step();
     /// Moves the plant to its state of rest in steady wind, at standstill; time() does not change.
-    /// Returns whether, within `max_rounds`, there was a round in which no segment turned by more
-    /// than `tolerance` (radians).
+    /// Returns whether it came to rest within `max_rounds`: no segment had more than `tolerance`
+    /// (radians) to turn, or friction on the ground would hold the plant.
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Returns the plant to rest, at time 0.
     void reset();

@@ -12,11 +12,14 @@
 // second derivative of the weight's energy in absolute rotations has no coupling between bodies and
 // is nowhere greater than G. The second derivative of the spring's energy along a rotation is
 // nowhere greater than k. So the minimum has a lower energy, however long the step is.
-// Forces::exactness replaces these bounds by the true second derivatives.
+// Forces::exactness replaces these bounds by the true second derivatives. Where these are negative,
+// as of a branch that could fall to either side, their absolute values are used in those directions
+// alone, so that the others keep the convergence of Newton's method.
 //
 // The ground is a spring 1/2 K depth^2 at each tip below it, whose force acts on all ancestors of
-// the tip; its second derivatives are bounded and made exact in the same way. With Forces::own_load
-// bases stand still and children are left out, so each joint is solved alone.
+// the tip; its second derivatives are bounded and made exact in the same way. Friction, its force
+// times Forces::friction against the motion along the ground, is a damper in the step. With
+// Forces::own_load bases stand still and children are left out, so each joint is solved alone.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -29,6 +32,7 @@ namespace {
 
 constexpr double kMinInertia = 1e-13;         // relative to the trace: a bound of rounding errors
 constexpr double kMaxTurn = std::numbers::pi; // per step: a larger rotation has no unique vector
+constexpr double kStickingSpeed = 0.01;       // m/s: below it friction falls with the speed, to 0
 
 /// Quadratic forms of a body and of its joint.
 struct BodyForms {
@@ -63,7 +67,7 @@ void add_stiffness(const glm::dvec3& arm,
 }
 
 /// Adds the contact of the tip, if it is in the ground or reaches it within the step: a spring
-/// along Y with its force at the end of the step.
+/// along Y with its force at the end of the step, and friction along the ground.
 void add_contact(const Body& body,
                  const BodyMotion& motion,
                  const BodyPose& pose,
@@ -76,25 +80,33 @@ void add_contact(const Body& body,
     const double h = forces.step;
     const glm::dvec3 arm = axes * body.tip;
     const double depth = ground_depth(body, pose);
-    const double speed = motion.velocity.y + glm::cross(motion.spin, arm).y;
-    if (!(depth - h * std::min(speed, 0.0) > 0.0)) {
+    const glm::dvec3 velocity = motion.velocity + glm::cross(motion.spin, arm);
+    if (!(depth - h * std::min(velocity.y, 0.0) > 0.0)) {
         return;
     }
     const glm::dvec3 push(0.0, body.ground_spring * depth, 0.0);
     const double hold = h * h * body.ground_spring;
+    const double speed = std::max(std::hypot(velocity.x, velocity.z), kStickingSpeed);
+    const double rub = h * forces.friction * std::max(push.y, 0.0) / speed;
     own.spin += h * glm::cross(arm, push);
     // (w x arm).y = w . (-arm.z, 0, arm.x)
+    const double more = hold - rub;
+    own.spin_spin += point_inertia(rub, arm);
     own.spin_spin +=
-        {hold * arm.z * arm.z, 0.0, hold * arm.x * arm.x, 0.0, -hold * arm.x * arm.z, 0.0};
+        {more * arm.z * arm.z, 0.0, more * arm.x * arm.x, 0.0, -more * arm.x * arm.z, 0.0};
     if (depth > 0.0) {
         add_stiffness(arm, push, h * h, forces.exactness, own.spin_spin);
         own.push += push;
     }
     if (!forces.own_load) {
         own.velocity += h * push;
-        own.spin_velocity.row[0].y -= hold * arm.z;
-        own.spin_velocity.row[2].y += hold * arm.x;
-        own.velocity_velocity.yy += hold;
+        const Rows across = cross_rows(rub * arm);
+        for (std::size_t i = 0; i < 3; ++i) {
+            own.spin_velocity.row[i] += across.row[i];
+        }
+        own.spin_velocity.row[0].y -= more * arm.z;
+        own.spin_velocity.row[2].y += more * arm.x;
+        own.velocity_velocity += {rub, hold, rub, 0.0, 0.0, 0.0};
     }
 }
 
@@ -226,9 +238,9 @@ void eliminate(const BodyForms& own,
     Symmetric sum = inertia;
     sum += joint;
     if (forces.exactness > 0.0 && !is_positive(sum)) {
-        const double more = 2.0 * std::abs(min_eigenvalue(sum));
-        inertia.add_diagonal(more);
-        sum.add_diagonal(more);
+        const Symmetric lift = lift_to_positive(sum);
+        inertia += lift;
+        sum += lift;
     }
     if (!(sum.trace() > 0.0)) { // no inertia, spring or force: the body moves with its parent
         joint.add_diagonal(1.0);

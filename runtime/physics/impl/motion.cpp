@@ -68,6 +68,11 @@ void move_body(PlantBodies& plant,
     if (forces.ground && body.ground_spring > 0.0) {
         const double depth = std::max(ground_depth(body, plant.next_poses[b]), 0.0);
         stretched += 0.5 * body.ground_spring * depth * depth;
+        if (depth > 0.0) {
+            const BodyPose& before = plant.poses[b];
+            const glm::dvec3 way = shift - before.shift + turn * body.tip - before.turn * body.tip;
+            sum.slide += body.ground_spring * depth * std::hypot(way.x, way.z);
+        }
     }
     const double lifted = -body.mass * glm::dot(forces.gravity, displacement);
     sum.potential += stretched + lifted;
@@ -101,6 +106,7 @@ Energies move_bodies(
         total.potential += sum.potential;
         total.potential_magnitude += sum.potential_magnitude;
         total.work += sum.work;
+        total.slide += sum.slide;
         total.turn = std::max(total.turn, sum.turn);
     }
     return total;

@@ -22,6 +22,7 @@ struct Forces {
     double drag = 0.0;       // half the density of air times the drag coefficient
     bool windy = false;
     bool ground = false;
+    double friction = 0.0; // coefficient of friction of the ground
     bool own_load = false; // a joint bears its own body only, not the descendants
     /// Second derivatives of weight, wind and springs. 0: the greatest of all directions; 1: the
     /// true ones, negative in some directions; between: interpolated.
@@ -93,6 +94,7 @@ struct Energies {
     double potential = 0.0;           // springs, weight and ground; 0 at rest
     double potential_magnitude = 0.0; // sum of the magnitudes of the terms of `potential`
     double work = 0.0;                // work of the wind
+    double slide = 0.0;               // sum of force of the ground times way of the tip along it: J
     double turn = 0.0;                // rad, max rotation of a body
 };
 /// Turns each body by the solved spin times `duration` seconds, into next_poses, and computes

@@ -3,13 +3,13 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace lsys {
 
@@ -76,23 +76,65 @@ struct Symmetric {
            a.zz - a.xz * a.xz / a.xx - e21 * e21 / d1 > min_pivot;
 }
 
-/// The smallest eigenvalue of `a`, by Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix".
-[[nodiscard]] inline double min_eigenvalue(const Symmetric& a) {
-    const double mean = a.trace() / 3.0;
-    const double x = a.xx - mean;
-    const double y = a.yy - mean;
-    const double z = a.zz - mean;
-    const double spread =
-        std::sqrt((x * x + y * y + z * z + 2.0 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz)) / 6.0);
-    if (!(spread > 0.0)) {
-        return mean;
+struct Eigenvectors {
+    std::array<double, 3> values{};
+    std::array<glm::dvec3, 3> vectors{}; // of length 1
+};
+
+/// The eigenvectors of `a` by Jacobi's method (Golub & Van Loan 2013, section 8.5).
+[[nodiscard]] inline Eigenvectors eigenvectors_of(const Symmetric& a) {
+    constexpr int kSweeps = 10; // the method doubles the correct digits per sweep
+    glm::dmat3 m(a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz);
+    Eigenvectors out;
+    out.vectors = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1.0)};
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (int p = 0; p < 2; ++p) {
+            for (int q = p + 1; q < 3; ++q) {
+                if (m[p][q] == 0.0) {
+                    continue;
+                }
+                // The rotation in the plane of axes p and q that makes m[p][q] 0.
+                const double ratio = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+                const double tangent =
+                    std::copysign(1.0, ratio) / (std::abs(ratio) + std::hypot(ratio, 1.0));
+                const double cosine = 1.0 / std::hypot(tangent, 1.0);
+                const double sine = tangent * cosine;
+                const int r = 3 - p - q;
+                m[p][p] -= tangent * m[p][q];
+                m[q][q] += tangent * m[p][q];
+                m[p][q] = m[q][p] = 0.0;
+                const glm::dvec2 others(m[r][p], m[r][q]);
+                m[r][p] = m[p][r] = cosine * others.x - sine * others.y;
+                m[r][q] = m[q][r] = sine * others.x + cosine * others.y;
+                glm::dvec3& u = out.vectors[static_cast<std::size_t>(p)];
+                glm::dvec3& v = out.vectors[static_cast<std::size_t>(q)];
+                const glm::dvec3 before = u;
+                u = cosine * before - sine * v;
+                v = sine * before + cosine * v;
+            }
+        }
     }
-    const double determinant =
-        x / spread * (y / spread * (z / spread) - a.yz / spread * (a.yz / spread)) -
-        a.xy / spread * (a.xy / spread * (z / spread) - a.yz / spread * (a.xz / spread)) +
-        a.xz / spread * (a.xy / spread * (a.yz / spread) - y / spread * (a.xz / spread));
-    const double angle = std::acos(std::clamp(0.5 * determinant, -1.0, 1.0)) / 3.0;
-    return mean + 2.0 * spread * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
+    out.values = {m[0][0], m[1][1], m[2][2]};
+    return out;
+}
+
+/// What to add to `a` so that its eigenvalues become positive: each takes its absolute value, at
+/// least 1e-9 of the largest. The eigenvectors stay.
+[[nodiscard]] inline Symmetric lift_to_positive(const Symmetric& a) {
+    constexpr double kMinShare = 1e-9;
+    const Eigenvectors eigen = eigenvectors_of(a);
+    double largest = 0.0;
+    for (const double value : eigen.values) {
+        largest = std::max(largest, std::abs(value));
+    }
+    Symmetric lift;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double more =
+            std::max(std::abs(eigen.values[i]), kMinShare * largest) - eigen.values[i];
+        const glm::dvec3& v = eigen.vectors[i];
+        lift += scaled({v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.x * v.z, v.y * v.z}, more);
+    }
+    return lift;
 }
 
 /// The inverse of a positive definite matrix by L D L^T. A pivot that is too small by rounding is

@@ -102,6 +102,56 @@ TEST_CASE("a stalk without stiffness lies on the ground, at its radius") {
     CHECK(tip(bent.segments[1]).y == Approx(-2.0).margin(1e-5));
 }
 
+TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
+    // A rod of 1 m and 1 kg that turns freely about its end. The ground bears half its weight at
+    // the tip, so friction of 0.5 holds a torque of 0.5 m g / 2 l; the wind's is 1/2 rho C A v^2 l / 2.
+    Skeleton rod_on_ground;
+    add_segment(rod_on_ground, kNoSegment, leaning(1.55F), rod(1.0F, 0.02F, 0.0F, 1.0F));
+    const double limit = std::sqrt(0.5 * 9.81 / (0.5 * 1.225 * 1.1 * 0.04)); // m/s
+    const auto turn_in_wind = [&](double speed) {
+        PhysicsOptions options;
+        options.threads = 1;
+        options.damping = 0.0F;
+        PlantPhysics physics(rod_on_ground, options);
+        for (int i = 0; i < 120; ++i) { // it sinks into the ground until this bears it
+            physics.step();
+        }
+        options.wind.velocity = {0.0F, 0.0F, static_cast<float>(speed)};
+        physics.set(options);
+        for (int i = 0; i < 60; ++i) {
+            physics.step();
+        }
+        Skeleton bent;
+        physics.pose(bent);
+        const glm::vec3 along = heading(bent.segments[0].frame);
+        return std::atan2(static_cast<double>(along.z), static_cast<double>(along.x));
+    };
+    CHECK(turn_in_wind(0.0) == Approx(0.0).margin(1e-9));
+    CHECK(std::abs(turn_in_wind(0.9 * limit)) < 0.01); // it creeps below the sticking speed
+    CHECK(turn_in_wind(1.1 * limit) > 0.1);
+}
+
+TEST_CASE("a flat plant that falls in its plane settles with the speed of Newton's method") {
+    // Upright in its plane it could fall to either side of it, so second derivatives are negative
+    // there; those within the plane must stay as they are.
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    for (int i = 0; i < 40; ++i) {
+        last = add_segment(plant, last, leaning(0.05F + 0.01F * static_cast<float>(i)),
+                           rod(1.0F, 0.02F, 20.0F, 1.0F));
+    }
+    PhysicsOptions options;
+    options.threads = 1;
+    PlantPhysics physics(plant, options);
+    REQUIRE(physics.settle(1e-9, 60));
+    Skeleton bent;
+    physics.pose(bent);
+    for (const Segment& segment : bent.segments) {
+        CHECK(segment.base.z == 0.0F);
+    }
+    CHECK(lowest(plant, bent) >= -2e-5);
+}
+
 TEST_CASE("what is away from the ground does not feel it") {
     const Skeleton plant = tree(2, 4);
     PhysicsOptions options;
