@@ -97,12 +97,7 @@ run_plant_pictures(const ViewOptions& options, const Camera& camera, const Conso
     Renderer& renderer = *made.renderer;
     renderer.show_plant(document.mesh);
     renderer.show_lines(make_lines(document.plant.skeleton, options.lines));
-    Camera from = camera;
-    if (options.camera.empty()) {
-        from = first_view(from, renderer.bounds(),
-                          static_cast<float>(options.width) / static_cast<float>(options.height));
-    }
-    return take_pictures(options, from, document, renderer, console);
+    return take_pictures(options, camera, document, renderer, console);
 }
 
 ExitStatus run_pictures(const ViewOptions& options, const Console& console) {

@@ -187,17 +187,29 @@ ExitStatus take_pictures(const ViewOptions& options,
             return status;
         };
     }
+    const auto show_bent = [&] {
+        motion.pose(pose);
+        const ExitStatus status =
+            console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);
+        if (status == ExitStatus::Ok) {
+            renderer.show_plant(mesh);
+            renderer.show_lines(make_lines(pose, options.lines));
+        }
+        return status;
+    };
+    Camera from = camera;
+    if (options.camera.empty()) {
+        if (const ExitStatus status = motion.moves() ? show_bent() : ExitStatus::Ok;
+            status != ExitStatus::Ok) {
+            return status;
+        }
+        from = first_view(camera, renderer.bounds(),
+                          static_cast<float>(options.width) / static_cast<float>(options.height));
+    }
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);
-            motion.pose(pose);
-            const ExitStatus status =
-                console.take(mesh_plant(document.plant, pose, options.mesh, project), mesh);
-            if (status == ExitStatus::Ok) {
-                renderer.show_plant(mesh);
-                renderer.show_lines(make_lines(pose, options.lines));
-            }
-            return status;
+            return show_bent();
         };
     }
     PictureSeries series;
@@ -220,7 +232,7 @@ ExitStatus take_pictures(const ViewOptions& options,
                 });
         };
     }
-    Frame frame = frame_of(options, camera);
+    Frame frame = frame_of(options, from);
     if (options.grow && !renderer.bounds().empty) {
         frame.ground_disc = ground_disc_of(renderer.bounds()); // of the last generation
     }
@@ -228,7 +240,7 @@ ExitStatus take_pictures(const ViewOptions& options,
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status
-               : write_stats_text(options, stats_text(options, camera, document, renderer, series),
+               : write_stats_text(options, stats_text(options, from, document, renderer, series),
                                   console);
 }
 
