@@ -23,6 +23,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     const MeshOptions options = resolved(wanted, skeleton);
     MeshBuilder builder(options, mesh);
     std::vector<FilePictures> pictures;
+    pictures.reserve(user_meshes.size());
     for (const UserMesh& user_mesh : user_meshes) {
         pictures.push_back({user_mesh.picture, user_mesh.relief});
     }

@@ -148,7 +148,7 @@ private:
     std::shared_ptr<ForestDocument> document_;
     ForestPainting painting_;
     std::vector<std::string> files_;
-    bool frame_next_ = false; // the next swap fits the camera to the forest
+    bool frame_next_ = true;  // the next swap fits the camera to the forest
     bool plays_next_ = false; // from the next swap on
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
