@@ -127,7 +127,7 @@ private:
 
     const Bytecode& bytecode_;
     WordPrinter printer_;
-    std::string open_; // the end of each open bracket
+    std::string open_; // by open bracket: the character to print after its `]`, or kPlain
 };
 
 /// Removes the notes that all plants are equal, which are expected of a single hero.
