@@ -227,12 +227,18 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
     app.add_flag("--expand", command.expand,
-                 "glTF without EXT_mesh_gpu_instancing: one node per branch");
+                 "glTF without EXT_mesh_gpu_instancing: one node per instance");
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
+    add_choice<ForestInstances>(
+        app, "--instances", command.instances,
+        {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
+        "branches: every tree is different; trees: whole heroes, few draw calls and as many "
+        "different trees as --heroes (default branches)");
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
-        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
+        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
+        "with --instances trees 0)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
@@ -254,6 +260,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
         "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
+        "          lsc forest wood.toml --instances trees --heroes 5 -o wood.glb\n"
         "          lsc forest wood.toml --stats\n"
         "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
         "tile.glb");

@@ -91,6 +91,9 @@ struct ExportCommand {
     bool stats = false;
 };
 
+/// Parts of a forest that its file repeats.
+enum class ForestInstances : std::uint8_t { Branches, Trees };
+
 struct ForestCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or grammars
@@ -99,7 +102,9 @@ struct ForestCommand {
     RunOptions run;
     bool expand = false;
     bool bake = false;
-    float cell = 100.0F; // m, side of the ground cells with one node each; 0: one cell
+    ForestInstances instances = ForestInstances::Branches;
+    /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
+    std::optional<float> cell;
     std::uint32_t frames = 0;
     bool check = false;
     bool stats = false;

@@ -97,24 +97,27 @@ class Forest:
     def mesh(self, number):
         """Name, positions, texture coordinates or None, faces, and the material of each face.
 
-        Vertices are those that the mesh uses, though many meshes share arrays in the file.
+        Vertices are those that the mesh uses; its parts have arrays of their own.
         """
         mesh = self.document["meshes"][number]
-        numbers = {}
+        places = []
+        coordinates = []
         faces = []
         materials = []
-        attributes = mesh["primitives"][0]["attributes"]
         for primitive in mesh["primitives"]:
+            numbers = {}
             indices, _ = self.accessor(primitive["indices"])
-            own = [numbers.setdefault(i, len(numbers)) for i in indices]
+            attributes = primitive["attributes"]
+            own = [len(places) + numbers.setdefault(i, len(numbers)) for i in indices]
             faces += [tuple(own[i : i + 3]) for i in range(0, len(own), 3)]
             materials += [primitive["material"]] * (len(own) // 3)
-        positions, _ = self.shared(attributes["POSITION"])
-        places = [tuple(positions[3 * i : 3 * i + 3]) for i in numbers]
-        coordinates = None
-        if "TEXCOORD_0" in attributes:
-            values, _ = self.shared(attributes["TEXCOORD_0"])
-            coordinates = [(values[2 * i], values[2 * i + 1]) for i in numbers]
+            positions, _ = self.shared(attributes["POSITION"])
+            places += [tuple(positions[3 * i : 3 * i + 3]) for i in numbers]
+            if "TEXCOORD_0" in attributes:
+                values, _ = self.shared(attributes["TEXCOORD_0"])
+                coordinates += [(values[2 * i], values[2 * i + 1]) for i in numbers]
+        if len(coordinates) != len(places):
+            coordinates = None
         return mesh.get("name", f"mesh {number}"), places, coordinates, faces, materials
 
     def shared(self, number):
