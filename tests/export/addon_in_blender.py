@@ -225,16 +225,53 @@ def errors(bench):
     size = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + size])
     document["meshes"][-1]["primitives"][0]["attributes"]["POSITION"] = 1_000_000
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    rest = data[20 + size :]
-    with open(late, "wb") as file:
-        file.write(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON") + text + rest)
+    write_glb(late, document, data[28 + size :])
     bench.fails(lambda: bpy.ops.lsys.import_forest(filepath=late), "no accessors 1000000")
     preferences = bpy.context.preferences.addons["lsys_plants"].preferences
     preferences.lsc = os.path.join(bench.folder, "no-lsc")
     bench.fails(lambda: bpy.ops.lsys.new_plant(filepath=bench.sample("teach-param")), "no-lsc", "preferences")
     preferences.lsc = bench.lsc
+
+
+def write_glb(path, document, binary):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+        file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def layouts(bench):
+    """Parts of a mesh with arrays of their own, indices of 8 and 16 bits, colours of vertices, no picture."""
+    bpy = bench.bpy
+    path = os.path.join(bench.folder, "layouts.glb")
+    corners = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3), (1, 0, 3), (0, 2, 3)]
+    binary = b"".join(struct.pack("<3f", *corner) for corner in corners)
+    binary += bytes([255, 0, 0, 255, 0, 255, 0, 255, 51, 0, 255, 255])  # at 72
+    binary += struct.pack("<4B4H", 0, 1, 2, 0, 0, 1, 2, 0)  # at 84 and 88
+    views = [{"buffer": 0, "byteOffset": at, "byteLength": size} for at, size in ((0, 72), (72, 12), (84, 3), (88, 6))]
+    accessors = [{"bufferView": 0, "byteOffset": 36 * i, "componentType": 5126, "count": 3, "type": "VEC3"}
+                 for i in range(2)]
+    accessors += [{"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4", "normalized": True},
+                  {"bufferView": 2, "componentType": 5121, "count": 3, "type": "SCALAR"},
+                  {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"}]
+    write_glb(path, {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "one", "mesh": 0}],
+        "materials": [{"name": "plain", "pbrMetallicRoughness": {"metallicFactor": 0}}],
+        "meshes": [{"name": "two", "primitives": [
+            {"attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 3, "material": 0},
+            {"attributes": {"POSITION": 1, "COLOR_0": 2}, "indices": 4, "material": 0}]}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}, binary)
+    assert bpy.ops.lsys.import_forest(filepath=path) == {"FINISHED"}
+    (mesh,) = bpy.data.meshes
+    assert [tuple(v.co) for v in mesh.vertices] == [(x, -z, y) for x, y, z in corners]
+    assert [tuple(p.vertices) for p in mesh.polygons] == [(0, 1, 2), (3, 4, 5)]
+    colours = [tuple(round(c, 4) for c in item.color) for item in mesh.color_attributes["Color"].data]
+    assert colours == [(1, 0, 0, 1), (0, 1, 0, 1), (0.2, 0, 1, 1)] * 2, colours
+    (material,) = mesh.materials
+    surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    assert surface.inputs["Base Color"].links[0].from_node.type == "VERTEX_COLOR"
 
 
 def face_the_leaf(bpy, is_forest):
@@ -302,7 +339,7 @@ def within_blender(root, lsc, folder):
     bpy.ops.preferences.addon_enable(module="lsys_plants")
     bpy.context.preferences.addons["lsys_plants"].preferences.lsc = lsc
     bench = Bench(root, lsc, folder)
-    for check in (errors, plant, seed, forest, render):
+    for check in (errors, layouts, plant, seed, forest, render):
         bpy.ops.wm.read_homefile(use_factory_startup=False, use_empty=True)
         check(bench)
         print(f"{check.__name__}: passed")
