@@ -291,6 +291,8 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Draw the plant too, and tell whether it bears its weight (9.81 on Earth)")
         ->type_name("G");
+    app.add_flag("--parameters", command.parameters,
+                 "List the values that -D can change, with their bounds, instead of sizes");
     add_grammar(app, command.grammar, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);
@@ -299,7 +301,8 @@ void add_stats(CLI::App& app, StatsCommand& command) {
                "derived and\n"
                "counted. A plant of at most a million modules is drawn too, and its height "
                "printed. With\n--message-format json the table is JSON.\n"
-               "Example: lsc stats -n 12 tree.lsys");
+               "Examples: lsc stats -n 12 tree.lsys\n"
+               "          lsc stats --parameters tree.lsys");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {

@@ -118,6 +118,7 @@ struct StatsCommand {
     std::optional<float> height; // m, of the plant
     std::string file;
     std::optional<float> gravity; // m/s^2; weighs the plant too
+    bool parameters = false;      // list the constants instead
 };
 
 struct ImportCommand {
