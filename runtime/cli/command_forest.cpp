@@ -78,6 +78,9 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "--expand is for " +
                format_names("and", [](const auto& each) { return each.expands_forest; });
     }
+    if (command.mesh.method == MeshMethod::Solid) {
+        return "--method solid is for a single plant: the branches of a forest are instances";
+    }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }
