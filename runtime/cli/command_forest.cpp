@@ -82,6 +82,9 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         command.overrides.rho.value_or(0.0F) > 0.0F) {
         return "--instances trees shows heroes as they are, so --rho does not go with it";
     }
+    if (command.mesh.method == MeshMethod::Solid) {
+        return "--method solid is for a single plant: the branches of a forest are instances";
+    }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }

@@ -167,9 +167,11 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         app, "--method", mesh.method,
         {{"tubes", MeshMethod::Tubes},
          {"cylinders", MeshMethod::Cylinders},
-         {"boxes", MeshMethod::Boxes}},
-        "Branches as seamless tubes, one cylinder per segment, or boxes, smoothed or not (default "
-        "tubes; boxes for .sys plants)")
+         {"boxes", MeshMethod::Boxes},
+         {"solid", MeshMethod::Solid}},
+        "Branches as seamless tubes, one cylinder per segment, or boxes, smoothed or not; or one "
+        "closed surface around the whole plant, for printing (default tubes; boxes for .sys "
+        "plants)")
         ->group("Mesh");
     add_parsed(app, "--sides", mesh.sides, integer(kMinSides, kMaxSides),
                "Sides of each cross-section (default: the grammar's)")
@@ -191,6 +193,15 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
     add_parsed(app, "--subdivisions", mesh.subdivisions, integer(0, kMaxSubdivisions),
                "Smoothing rounds of boxes (default 2; 0 for .sys plants)")
         ->type_name("N")
+        ->group("Mesh");
+    constexpr float kMinWidth = 1e-6F;
+    constexpr float kMaxWidth = 1000.0F;
+    add_parsed(
+        app, "--min-width", mesh.min_width,
+        [](const std::string& text) { return parse_number(text, kMinWidth, kMaxWidth); },
+        "Width of the thinnest branches and of leaves of `--method solid` (default: 1/150 of the "
+        "largest extent)")
+        ->type_name("METRES")
         ->group("Mesh");
     add_parsed(app, "--bark-noise", mesh.bark_noise, fraction,
                "Bark displacement as a fraction of the radius, 0 to 1 (default 0)")

@@ -241,6 +241,9 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }
+    if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
+        return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
+    }
     if (!options.is_forest && options.air) {
         return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
     }
