@@ -16,7 +16,9 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace lsys::lsc {
@@ -36,6 +38,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
         "--fix", command.fix,
         "Apply all certain repairs to FILE and to files included from its folder or below");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("A repair is certain if no other is plausible and its statement is correct "
@@ -55,6 +58,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
         ->required()
         ->type_name("FILE");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
@@ -125,6 +129,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     add_mesh(app, command.mesh);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -193,6 +198,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         ->type_name("F")
         ->group("Physics");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -270,6 +276,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                  "Replace existing files of the output folder; otherwise they stay and the exit "
                  "status is 2");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
@@ -285,6 +292,7 @@ void add_stats(CLI::App& app, StatsCommand& command) {
                "Draw the plant too, and tell whether it bears its weight (9.81 on Earth)")
         ->type_name("G");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
@@ -389,7 +397,21 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         return to_usage_error(error, command == nullptr ? app : *command,
                               command == nullptr ? "lsc" : "lsc " + command->get_name());
     }
-    return parsed;
+    const std::optional<UsageError> mistake = std::visit(
+        []<typename Command>(Command& given) -> std::optional<UsageError> {
+            if constexpr (std::is_same_v<Command, CheckCommand>) {
+                return apply_base(given.run, given.files);
+            } else if constexpr (requires {
+                                     given.file;
+                                     given.run;
+                                 }) {
+                return apply_base(given.run, {&given.file, 1});
+            } else {
+                return std::nullopt;
+            }
+        },
+        parsed);
+    return mistake ? CommandLine(*mistake) : parsed;
 }
 
 } // namespace lsys::lsc
