@@ -190,6 +190,9 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
+    app.add_flag("--loop", command.loop,
+                 "With gusts: the last frame equals the first, and the motion goes on through it")
+        ->group("Physics");
     app.add_flag("--grow", command.grow,
                  "The frames show the plant from its axiom to its last generation: numbered files, "
                  "with parts of generations between whole ones");
@@ -210,7 +213,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
                "output. SVG is\n"
                "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
                "Examples: lsc export tree.lsys -o tree.glb\n"
-               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24\n"
+               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
                "          lsc export tree.lsys -o tree.glb --grow --frames 100");
 }
 

@@ -84,6 +84,7 @@ struct ExportCommand {
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
     std::optional<Wind> wind;
     bool settle = false;
+    bool loop = false;        // the last frame is the first
     bool grow = false;        // the frames show the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;

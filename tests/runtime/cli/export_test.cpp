@@ -177,6 +177,15 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     refused({"--grow", "--frames", "2", "--wind", "1,0,0"}, "do not go together");
     refused({"--grow", "--frames", "2", "--stream"}, "do not go together");
     refused({"--frames", "2"}, "--gravity, --wind or --grow");
+    const auto looped = [&](std::vector<std::string> more, const std::string& part) {
+        more.insert(more.end(), {"--loop"});
+        refused(more, part);
+    };
+    looped({"--wind", "1,0,0,1"}, "--frames N of at least 3");
+    looped({"--wind", "1,0,0,1", "--frames", "2"}, "--frames N of at least 3");
+    looped({"--wind", "1,0,0", "--frames", "9"}, "--wind 8,0,0,0.5");
+    looped({"--gravity", "9.81", "--frames", "9"}, "--wind 8,0,0,0.5");
+    looped({"--grow", "--frames", "9"}, "do not go together");
     const LscRun piped =
         run_lsc({"export", "-", "-o", "-", "--format", "glb", "--grow", "--frames", "2"}, kTree);
     CHECK(piped.status == 2);
@@ -338,4 +347,16 @@ TEST_CASE("a mesh file of #object lies beside its grammar") {
     const LscRun drawn = run_lsc({"dump", "--stage", "skeleton", folder / "plant.lsys"}, "");
     CHECK(drawn.out.find("object 1 \"leaf.obj\" parent 0 order 0 at (0, 7, 0)") !=
           std::string::npos);
+}
+
+TEST_CASE("a loop in numbered files ends with its first file, and begins at no rest") {
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--frames", "7", "--fps",
+                                "6", "--wind", "8,0,0,0.5", "--loop", "-v"},
+                               kTree);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.find("the loop ends within") != std::string::npos);
+    CHECK(count_files(folder) == 7);
+    CHECK(read_text(folder / "tree.0001.stl") == read_text(folder / "tree.0007.stl"));
+    CHECK(read_text(folder / "tree.0001.stl") != read_text(folder / "tree.0004.stl"));
 }
