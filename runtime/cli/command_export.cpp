@@ -111,6 +111,8 @@ ExitStatus write_plant(Export& run,
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
+    constexpr std::uint32_t kDefaultJoints = 128;
+    info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
@@ -291,6 +293,11 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     if (command.loop && command.frames < kMinLoopFrames) {
         return fmt::format("--loop needs --frames N of at least {}: the last is the first again",
                            kMinLoopFrames);
+    }
+    if (command.bones && (command.frames == 0 || !traits_of(format).motion)) {
+        return fmt::format(
+            "--bones are joints of an animation: --frames N and {}",
+            format_names("or", [](const FormatTraits& each) { return each.motion; }));
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";

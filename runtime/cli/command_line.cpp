@@ -190,6 +190,16 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
+    const auto bones = [](const std::string& text) -> Result<std::uint64_t> {
+        constexpr std::uint64_t kMinJoints = 2;
+        return text == "all" || text == "0" ? Result<std::uint64_t>(0)
+                                            : parse_integer(text, kMinJoints, kMaxJoints);
+    };
+    add_parsed(app, "--bones", command.bones, bones,
+               "Max number of joints of an animation's skin; all: one for each segment that moves "
+               "(default 128)")
+        ->type_name("N|all")
+        ->group("Physics");
     app.add_flag("--loop", command.loop,
                  "With gusts: the last frame equals the first, and the motion goes on through it")
         ->group("Physics");

@@ -138,7 +138,10 @@ private:
 Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const ExportInfo& info = job.info;
     std::optional<GltfMotion> moving;
-    if (info.animation != nullptr) {
+    if (info.animation != nullptr && info.max_joints != 0) {
+        moving.emplace(GltfMotion{
+            {}, *info.animation, make_bones(job.skeleton, *info.animation, info.max_joints)});
+    } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
             return {Stop::Limit,
@@ -147,7 +150,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
                         "ask for fewer generations with `-n`, or for a numbered series in "
                         "another format, which is any but glTF: `-o tree.ply`"))};
         }
-        moving.emplace(GltfMotion{std::move(*skin), *info.animation});
+        moving.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
     const GltfMotion* const motion = moving ? &*moving : nullptr;
     const Pictures pictures = find_pictures(job.mesh, ExportPictures::Inside, info);

@@ -146,13 +146,15 @@ plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::stri
     }
     add(GltfArray::Indices, mesh.indices.size() * sizeof(std::uint32_t), 0);
     if (motion != nullptr) {
-        const std::uint64_t keys =
-            std::uint64_t{motion->poses.frame_count} * motion->moving_joints();
-        add(GltfArray::InverseBinds, motion->skin.joint_count() * sizeof(glm::mat4), 0);
-        add(GltfArray::Times, motion->poses.frame_count * sizeof(float), 0);
-        if (keys > 0) {
-            add(GltfArray::Translations, keys * sizeof(glm::vec3), 0);
-            add(GltfArray::Rotations, keys * sizeof(glm::quat), 0);
+        add(GltfArray::InverseBinds, motion->joint_count() * sizeof(glm::mat4), 0);
+        if (motion->time_count() > 0) {
+            add(GltfArray::Times, motion->time_count() * sizeof(float), 0);
+        }
+        if (motion->translation_count() > 0) {
+            add(GltfArray::Translations, motion->translation_count() * sizeof(glm::vec3), 0);
+        }
+        if (motion->rotation_count() > 0) {
+            add(GltfArray::Rotations, motion->rotation_count() * sizeof(glm::quat), 0);
         }
     }
     for (std::size_t i = 0; i < data.images.size(); ++i) {

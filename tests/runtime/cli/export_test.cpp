@@ -186,6 +186,8 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     looped({"--wind", "1,0,0", "--frames", "9"}, "--wind 8,0,0,0.5");
     looped({"--gravity", "9.81", "--frames", "9"}, "--wind 8,0,0,0.5");
     looped({"--grow", "--frames", "9"}, "do not go together");
+    refused({"--wind", "1,0,0", "--bones", "9"}, "glb or gltf");
+    refused({"--wind", "1,0,0", "--frames", "9", "--bones", "1"}, "whole number from 2");
     const LscRun piped =
         run_lsc({"export", "-", "-o", "-", "--format", "glb", "--grow", "--frames", "2"}, kTree);
     CHECK(piped.status == 2);
@@ -216,6 +218,17 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
         REQUIRE(run.status == 0);
         CHECK(run.out == read_text(folder / "tree.glb"));
     }
+    // Joints of the light skeleton turn; each of those of all segments shifts too.
+    const auto has_shifts = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"export", "-", "-o", "-", "--format", "gltf"});
+        const LscRun run = with(more);
+        REQUIRE(run.status == 0);
+        return run.out.find("\"path\":\"translation\"") != std::string::npos;
+    };
+    CHECK(!has_shifts({}));
+    CHECK(!has_shifts({"--bones", "3"}));
+    CHECK(has_shifts({"--bones", "all"}));
+    CHECK(has_shifts({"--bones", "0"}));
     // Without frames there is no skin.
     const LscRun rest = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
     CHECK(rest.out.find("skins") == std::string::npos);
@@ -231,7 +244,7 @@ TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {
     CHECK(memory.err.find("`--frames`") != std::string::npos);
     const LscRun joints =
         run_lsc({"export", "-", "-o", folder / "a.glb", "--frames", "4", "--wind", "40,0,0",
-                 "--sides", "3"},
+                 "--sides", "3", "--bones", "all"},
                 "#n = 11; #set angle 20; #w : !(0.1) X(2);"
                 "#p : X(l) : * : F(l, 0.01) [ + X(l*0.8) ] [ & X(l*0.8) ] [ - /(90) X(l*0.8) ];");
     CHECK(joints.status == 3);
