@@ -94,7 +94,7 @@ ExitStatus write_plant(Export& run,
     SteadyClock::time_point start = SteadyClock::now();
     if (traits_of(run.format).uses_mesh) {
         MeshOptions options = command.mesh;
-        options.segments = animation != nullptr;
+        options.segments = animation != nullptr || command.wind_data;
         run.mesh = {};
         const ExitStatus status =
             run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
@@ -111,6 +111,7 @@ ExitStatus write_plant(Export& run,
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
+    info.wind_data = command.wind_data;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
@@ -298,6 +299,11 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--bones are joints of an animation: --frames N and {}",
             format_names("or", [](const FormatTraits& each) { return each.motion; }));
+    }
+    if (command.wind_data && !traits_of(format).motion) {
+        return fmt::format(
+            "--wind-data is for shaders, and has a place in {}",
+            format_names("and", [](const FormatTraits& each) { return each.motion; }));
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";

@@ -200,6 +200,10 @@ void add_export(CLI::App& app, ExportCommand& command) {
                "(default 128)")
         ->type_name("N|all")
         ->group("Physics");
+    app.add_flag("--wind-data", command.wind_data,
+                 "Pivot, distance, phase and stiffness in TEXCOORD_1 and TEXCOORD_2 of glTF, for "
+                 "the shaders in scripts/wind")
+        ->group("Physics");
     app.add_flag("--loop", command.loop,
                  "With gusts: the last frame equals the first, and the motion goes on through it")
         ->group("Physics");

@@ -86,6 +86,7 @@ struct ExportCommand {
     bool settle = false;
     /// Max joints of a skin, 0: one for each segment that moves; default 128.
     std::optional<std::uint32_t> bones;
+    bool wind_data = false;   // in vertices, for shaders
     bool loop = false;        // the last frame is the first
     bool grow = false;        // the frames show the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest

@@ -42,7 +42,11 @@ const std::array kCases{
     Case{"boxes", kTree, {"--wind", "3,0,3", "--method", "boxes", "--subdivisions", "1"}},
     Case{"settled", kTree, {"--gravity", "4", "--wind", "2.5,0,1,1", "--settle"}},
     Case{"looping", kTree, {"--wind", "2.5,0,1,0.6", "--loop"}},
-    Case{"bones", kTree, {"--wind", "2.5,0,1,0.6", "--loop"}, {"--bones", "40"}, "0.06"},
+    Case{"bones",
+         kTree,
+         {"--wind", "2.5,0,1,0.6", "--loop"},
+         {"--bones", "40", "--wind-data"},
+         "0.06"},
     Case{"bent", kReed, {"--wind", "2.5,0,1,0.6", "--loop"}, {"--bones", "8"}, "0.06"},
     Case{"reed", kReed, {"--wind", "2.5,0,1", "--threads", "1"}},
 };

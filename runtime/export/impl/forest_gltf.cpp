@@ -74,7 +74,7 @@ void ForestDocument::add_block(const Mesh& mesh, const std::vector<std::uint32_t
     ForestBlock& block = blocks_.emplace_back();
     block.mesh = &mesh;
     block.materials = &materials;
-    block.data = plan_gltf_data(mesh, nullptr, {});
+    block.data = plan_gltf_data(mesh, nullptr, nullptr, {});
     block.coloured.resize(mesh.materials.size());
     for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
         const std::uint32_t material = mesh.parts[p].material;
@@ -87,7 +87,7 @@ void ForestDocument::add_block(const Mesh& mesh, const std::vector<std::uint32_t
 
 void ForestDocument::put_data(const GltfSink& write) const {
     for (const ForestBlock& block : blocks_) {
-        write_gltf_data(*block.mesh, nullptr, block.data,
+        write_gltf_data(*block.mesh, nullptr, nullptr, block.data,
                         [&write](std::span<const std::byte> bytes) { write(bytes); });
     }
     if (instanced()) {

@@ -373,3 +373,19 @@ TEST_CASE("a loop in numbered files ends with its first file, and begins at no r
     CHECK(read_text(folder / "tree.0001.stl") == read_text(folder / "tree.0007.stl"));
     CHECK(read_text(folder / "tree.0001.stl") != read_text(folder / "tree.0004.stl"));
 }
+
+TEST_CASE("wind data are attributes of glTF, which other formats do not have") {
+    const ScratchFolder folder;
+    const LscRun plain = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
+    CHECK(plain.out.find("TEXCOORD_1") == std::string::npos);
+    const LscRun wind =
+        run_lsc({"export", "-", "-o", "-", "--format", "gltf", "--wind-data"}, kTree);
+    REQUIRE(wind.status == 0);
+    CHECK(wind.out.find("\"TEXCOORD_1\":") != std::string::npos);
+    CHECK(wind.out.find("\"TEXCOORD_2\":") != std::string::npos);
+    CHECK(wind.out.find("skins") == std::string::npos);
+    const LscRun refusal = run_lsc({"export", "-", "-o", folder / "a.ply", "--wind-data"}, kTree);
+    CHECK(refusal.status == 2);
+    CHECK(refusal.err.find("glb and gltf") != std::string::npos);
+    CHECK(count_files(folder) == 0);
+}
