@@ -288,7 +288,9 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
 ExitStatus dump_cache(const DumpCommand& command, const Console& console) {
     Project project = make_project(console, command.run);
     const auto exists = project.host.file_exists;
-    project.host.file_exists = [&](const std::string& path) { return path == "-" || exists(path); };
+    project.host.file_exists = [&](const std::string& path) {
+        return is_standard_input(path) || exists(path);
+    };
     SceneOverrides overrides;
     overrides.grammar = command.grammar;
     overrides.seed = command.seed;

@@ -84,6 +84,10 @@ struct ExportCommand {
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
     std::optional<Wind> wind;
     bool settle = false;
+    /// Max joints of a skin, 0: one for each segment that moves; default 128.
+    std::optional<std::uint32_t> bones;
+    bool wind_data = false;   // in vertices, for shaders
+    bool loop = false;        // the last frame is the first
     bool grow = false;        // the frames show the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;

@@ -7,8 +7,10 @@
 #include "runtime/turtle/turtle.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string_view>
+#include <system_error>
 
 namespace lsys {
 
@@ -105,6 +107,32 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
                "Maximum number of modules in a word (default 4294967296)")
         ->type_name("N")
         ->group("Limits");
+}
+
+void add_base(CLI::App& app, RunOptions& run) {
+    const auto folder = [](const std::string& text) -> Result<std::string> {
+        std::error_code ignored;
+        return std::filesystem::is_directory(text, ignored)
+                   ? Result<std::string>(text)
+                   : Error{fmt::format("`{}` is not a folder", text)};
+    };
+    add_parsed(app, "--base", run.base, folder,
+               "For a grammar from standard input: the folder of its #include and #object files "
+               "(default: the current one)")
+        ->type_name("FOLDER")
+        ->group("Grammar");
+}
+
+std::optional<UsageError> apply_base(const RunOptions& run, std::span<std::string> files) {
+    if (run.base.empty()) {
+        return std::nullopt;
+    }
+    if (std::find(files.begin(), files.end(), "-") == files.end()) {
+        return UsageError{"--base is the folder of a grammar from standard input",
+                          "name `-` as FILE, or leave --base out: a file has its own folder"};
+    }
+    std::replace(files.begin(), files.end(), std::string("-"), standard_input_in(run.base));
+    return std::nullopt;
 }
 
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
@@ -263,6 +291,8 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         if (const auto nearest = nearest_name(extra, candidates)) {
             usage.help = fmt::format("did you mean `{}`?", *nearest);
         }
+    } else if (has_code(CLI::ExitCodes::RequiredError) && !app.get_subcommands({}).empty()) {
+        usage.message = "no command is given";
     } else if (has_code(CLI::ExitCodes::RequiredError)) {
         usage.message =
             fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));
