@@ -256,13 +256,47 @@ ExitStatus write_stats(const Export& run, const Plant& plant) {
     return report_result(run.console.write(text), run.console);
 }
 
+bool is_empty(const Skeleton& skeleton) {
+    return skeleton.segments.empty() && skeleton.objects.empty() && skeleton.polygons.empty();
+}
+
+/// Sets `generation` to the first with something to draw, 0 if there is none.
+ExitStatus find_first_drawn(const Export& run, PlantGrowth& growth, std::uint32_t& generation) {
+    Skeleton drawn;
+    for (generation = 0; generation <= growth.last_generation(); ++generation) {
+        const ExitStatus status =
+            run.console.interrupted()
+                ? ExitStatus::Interrupted
+                : run.console.take(growth.pose({generation, 0.0}, run.project, drawn));
+        if (status != ExitStatus::Ok || !is_empty(drawn)) {
+            return status;
+        }
+    }
+    generation = 0;
+    return ExitStatus::Ok;
+}
+
 /// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     const ExportCommand& command = run.command;
+    std::uint32_t first = 0;
+    if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
+        return status;
+    }
+    // From the last generation that draws nothing on. It has no file, as nothing can be written:
+    // the first frame is one step later.
+    const std::uint32_t start = first == 0 ? 0 : first - 1;
+    const std::uint32_t skipped = first == 0 ? 0 : 1;
+    if (first > 0) {
+        run.console.info(fmt::format("nothing is drawn before generation {}; the first frame is on "
+                                     "the way to it",
+                                     first));
+    }
     for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
-        const GrowthMoment moment =
-            moment_of_frame(frame, command.frames, growth.last_generation());
+        GrowthMoment moment = moment_of_frame(frame + skipped, command.frames + skipped,
+                                              growth.last_generation() - start);
+        moment.generation += start;
         ExitStatus status = run.console.interrupted()
                                 ? ExitStatus::Interrupted
                                 : run.console.take(growth.pose(moment, run.project, grown));

@@ -194,6 +194,31 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     CHECK(count_files(folder) == 10);
 }
 
+TEST_CASE("frames that grow begin after the last generation that draws nothing") {
+    const char* const grammar = "#n = 4;\n#w : A;\n#wait : A : * : B;\n#sprout : B : * : F A;\n"
+                                "#wither : F : * : F(2);\n";
+    const auto file_of = [&](const std::string& generations) {
+        return run_lsc({"export", "-", "-o", "-", "--format", "stl", "-n", generations}, grammar)
+            .out;
+    };
+    const ScratchFolder folder;
+    const LscRun run =
+        run_lsc({"export", "-", "-o", folder / "t.stl", "--grow", "--frames", "6"}, grammar);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.find("nothing is drawn before generation 2") != std::string::npos);
+    CHECK(count_files(folder) == 6);
+    // Half a generation from frame to frame: 1.5, 2, 2.5, 3, 3.5, 4.
+    CHECK(read_text(folder / "t.0001.stl") != file_of("2"));
+    CHECK(read_text(folder / "t.0002.stl") == file_of("2"));
+    CHECK(read_text(folder / "t.0004.stl") == file_of("3"));
+    CHECK(read_text(folder / "t.0006.stl") == file_of("4"));
+
+    const LscRun bare = run_lsc({"export", "-", "-o", folder / "no.stl", "--grow", "--frames", "3"},
+                                "#n = 3;\n#w : A;\n");
+    CHECK(bare.status != 0);
+    CHECK(bare.err.find("nothing to draw") != std::string::npos);
+}
+
 TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
     const ScratchFolder folder;
     const std::vector<std::string> force{"--frames", "3", "--fps", "12", "--wind", "8,0,0,0.5"};
