@@ -22,25 +22,6 @@ using ColourBytes = std::array<std::uint8_t, 4>; // linear, opaque
 
 constexpr std::size_t kChunk = 16384; // vertices
 
-bool is_coloured(const Mesh& mesh, const MeshPart& part) {
-    if (!is_complete(mesh, mesh.colours) || mesh.materials[part.material].picture != nullptr) {
-        return false;
-    }
-    const glm::vec3 own(mesh.materials[part.material].colour);
-    std::uint32_t last_colour = ~std::uint32_t{0}; // a palette index with the material's colour
-    TriangleReader indices(mesh.indices);
-    for (std::uint64_t i = 0; i < part.index_count; ++i) {
-        const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
-        if (colour != last_colour) {
-            if (palette_colour(colour) != own) {
-                return true;
-            }
-            last_colour = colour;
-        }
-    }
-    return false;
-}
-
 /// Tolerance of the length: 0.0005, a tenth of that of the glTF validator.
 bool is_unit(const glm::vec3& v) {
     return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
@@ -109,6 +90,33 @@ void write_colours(const Mesh& mesh, const GltfBytes& write) {
 
 } // namespace
 
+bool has_vertex_colours(const Mesh& mesh, const MeshPart& part) {
+    if (!is_complete(mesh, mesh.colours) || mesh.materials[part.material].picture != nullptr) {
+        return false;
+    }
+    const glm::vec3 own(mesh.materials[part.material].colour);
+    std::uint32_t last_colour = ~std::uint32_t{0}; // a palette index with the material's colour
+    TriangleReader indices(mesh.indices);
+    for (std::uint64_t i = 0; i < part.index_count; ++i) {
+        const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
+        if (colour != last_colour) {
+            if (palette_colour(colour) != own) {
+                return true;
+            }
+            last_colour = colour;
+        }
+    }
+    return false;
+}
+
+glm::vec3 valid_normal(const glm::vec3& normal) {
+    return is_valid(normal) ? normal : corrected(normal);
+}
+
+glm::vec4 valid_tangent(const glm::vec4& tangent) {
+    return is_valid(tangent) ? tangent : corrected(tangent);
+}
+
 std::size_t GltfData::first_view(GltfArray array) const {
     const auto found = std::find_if(views.begin(), views.end(),
                                     [array](const GltfView& view) { return view.array == array; });
@@ -116,12 +124,12 @@ std::size_t GltfData::first_view(GltfArray array) const {
 }
 
 GltfData
-plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images) {
+plan_gltf_data(const Mesh& mesh, const GltfMotion* /*motion*/, std::vector<std::string> images) {
     GltfData data;
     data.images = std::move(images);
     bool any_coloured = false;
     for (const MeshPart& part : mesh.parts) {
-        data.coloured.push_back(is_coloured(mesh, part));
+        data.coloured.push_back(has_vertex_colours(mesh, part));
         any_coloured = any_coloured || data.coloured.back();
     }
     const auto add = [&data](GltfArray array, std::uint64_t bytes, std::size_t image) {
@@ -140,21 +148,7 @@ plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::stri
     if (any_coloured) {
         add(GltfArray::Colours, vertices * sizeof(ColourBytes), 0);
     }
-    if (motion != nullptr) {
-        add(GltfArray::Joints, vertices * 4 * motion->joint_bytes(), 0);
-        add(GltfArray::Weights, vertices * 4, 0);
-    }
     add(GltfArray::Indices, mesh.indices.size() * sizeof(std::uint32_t), 0);
-    if (motion != nullptr) {
-        const std::uint64_t keys =
-            std::uint64_t{motion->poses.frame_count} * motion->moving_joints();
-        add(GltfArray::InverseBinds, motion->skin.joint_count() * sizeof(glm::mat4), 0);
-        add(GltfArray::Times, motion->poses.frame_count * sizeof(float), 0);
-        if (keys > 0) {
-            add(GltfArray::Translations, keys * sizeof(glm::vec3), 0);
-            add(GltfArray::Rotations, keys * sizeof(glm::quat), 0);
-        }
-    }
     for (std::size_t i = 0; i < data.images.size(); ++i) {
         add(GltfArray::Image, data.images[i].size(), i);
     }
@@ -162,7 +156,7 @@ plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::stri
 }
 
 void write_gltf_data(const Mesh& mesh,
-                     const GltfMotion* motion,
+                     const GltfMotion* /*motion*/,
                      const GltfData& data,
                      const GltfBytes& write) {
     for (const GltfView& view : data.views) {
@@ -182,29 +176,11 @@ void write_gltf_data(const Mesh& mesh,
         case GltfArray::Colours:
             write_colours(mesh, write);
             break;
-        case GltfArray::Joints:
-            write_vertex_joints(mesh, *motion, write);
-            break;
-        case GltfArray::Weights:
-            write_vertex_weights(mesh, *motion, write);
-            break;
-        case GltfArray::InverseBinds:
-            write_inverse_binds(*motion, write);
-            break;
-        case GltfArray::Times:
-            write_times(*motion, write);
-            break;
-        case GltfArray::Translations:
-            write_translations(*motion, write);
-            break;
-        case GltfArray::Rotations:
-            write_rotations(*motion, write);
-            break;
         case GltfArray::Indices:
             for_each_chunk(mesh.indices,
                            [&](std::uint64_t, auto part) { write(std::as_bytes(part)); });
             break;
-        case GltfArray::Image: {
+        default: {
             std::string padded = data.images[view.image];
             padded.resize((padded.size() + 3) / 4 * 4, '\0');
             write(std::as_bytes(std::span(padded)));

@@ -46,7 +46,14 @@ struct GltfData {
     [[nodiscard]] std::size_t first_view(GltfArray array) const;
 };
 
-/// Plans the buffer, images last. Without `motion` there is no skin.
+/// Whether vertices of a part have palette colours that differ from the material's.
+[[nodiscard]] bool has_vertex_colours(const Mesh& mesh, const MeshPart& part);
+/// The direction itself if it is of unit length, else its unit vector; where it has none, an axis.
+[[nodiscard]] glm::vec3 valid_normal(const glm::vec3& normal);
+/// As valid_normal(); w is 1 or -1.
+[[nodiscard]] glm::vec4 valid_tangent(const glm::vec4& tangent);
+
+/// Plans the buffer, images last. No skins: `motion` is null.
 [[nodiscard]] GltfData
 plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images);
 

@@ -28,14 +28,16 @@ Influence influence_of(const VertexSegments& segments, const Skin& skin) {
 }
 
 template <typename Item, typename ItemOf>
-void write_vertices(const Mesh& mesh, const GltfBytes& write, const ItemOf& item_of) {
+void write_vertices(const Mesh& mesh,
+                    std::span<const std::uint32_t> vertices,
+                    const GltfBytes& write,
+                    const ItemOf& item_of) {
     std::vector<std::array<Item, 4>> chunk;
-    const std::span<const VertexSegments> all(mesh.segments);
-    for (std::size_t first = 0; first < all.size(); first += kChunk) {
+    for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
         chunk.clear();
-        for (const VertexSegments& segments :
-             all.subspan(first, std::min(kChunk, all.size() - first))) {
-            chunk.push_back(item_of(segments));
+        for (const std::uint32_t vertex :
+             vertices.subspan(first, std::min(kChunk, vertices.size() - first))) {
+            chunk.push_back(item_of(mesh.segments[vertex]));
         }
         write(std::as_bytes(std::span<const std::array<Item, 4>>(chunk)));
     }
@@ -48,14 +50,17 @@ float time_of(const PlantAnimation& poses, std::uint32_t frame) {
 
 } // namespace
 
-void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
+void write_vertex_joints(const Mesh& mesh,
+                         std::span<const std::uint32_t> vertices,
+                         const GltfMotion& motion,
+                         const GltfBytes& write) {
     if (motion.joint_bytes() == 2) {
-        write_vertices<std::uint16_t>(mesh, write, [&](const VertexSegments& segments) {
+        write_vertices<std::uint16_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
             return influence_of(segments, motion.skin).joints;
         });
         return;
     }
-    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
+    write_vertices<std::uint8_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
         std::array<std::uint8_t, 4> bytes{};
         const Influence influence = influence_of(segments, motion.skin);
         for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -65,21 +70,25 @@ void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfB
     });
 }
 
-void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
-    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
+void write_vertex_weights(const Mesh& mesh,
+                          std::span<const std::uint32_t> vertices,
+                          const GltfMotion& motion,
+                          const GltfBytes& write) {
+    write_vertices<std::uint8_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
         return influence_of(segments, motion.skin).weights;
     });
 }
 
-void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write) {
-    const glm::mat4 identity(1.0F);
-    write(std::as_bytes(std::span(&identity, 1)));
+void write_inverse_binds(const GltfMotion& motion,
+                         const glm::mat4& decode,
+                         const GltfBytes& write) {
+    write(std::as_bytes(std::span(&decode, 1)));
     for (const std::uint32_t segment : motion.skin.segments) {
         const SegmentPlace& place = motion.poses.frame(0)[segment];
         const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(place.frame)));
         glm::dmat4 inverse = glm::mat4_cast(back);
         inverse[3] = glm::dvec4(back * -glm::dvec3(place.base), 1.0);
-        const glm::mat4 matrix(inverse);
+        const glm::mat4 matrix(inverse * glm::dmat4(decode));
         write(std::as_bytes(std::span(&matrix, 1)));
     }
 }
@@ -137,22 +146,20 @@ void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t fir
     }
 }
 
-void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
+void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view) {
     const std::uint32_t frames = motion.poses.frame_count;
-    const std::size_t binds = data.first_view(GltfArray::InverseBinds);
-    begin_accessor(json, {binds, {}, kGltfFloat, motion.skin.joint_count(), "MAT4"}).end();
-    begin_accessor(json, {data.first_view(GltfArray::Times), {}, kGltfFloat, frames, "SCALAR"})
+    begin_accessor(json, {first_view, {}, kGltfFloat, motion.skin.joint_count(), "MAT4"}).end();
+    begin_accessor(json, {first_view + 1, {}, kGltfFloat, frames, "SCALAR"})
         .member("min", {0})
         .member("max", {static_cast<double>(time_of(motion.poses, frames - 1))})
         .end();
-    const auto put_channels = [&](GltfArray array, std::size_t bytes, const char* type) {
-        const std::size_t view = data.first_view(array);
+    const auto put_channels = [&](std::size_t view, std::size_t bytes, const char* type) {
         for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
             begin_accessor(json, {view, i * frames * bytes, kGltfFloat, frames, type}).end();
         }
     };
-    put_channels(GltfArray::Translations, sizeof(glm::vec3), "VEC3");
-    put_channels(GltfArray::Rotations, sizeof(glm::quat), "VEC4");
+    put_channels(first_view + 2, sizeof(glm::vec3), "VEC3");
+    put_channels(first_view + 3, sizeof(glm::quat), "VEC4");
 }
 
 void put_skin_and_animation(JsonWriter& json,

@@ -107,17 +107,35 @@ void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,
                   bool coloured) {
-    const glm::vec4 colour = glm::clamp(
-        coloured ? glm::vec4(1.0F, 1.0F, 1.0F, material.colour.a) : material.colour, 0.0F, 1.0F);
-    json.object().member("name", material.name).object("pbrMetallicRoughness");
+    put_material(json, material, shown,
+                 {material.name, coloured ? glm::vec3(1.0F) : glm::vec3(material.colour), {}});
+}
+
+void put_material(JsonWriter& json,
+                  const Material& material,
+                  const MaterialPictures& shown,
+                  const GltfMaterial& look) {
+    const auto put_texture = [&](const char* name, std::size_t texture) {
+        json.object(name).member("index", texture);
+        if (look.transform) {
+            const glm::vec2& offset = look.transform->offset;
+            const glm::vec2& scale = look.transform->scale;
+            json.object("extensions").object("KHR_texture_transform");
+            json.member("offset", {offset.x, offset.y}).member("scale", {scale.x, scale.y});
+            json.end().end();
+        }
+        json.end();
+    };
+    const glm::vec4 colour = glm::clamp(glm::vec4(look.colour, material.colour.a), 0.0F, 1.0F);
+    json.object().member("name", look.name).object("pbrMetallicRoughness");
     json.member("baseColorFactor", {colour.r, colour.g, colour.b, colour.a});
     if (shown.colour) {
-        json.object("baseColorTexture").member("index", *shown.colour).end();
+        put_texture("baseColorTexture", *shown.colour);
     }
     json.member("metallicFactor", 0);
     json.member("roughnessFactor", material.kind == MaterialKind::Bark ? 0.95 : 0.7).end();
     if (shown.relief) {
-        json.object("normalTexture").member("index", *shown.relief).end();
+        put_texture("normalTexture", *shown.relief);
     }
     if (material.cut_out) {
         json.member("alphaMode", "MASK").member("alphaCutoff", 0.5);
@@ -130,7 +148,9 @@ void put_material(JsonWriter& json,
     json.end();
 }
 
-void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t first_view) {
+void put_images(JsonWriter& json,
+                const std::vector<Picture>& list,
+                std::optional<std::size_t> first_view) {
     constexpr int kRepeat = 10497;
     constexpr int kClampToEdge = 33071;
     const auto is_leaf = [](const Picture& picture) {
@@ -151,8 +171,12 @@ void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t 
     }
     json.end().array("images");
     for (std::size_t i = 0; i < list.size(); ++i) {
-        json.object().member("name", list[i].name).member("mimeType", "image/png");
-        json.member("bufferView", first_view + i).end();
+        json.object().member("name", list[i].name);
+        if (first_view) {
+            json.member("mimeType", "image/png").member("bufferView", *first_view + i).end();
+        } else {
+            json.member("uri", uri_text(list[i].name)).end();
+        }
     }
     json.end();
 }
@@ -163,7 +187,9 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
         json.object();
         file.put_members(json);
         json.array("buffers").object().member("byteLength", file.data_bytes);
-        if (!file.binary) {
+        if (!file.data_name.empty()) {
+            json.member("uri", uri_text(file.data_name));
+        } else if (!file.binary) {
             json.name("uri").text([&] {
                 to.put("data:application/octet-stream;base64,");
                 Base64Writer base64(to);
@@ -174,7 +200,12 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
                 base64.finish();
             });
         }
-        json.end().end().end();
+        json.end();
+        if (file.decoded_bytes > 0) {
+            json.object().member("byteLength", file.decoded_bytes).object("extensions");
+            json.object("EXT_meshopt_compression").member("fallback", true).end().end().end();
+        }
+        json.end().end();
     };
     if (!file.binary) {
         put_document(out);
