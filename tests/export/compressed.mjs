@@ -28,6 +28,8 @@ export function primitivesOf(document) {
                 NORMAL: items('NORMAL'),
                 TANGENT: items('TANGENT'),
                 COLOR_0: items('COLOR_0'),
+                TEXCOORD_1: items('TEXCOORD_1'),
+                TEXCOORD_2: items('TEXCOORD_2'),
                 TEXCOORD_0: items('TEXCOORD_0')?.map(uv => transform === null || transform === undefined
                     ? uv : uv.map((x, i) => transform.getOffset()[i] + transform.getScale()[i] * x)),
             });

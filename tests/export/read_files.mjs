@@ -2,7 +2,7 @@
 //   node read_files.mjs MODULES (validator | three | compressed | motion | obj | svg | off+ | usda |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
-// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS` for each that moves.
+// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each that moves.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
@@ -52,8 +52,8 @@ function counts() {
         .map(line => {
             const [name, ...numbers] = line.split(' ');
             const [vertices, triangles, parts] = numbers.map(Number);
-            const [frames, fps] = numbers.map(Number); // of those that move
-            return { name, vertices, triangles, parts, frames, fps };
+            const [frames, fps, metres] = numbers.map(Number); // of those that move
+            return { name, vertices, triangles, parts, frames, fps, metres };
         });
 }
 
@@ -92,6 +92,38 @@ async function threeAndLoader() {
     const three = await module('three/build/three.module.js');
     const { GLTFLoader } = await module('three/examples/jsm/loaders/GLTFLoader.js');
     return { three, GLTFLoader };
+}
+
+// glTF-Transform with every extension, and the validator for files and for what it has decoded.
+async function transformer() {
+    const core = await module('@gltf-transform/core/dist/index.js');
+    const { ALL_EXTENSIONS } = await module('@gltf-transform/extensions/dist/index.js');
+    const { MeshoptDecoder } = await module('three/examples/jsm/libs/meshopt_decoder.module.js');
+    const validator = require('gltf-validator');
+    await MeshoptDecoder.ready;
+    const io = new core.NodeIO().registerExtensions(ALL_EXTENSIONS)
+        .registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
+    const expectValid = async (file, bytes, uri) => {
+        const report = await validator.validateBytes(new Uint8Array(bytes), {
+            uri, maxIssues: 100,
+            externalResourceFunction: async name =>
+                new Uint8Array(readFileSync(join(folder, decodeURIComponent(name)))),
+        });
+        const { numErrors, numWarnings, messages } = report.issues;
+        const bad = messages.filter(issue => issue.severity < 2);
+        expect(file, `errors and warnings of ${uri} ${JSON.stringify(bad.slice(0, 3))}`,
+               numErrors + numWarnings, 0);
+    };
+    // The document without EXT_meshopt_compression.
+    const expectValidDecoded = async (file, document) => {
+        for (const extension of document.getRoot().listExtensionsUsed()) {
+            if (extension.extensionName === 'EXT_meshopt_compression') {
+                extension.dispose();
+            }
+        }
+        await expectValid(file, await io.writeBinary(document), `${file} decoded`);
+    };
+    return { io, MeshoptDecoder, expectValid, expectValidDecoded };
 }
 
 function arrayBuffer(file) {
@@ -178,25 +210,8 @@ const checks = {
     // Compressed files hold the numbers of the plain one within half a step, files with a buffer of
     // their own exactly; decoded by glTF-Transform they are valid without any extension.
     async compressed() {
-        const core = await module('@gltf-transform/core/dist/index.js');
-        const { ALL_EXTENSIONS } = await module('@gltf-transform/extensions/dist/index.js');
-        const { MeshoptDecoder } = await module('three/examples/jsm/libs/meshopt_decoder.module.js');
+        const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
         const { three, GLTFLoader } = await threeAndLoader();
-        const validator = require('gltf-validator');
-        await MeshoptDecoder.ready;
-        const io = new core.NodeIO().registerExtensions(ALL_EXTENSIONS)
-            .registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
-        const valid = async (file, bytes, uri) => {
-            const report = await validator.validateBytes(new Uint8Array(bytes), {
-                uri, maxIssues: 100,
-                externalResourceFunction: async name =>
-                    new Uint8Array(readFileSync(join(folder, decodeURIComponent(name)))),
-            });
-            const { numErrors, numWarnings, messages } = report.issues;
-            const bad = messages.filter(issue => issue.severity < 2);
-            expect(file, `errors and warnings of ${uri} ${JSON.stringify(bad.slice(0, 3))}`,
-                   numErrors + numWarnings, 0);
-        };
         // Tolerances: positions in parts of the extent, directions, texture coordinates in tiles.
         const forms = [
             ['separate.gltf', 0, 0, 0],
@@ -243,14 +258,9 @@ const checks = {
                            `${other.material.getBaseColorFactor()}`);
                 });
                 if (!ending.startsWith('meshopt')) {
-                    await valid(file, readFileSync(join(folder, file)), file);
+                    await expectValid(file, readFileSync(join(folder, file)), file);
                 } else {
-                    for (const extension of document.getRoot().listExtensionsUsed()) {
-                        if (extension.extensionName === 'EXT_meshopt_compression') {
-                            extension.dispose();
-                        }
-                    }
-                    await valid(file, await io.writeBinary(document), `${name} decoded.glb`);
+                    await expectValidDecoded(file, document);
                 }
                 if (ending === 'meshopt.glb') {
                     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
@@ -279,6 +289,7 @@ const checks = {
             const frame = number => readPlyPositions(readFileSync(
                 join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`)));
             const first = frame(0);
+            const loops = ['looping', 'bones', 'bent'].includes(mesh.name);
             let moved = 0;
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const expected = frame(number);
@@ -292,14 +303,19 @@ const checks = {
                 expect(file, `vertices in frame ${number}`, used.size > 0.9 * first.length, true);
                 const off = found.map(vertex => Math.min(Infinity, ...(at.get(`${vertex.rest}`) ?? [])
                     .map(i => distance(vertex.at, expected[i]))));
-                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : 1e-2;
+                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : mesh.metres || 1e-2;
                 expect(file, `frame ${number}: off by more than ${most}`,
                        off.filter(d => !(d <= most)).length, 0);
-                expect(file, `frame ${number}: a twentieth is off by a millimetre`,
-                       off.filter(d => !(d <= 1e-3)).length > off.length / 20, false);
+                const [part, near] = mesh.metres ? [0.5, mesh.metres / 4] : [0.05, 1e-3];
+                expect(file, `frame ${number}: ${part} of the vertices are off by ${near} m`,
+                       off.filter(d => !(d <= near)).length > part * off.length, false);
+                if (loops && number === mesh.frames - 1) {
+                    const seam = Math.max(...expected.map((to, i) => distance(to, first[i])));
+                    expect(file, 'the last frame is the first', seam < 1e-5, true);
+                }
                 moved = Math.max(moved, ...expected.map((to, i) => distance(to, first[i])));
             }
-            expect(file, 'it moves', moved > 0.1, true);
+            expect(file, 'it moves', moved > (loops ? 0.01 : 0.1), true);
             const turns = gltf.animations[0].tracks.filter(t => t.name.endsWith('.quaternion'));
             expect(file, 'number of rotations', turns.length > 2, true);
             for (const { name, values } of turns) {
@@ -307,6 +323,45 @@ const checks = {
                     const dot = [0, 1, 2, 3].reduce((sum, k) => sum + values[i + k] * values[i + k - 4], 0);
                     expect(file, `key ${i / 4} of ${name} is on the side of the one before`, dot > 0, true);
                 }
+            }
+        });
+        // Compressed, each vertex moves as the plain one, and wind data are within their rounding.
+        const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
+        await eachMesh(['quantize.glb', 'meshopt.glb'], async (file, mesh) => {
+            const load = name => {
+                const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+                loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+                return loader.parseAsync(arrayBuffer(name), '');
+            };
+            const meshopt = file.endsWith('meshopt.glb');
+            const plainDocument = await io.read(join(folder, `${mesh.name}.glb`));
+            const document = await io.read(join(folder, file));
+            const plain = primitivesOf(plainDocument);
+            const step = extentOf(plain) / (meshopt ? 16383 : 65535);
+            const gltf = await load(file);
+            const other = await load(`${mesh.name}.glb`);
+            for (const number of [0, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
+                const expected = posedVertices(three, other, number / mesh.fps);
+                const found = posedVertices(three, gltf, number / mesh.fps);
+                expect(file, 'number of vertices', found.length, expected.length);
+                const off = Math.max(...found.map((v, i) => distance(v.at, expected[i].at)));
+                expect(file, `frame ${number}: off by ${off}, steps are ${step}`,
+                       off <= 0.87 * step + 1e-5, true); // half a step along each axis
+            }
+            primitivesOf(document).forEach((one, i) => {
+                for (const [attribute, most] of [['TEXCOORD_1', meshopt ? 0.5 * step : 0],
+                                                 ['TEXCOORD_2', 0.501 / 65535]]) {
+                    expect(file, `${attribute} of primitive ${i}`, one[attribute]?.length,
+                           plain[i][attribute]?.length);
+                    const off = greatestDifference(one[attribute] ?? [], plain[i][attribute] ?? []);
+                    expect(file, `${attribute} of primitive ${i} off by ${off} of ${most}`,
+                           off <= most, true);
+                }
+            });
+            if (meshopt) {
+                await expectValidDecoded(file, document);
+            } else {
+                await expectValid(file, readFileSync(join(folder, file)), file);
             }
         });
     },

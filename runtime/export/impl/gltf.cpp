@@ -23,10 +23,14 @@ namespace {
 /// The skin, pictures and arrays of a file.
 struct Contents {
     std::optional<GltfMotion> motion;
+    std::optional<WindData> wind;
     Pictures pictures;
     GltfStreams streams;
 
     [[nodiscard]] const GltfMotion* moving() const { return motion ? &*motion : nullptr; }
+    [[nodiscard]] GltfPlant plant(const Mesh& mesh) const {
+        return {mesh, moving(), wind ? &*wind : nullptr};
+    }
 };
 
 /// Writes the members of the document but its buffers.
@@ -61,18 +65,18 @@ public:
 private:
     /// Whether positions have a node of their own that decodes them. Joints decode those of a skin.
     [[nodiscard]] bool has_decoding_node() const {
-        return streams_.quantized() && motion_ == nullptr;
+        return streams_.forms.front().quantized() && motion_ == nullptr;
     }
     /// The number of the node of joint 0.
     [[nodiscard]] static std::size_t first_joint() { return 1; }
 
     void put_extensions() {
-        if (!streams_.quantized()) {
+        if (!streams_.forms.front().quantized()) {
             return;
         }
         const bool transforms =
-            std::any_of(streams_.texture_forms.begin(), streams_.texture_forms.end(),
-                        [](const GltfTextureForm& form) { return form.transform.has_value(); });
+            std::any_of(streams_.forms.begin(), streams_.forms.end(),
+                        [](const GltfForm& form) { return form.texture.transform.has_value(); });
         for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
             json_.array(list).value("KHR_mesh_quantization");
             if (transforms) {
@@ -104,8 +108,8 @@ private:
         json_.object("extras").member("grammar", info_.grammar).member("seed", info_.seed);
         json_.member("n", info_.generations).end().end();
         if (has_decoding_node()) {
-            const glm::vec3& low = streams_.low;
-            const float step = streams_.step;
+            const glm::vec3& low = streams_.forms.front().low;
+            const float step = streams_.forms.front().step;
             json_.object().member("mesh", 0).member("translation", {low.x, low.y, low.z});
             json_.member("scale", {step, step, step}).end();
         }
@@ -138,7 +142,7 @@ private:
             const GltfPrimitive& primitive = streams_.primitives.list[i];
             const std::uint32_t number = mesh_.parts[primitive.parts.front().part].material;
             GltfMaterial look{mesh_.materials[number].name, primitive.colour,
-                              streams_.texture_forms[i].transform};
+                              streams_.forms[i].texture.transform};
             if (primitive.colours == GltfColours::Material) {
                 look.name += fmt::format(", {} colours", primitive.parts.size());
             }
@@ -183,7 +187,10 @@ Outcome<Contents> plan(const ExportJob& job) {
     if (job.mesh.positions.size() * vertex_bytes > kMaxGltfBytes) {
         return refuse_size(info.subject);
     }
-    if (info.animation != nullptr) {
+    if (info.animation != nullptr && info.max_joints != 0) {
+        contents.motion.emplace(GltfMotion{
+            {}, *info.animation, make_bones(job.skeleton, *info.animation, info.max_joints)});
+    } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
             return {Stop::Limit,
@@ -192,7 +199,10 @@ Outcome<Contents> plan(const ExportJob& job) {
                         "ask for fewer generations with `-n`, or for a numbered series in "
                         "another format, which is any but glTF: `-o tree.ply`"))};
         }
-        contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation});
+        contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
+    }
+    if (info.wind_data) {
+        contents.wind.emplace(job.skeleton);
     }
     contents.pictures = find_pictures(job.mesh, ExportPictures::Inside, info);
     std::vector<std::string> images;
@@ -200,7 +210,7 @@ Outcome<Contents> plan(const ExportJob& job) {
         images = encode_pictures(contents.pictures.list, info.threads);
     }
     contents.streams =
-        plan_gltf_streams(job.mesh, contents.moving(), contents.pictures, std::move(images), info);
+        plan_gltf_streams(contents.plant(job.mesh), contents.pictures, std::move(images), info);
     if (contents.streams.bytes > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
         return refuse_size(info.subject);
     }
@@ -224,7 +234,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     file.data_name = job.info.buffer_name;
     file.decoded_bytes = streams.decoded_bytes;
     file.put_data = [&](const GltfSink& write_bytes) {
-        write_gltf_streams(job.mesh, contents.moving(), streams, write_bytes);
+        write_gltf_streams(contents.plant(job.mesh), streams, write_bytes);
     };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
 }
@@ -252,7 +262,7 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
             return {planned.stop(), std::move(planned.messages())};
         }
         PieceWriter out(sink);
-        write_gltf_streams(mesh, planned.value().moving(), planned.value().streams,
+        write_gltf_streams(planned.value().plant(mesh), planned.value().streams,
                            [&out](std::span<const std::byte> bytes) {
                                out.put_bytes(bytes);
                                return !out.stopped();

@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 namespace lsys {
 
 namespace {
-
-constexpr std::size_t kChunk = 16384; // vertices
 
 struct Influence {
     std::array<std::uint16_t, 4> joints{};
@@ -27,20 +26,34 @@ Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     return first == second ? Influence{{first}, {255}} : Influence{{first, second}, {128, 127}};
 }
 
-template <typename Item, typename ItemOf>
-void write_vertices(const Mesh& mesh,
-                    std::span<const std::uint32_t> vertices,
-                    const GltfBytes& write,
-                    const ItemOf& item_of) {
-    std::vector<std::array<Item, 4>> chunk;
-    for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
-        chunk.clear();
-        for (const std::uint32_t vertex :
-             vertices.subspan(first, std::min(kChunk, vertices.size() - first))) {
-            chunk.push_back(item_of(mesh.segments[vertex]));
-        }
-        write(std::as_bytes(std::span<const std::array<Item, 4>>(chunk)));
+/// Weights as bytes that add up to 255: each rounded down, the rest to those that lost most.
+Influence influence_of(const BoneWeights& weights) {
+    Influence influence;
+    std::array<float, 4> lost{};
+    int left = 255;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const float wanted = 255.0F * weights.weights[i];
+        const int whole = std::min(static_cast<int>(wanted), left);
+        influence.weights[i] = static_cast<std::uint8_t>(whole);
+        lost[i] = weights.weights[i] > 0.0F ? wanted - static_cast<float>(whole) : -1.0F;
+        left -= whole;
     }
+    for (; left > 0; --left) {
+        const auto most = std::max_element(lost.begin(), lost.end());
+        ++influence.weights[static_cast<std::size_t>(most - lost.begin())];
+        *most -= 1.0F;
+    }
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        influence.joints[i] = influence.weights[i] > 0 ? weights.joints[i] : std::uint16_t{0};
+    }
+    return influence;
+}
+
+/// Joints and weights of a vertex.
+Influence influence_at(const Mesh& mesh, const GltfMotion& motion, std::size_t vertex) {
+    return motion.bones ? influence_of(motion.bones->weights_of(mesh.segments[vertex],
+                                                                mesh.positions[vertex]))
+                        : influence_of(mesh.segments[vertex], motion.skin);
 }
 
 float time_of(const PlantAnimation& poses, std::uint32_t frame) {
@@ -50,19 +63,35 @@ float time_of(const PlantAnimation& poses, std::uint32_t frame) {
 
 } // namespace
 
+std::uint64_t GltfMotion::time_count() const {
+    return bones ? rotation_count() : poses.frame_count;
+}
+std::uint64_t GltfMotion::translation_count() const {
+    return bones ? 0 : std::uint64_t{poses.frame_count} * moving_joints();
+}
+std::uint64_t GltfMotion::rotation_count() const {
+    if (!bones) {
+        return std::uint64_t{poses.frame_count} * moving_joints();
+    }
+    std::uint64_t count = 0;
+    for (const Bone& bone : bones->joints) {
+        count += bone.keys.size();
+    }
+    return count;
+}
+
 void write_vertex_joints(const Mesh& mesh,
                          std::span<const std::uint32_t> vertices,
                          const GltfMotion& motion,
                          const GltfBytes& write) {
     if (motion.joint_bytes() == 2) {
-        write_vertices<std::uint16_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
-            return influence_of(segments, motion.skin).joints;
-        });
+        write_each(vertices, write,
+                   [&](std::uint32_t vertex) { return influence_at(mesh, motion, vertex).joints; });
         return;
     }
-    write_vertices<std::uint8_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
+    write_each(vertices, write, [&](std::uint32_t vertex) {
+        const Influence influence = influence_at(mesh, motion, vertex);
         std::array<std::uint8_t, 4> bytes{};
-        const Influence influence = influence_of(segments, motion.skin);
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             bytes[i] = static_cast<std::uint8_t>(influence.joints[i]);
         }
@@ -74,27 +103,44 @@ void write_vertex_weights(const Mesh& mesh,
                           std::span<const std::uint32_t> vertices,
                           const GltfMotion& motion,
                           const GltfBytes& write) {
-    write_vertices<std::uint8_t>(mesh, vertices, write, [&](const VertexSegments& segments) {
-        return influence_of(segments, motion.skin).weights;
-    });
+    write_each(vertices, write,
+               [&](std::uint32_t vertex) { return influence_at(mesh, motion, vertex).weights; });
 }
 
 void write_inverse_binds(const GltfMotion& motion,
                          const glm::mat4& decode,
                          const GltfBytes& write) {
     write(std::as_bytes(std::span(&decode, 1)));
-    for (const std::uint32_t segment : motion.skin.segments) {
-        const SegmentPlace& place = motion.poses.frame(0)[segment];
-        const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(place.frame)));
+    const auto put = [&](const glm::dvec3& base, const glm::dquat& frame) {
+        const glm::dquat back = glm::conjugate(glm::normalize(frame));
         glm::dmat4 inverse = glm::mat4_cast(back);
-        inverse[3] = glm::dvec4(back * -glm::dvec3(place.base), 1.0);
+        inverse[3] = glm::dvec4(back * -base, 1.0);
         const glm::mat4 matrix(inverse * glm::dmat4(decode));
         write(std::as_bytes(std::span(&matrix, 1)));
+    };
+    if (motion.bones) {
+        for (const Bone& bone : std::span(motion.bones->joints).subspan(1)) {
+            put(bone.place, bone.frame);
+        }
+        return;
+    }
+    for (const std::uint32_t segment : motion.skin.segments) {
+        const SegmentPlace& place = motion.poses.frame(0)[segment];
+        put(glm::dvec3(place.base), glm::dquat(place.frame));
     }
 }
 
 void write_times(const GltfMotion& motion, const GltfBytes& write) {
     std::vector<float> times;
+    if (motion.bones) {
+        for (const Bone& bone : motion.bones->joints) {
+            for (const std::uint32_t key : bone.keys) {
+                times.push_back(time_of(motion.poses, key));
+            }
+        }
+        write(std::as_bytes(std::span<const float>(times)));
+        return;
+    }
     for (std::uint32_t i = 0; i < motion.poses.frame_count; ++i) {
         times.push_back(time_of(motion.poses, i));
     }
@@ -115,6 +161,16 @@ void write_translations(const GltfMotion& motion, const GltfBytes& write) {
 void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
     std::vector<glm::quat> rotations;
     std::vector<std::array<float, 4>> ordered;
+    if (motion.bones) {
+        for (const Bone& bone : motion.bones->joints) {
+            for (const std::uint32_t key : bone.keys) {
+                const glm::quat& q = bone.rotations[key];
+                ordered.push_back({q.x, q.y, q.z, q.w});
+            }
+        }
+        write(std::as_bytes(std::span<const std::array<float, 4>>(ordered)));
+        return;
+    }
     for (const std::uint32_t segment : motion.skin.segments) {
         joint_rotations(motion.poses, segment, rotations);
         ordered.clear();
@@ -125,7 +181,87 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
     }
 }
 
+namespace {
+
+/// Nodes of a light skeleton: each joint is a child of the one that its piece grows from.
+void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
+    std::vector<std::vector<std::size_t>> children(bones.joints.size());
+    for (std::size_t i = 1; i < bones.joints.size(); ++i) {
+        children[bones.joints[i].parent].push_back(first + i);
+    }
+    for (std::size_t i = 0; i < bones.joints.size(); ++i) {
+        const Bone& bone = bones.joints[i];
+        json.object().member("name", i == 0 ? std::string("joints")
+                                            : fmt::format("segment {}", bone.segment));
+        if (i > 0) {
+            const glm::vec3& at = bone.translation;
+            const glm::quat& q = bone.rotations.front();
+            json.member("translation", {at.x, at.y, at.z});
+            json.member("rotation", {q.x, q.y, q.z, q.w});
+        }
+        if (!children[i].empty()) {
+            json.array("children");
+            for (const std::size_t child : children[i]) {
+                json.value(child);
+            }
+            json.end();
+        }
+        json.end();
+    }
+}
+
+/// Times and rotations in views `times` and `rotations`.
+void put_bone_accessors(JsonWriter& json,
+                        const GltfMotion& motion,
+                        std::size_t times,
+                        std::size_t rotations) {
+    std::size_t key = 0;
+    for (const Bone& bone : motion.bones->joints) {
+        if (bone.keys.empty()) {
+            continue;
+        }
+        const std::size_t count = bone.keys.size();
+        begin_accessor(json, {times, key * sizeof(float), kGltfFloat, count, "SCALAR"})
+            .member("min", {static_cast<double>(time_of(motion.poses, bone.keys.front()))})
+            .member("max", {static_cast<double>(time_of(motion.poses, bone.keys.back()))})
+            .end();
+        begin_accessor(json, {rotations, key * sizeof(glm::quat), kGltfFloat, count, "VEC4"}).end();
+        key += count;
+    }
+}
+
+/// Channels and samplers of a light skeleton. `accessor`: of the first times.
+void put_bone_animation(JsonWriter& json,
+                        const Bones& bones,
+                        std::size_t first_node,
+                        std::size_t accessor) {
+    if (std::all_of(bones.joints.begin(), bones.joints.end(),
+                    [](const Bone& bone) { return bone.keys.empty(); })) {
+        return; // an animation has at least one channel
+    }
+    json.array("animations").object().member("name", "motion").array("channels");
+    std::size_t sampler = 0;
+    for (std::size_t i = 0; i < bones.joints.size(); ++i) {
+        if (!bones.joints[i].keys.empty()) {
+            json.object().member("sampler", sampler++).object("target");
+            json.member("node", first_node + i).member("path", "rotation").end().end();
+        }
+    }
+    json.end().array("samplers");
+    for (std::size_t i = 0; i < sampler; ++i) {
+        json.object().member("input", accessor + 2 * i);
+        json.member("output", accessor + 2 * i + 1).end();
+    }
+    json.end().end().end();
+}
+
+} // namespace
+
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first) {
+    if (motion.bones) {
+        put_bone_nodes(json, *motion.bones, first);
+        return;
+    }
     json.object().member("name", "joints");
     if (motion.moving_joints() > 0) {
         json.array("children");
@@ -148,8 +284,15 @@ void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t fir
 
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view) {
     const std::uint32_t frames = motion.poses.frame_count;
-    begin_accessor(json, {first_view, {}, kGltfFloat, motion.skin.joint_count(), "MAT4"}).end();
-    begin_accessor(json, {first_view + 1, {}, kGltfFloat, frames, "SCALAR"})
+    const std::size_t times = first_view + 1;
+    const std::size_t translations = times + (motion.time_count() > 0 ? 1 : 0);
+    const std::size_t rotations = translations + (motion.translation_count() > 0 ? 1 : 0);
+    begin_accessor(json, {first_view, {}, kGltfFloat, motion.joint_count(), "MAT4"}).end();
+    if (motion.bones) {
+        put_bone_accessors(json, motion, times, rotations);
+        return;
+    }
+    begin_accessor(json, {times, {}, kGltfFloat, frames, "SCALAR"})
         .member("min", {0})
         .member("max", {static_cast<double>(time_of(motion.poses, frames - 1))})
         .end();
@@ -158,8 +301,8 @@ void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_
             begin_accessor(json, {view, i * frames * bytes, kGltfFloat, frames, type}).end();
         }
     };
-    put_channels(first_view + 2, sizeof(glm::vec3), "VEC3");
-    put_channels(first_view + 3, sizeof(glm::quat), "VEC4");
+    put_channels(translations, sizeof(glm::vec3), "VEC3");
+    put_channels(rotations, sizeof(glm::quat), "VEC4");
 }
 
 void put_skin_and_animation(JsonWriter& json,
@@ -168,10 +311,14 @@ void put_skin_and_animation(JsonWriter& json,
                             std::size_t accessor) {
     json.array("skins").object().member("name", "plant");
     json.member("inverseBindMatrices", accessor).member("skeleton", first_node).array("joints");
-    for (std::size_t i = 0; i < motion.skin.joint_count(); ++i) {
+    for (std::size_t i = 0; i < motion.joint_count(); ++i) {
         json.value(first_node + i);
     }
     json.end().end().end();
+    if (motion.bones) {
+        put_bone_animation(json, *motion.bones, first_node, accessor + 1);
+        return;
+    }
     const std::size_t moving = motion.moving_joints();
     if (moving == 0) { // an animation has at least one channel
         return;

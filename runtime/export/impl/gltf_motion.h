@@ -2,27 +2,37 @@
 // that turns and shifts each of them (glTF 2.0, sections 3.7.3 and 3.11).
 #pragma once
 
+#include "runtime/export/impl/bones.h"
+#include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/skin.h"
 
 #include <glm/mat4x4.hpp>
 
 #include <cstddef>
-#include <functional>
+#include <cstdint>
+#include <optional>
 #include <span>
 
 namespace lsys {
 
 struct GltfMotion {
-    Skin skin;
+    Skin skin;                   // without `bones`
     const PlantAnimation& poses; // at least one frame
+    std::optional<Bones> bones;  // a light skeleton instead of `skin`
 
+    [[nodiscard]] std::size_t joint_count() const {
+        return bones ? bones->joints.size() : skin.joint_count();
+    }
     [[nodiscard]] std::size_t moving_joints() const { return skin.segments.size(); }
     /// Bytes of the number of a joint.
-    [[nodiscard]] std::size_t joint_bytes() const { return skin.joint_count() <= 256 ? 1 : 2; }
+    [[nodiscard]] std::size_t joint_bytes() const { return joint_count() <= 256 ? 1 : 2; }
+    /// Counts of items in the arrays of the animation.
+    [[nodiscard]] std::uint64_t time_count() const;
+    [[nodiscard]] std::uint64_t translation_count() const;
+    [[nodiscard]] std::uint64_t rotation_count() const;
 };
 
-using GltfBytes = std::function<void(std::span<const std::byte>)>;
 /// Write the arrays, in the order of GltfArray, of some vertices of the mesh or of all joints.
 void write_vertex_joints(const Mesh& mesh,
                          std::span<const std::uint32_t> vertices,
@@ -41,8 +51,9 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
 /// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
-/// Accessors: inverse binds, times, then two for each joint that moves. The views of the arrays
-/// are consecutive, from `first_view` on.
+/// Accessors: inverse binds, times, then two for each joint that moves. With bones: inverse binds,
+/// then times and rotations of each joint with keys. The views of the arrays that are not empty are
+/// consecutive, from `first_view` on.
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view);
 /// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,

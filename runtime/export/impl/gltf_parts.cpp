@@ -11,28 +11,6 @@ namespace lsys {
 
 namespace {
 
-struct Attribute {
-    const char* name;
-    int component;
-    const char* type;
-    bool normalized = false;
-};
-/// Indexed by GltfArray.
-constexpr std::array<Attribute, 7> kAttributes{{
-    {"POSITION", kGltfFloat, "VEC3"},
-    {"NORMAL", kGltfFloat, "VEC3"},
-    {"TEXCOORD_0", kGltfFloat, "VEC2"},
-    {"TANGENT", kGltfFloat, "VEC4"},
-    {"COLOR_0", kGltfByte, "VEC4", true},
-    {"JOINTS_0", kGltfByte, "VEC4"},
-    {"WEIGHTS_0", kGltfByte, "VEC4", true},
-}};
-static_assert(kAttributes.size() == static_cast<std::size_t>(GltfArray::Indices));
-
-const Attribute& attribute_of(const GltfView& view) {
-    return kAttributes[static_cast<std::size_t>(view.array)];
-}
-
 void put_sampler(JsonWriter& json, int wrap) {
     constexpr int kLinear = 9729;
     constexpr int kLinearMipmapLinear = 9987;
@@ -50,65 +28,6 @@ JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor) {
     return json.member("componentType", accessor.component)
         .member("count", accessor.count)
         .member("type", accessor.type);
-}
-
-void put_attributes(JsonWriter& json,
-                    const GltfData& data,
-                    std::size_t first_accessor,
-                    bool coloured) {
-    json.object("attributes");
-    for (std::size_t i = 0; data.views[i].array != GltfArray::Indices; ++i) {
-        if (data.views[i].array != GltfArray::Colours || coloured) {
-            json.member(attribute_of(data.views[i]).name, first_accessor + i);
-        }
-    }
-    json.end();
-}
-
-void put_attribute_accessors(JsonWriter& json,
-                             const GltfData& data,
-                             std::size_t first_view,
-                             std::uint64_t vertices,
-                             const Bounds& bounds) {
-    for (std::size_t i = 0; data.views[i].array != GltfArray::Indices; ++i) {
-        const GltfView& view = data.views[i];
-        const Attribute& attribute = attribute_of(view);
-        const bool wide = view.array == GltfArray::Joints && view.bytes > 4 * vertices;
-        begin_accessor(json, {first_view + i,
-                              {},
-                              wide ? kGltfShort : attribute.component,
-                              vertices,
-                              attribute.type});
-        if (view.array == GltfArray::Positions) {
-            // Digits of doubles: readers parse the shortest text of a float as another double.
-            const glm::dvec3 low(bounds.low);
-            const glm::dvec3 high(bounds.high);
-            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
-        }
-        if (attribute.normalized) {
-            json.member("normalized", true);
-        }
-        json.end();
-    }
-}
-
-void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset) {
-    constexpr int kVertices = 34962;
-    constexpr int kIndices = 34963;
-    json.object().member("buffer", 0);
-    json.member("byteOffset", offset + view.offset).member("byteLength", view.bytes);
-    if (view.array <= GltfArray::Indices) {
-        json.member("target", view.array == GltfArray::Indices ? kIndices : kVertices);
-    }
-    json.end();
-}
-
-void put_material(JsonWriter& json,
-                  const Material& material,
-                  const MaterialPictures& shown,
-                  bool coloured) {
-    put_material(json, material, shown,
-                 {material.name, coloured ? glm::vec3(1.0F) : glm::vec3(material.colour), {}});
 }
 
 void put_material(JsonWriter& json,

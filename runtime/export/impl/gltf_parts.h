@@ -2,7 +2,7 @@
 // into the document.
 #pragma once
 
-#include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/piece_writer.h"
@@ -20,13 +20,6 @@ namespace lsys {
 
 inline constexpr std::uint64_t kMaxGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
 
-// Component types of accessors.
-inline constexpr int kGltfSignedByte = 5120;
-inline constexpr int kGltfByte = 5121; // all others unsigned
-inline constexpr int kGltfShort = 5123;
-inline constexpr int kGltfInteger = 5125;
-inline constexpr int kGltfFloat = 5126;
-
 /// A part of a buffer view as items of one type.
 struct GltfAccessor {
     std::size_t view;
@@ -38,26 +31,6 @@ struct GltfAccessor {
 /// Begins the object of an accessor; the caller adds members and ends it.
 JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
 
-/// The member `attributes` of a primitive: accessors from `first_accessor` on, one for each view of
-/// `data` before the indices. `coloured`: with the colours of vertices.
-void put_attributes(JsonWriter& json,
-                    const GltfData& data,
-                    std::size_t first_accessor,
-                    bool coloured);
-/// The accessors of put_attributes(), of views from `first_view` on. `bounds` of the positions.
-void put_attribute_accessors(JsonWriter& json,
-                             const GltfData& data,
-                             std::size_t first_view,
-                             std::uint64_t vertices,
-                             const Bounds& bounds);
-/// A buffer view that begins at byte `offset + view.offset` of the buffer.
-void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset);
-
-/// KHR_texture_transform: a texture is read at `offset + scale * coordinates`.
-struct GltfTextureTransform {
-    glm::vec2 offset{0.0F};
-    glm::vec2 scale{1.0F};
-};
 /// Appearance of a material in a file.
 struct GltfMaterial {
     std::string name;
@@ -68,11 +41,6 @@ void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,
                   const GltfMaterial& look);
-/// `coloured`: vertices have colours of their own in place of the material's.
-void put_material(JsonWriter& json,
-                  const Material& material,
-                  const MaterialPictures& shown,
-                  bool coloured);
 /// Samplers, textures and images. The images lie in buffer views from `first_view` on; without it
 /// beside the file, with the names of the pictures.
 void put_images(JsonWriter& json,

@@ -1,7 +1,7 @@
 // GltfStreams: the arrays of a plant in the buffer of a glTF file, as numbers of full size,
 // quantised (KHR_mesh_quantization) or compressed as well (EXT_meshopt_compression). A stream is
-// one buffer view, and one accessor where it belongs to a primitive. Made by plan_gltf_streams(); read by
-// write_glb() and write_gltf(), which describe the streams and write the buffer.
+// one buffer view, and one accessor where it belongs to a primitive. Made by plan_gltf_streams();
+// read by write_glb() and write_gltf(), which describe the streams and write the buffer.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -19,40 +19,30 @@
 
 namespace lsys {
 
-/// The form of texture coordinates.
-struct GltfTextureForm {
-    bool quantized = false;
-    unsigned bits = 0;                             // of a quantised coordinate
-    std::optional<GltfTextureTransform> transform; // none: coordinates are from 0 to 1
-    glm::vec2 low{0.0F};                           // of the coordinates that become 0
-    glm::vec2 extent{1.0F};
+/// The sources of the arrays of a plant.
+struct GltfPlant {
+    const Mesh& mesh;
+    const GltfMotion* motion = nullptr; // null: no skin
+    const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
 };
 
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
     std::size_t item = 0; // the primitive, or the image
-    int component = kGltfFloat;
-    std::string_view type;
-    bool normalized = false;
-    std::uint32_t stride = 0; // bytes from one item to the next
-    bool padded = false;      // items are shorter than the stride
+    GltfItem type;
     std::uint64_t count = 0;  // items
     std::uint64_t offset = 0; // in the buffer, a multiple of 4
     std::uint64_t bytes = 0;  // in the buffer
     /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
-    std::string compressed;
+    std::string compressed = {};
     std::uint64_t decoded_offset = 0;
 
-    [[nodiscard]] std::uint64_t decoded_bytes() const { return stride * count; }
+    [[nodiscard]] std::uint64_t decoded_bytes() const { return type.stride * count; }
 };
 
 struct GltfStreams {
     GltfPrimitives primitives;
-    ExportCompression compression = ExportCompression::None;
-    /// Positions are `low + step * item`; step 0: items are positions.
-    glm::vec3 low{0.0F};
-    float step = 0.0F;
-    std::vector<GltfTextureForm> texture_forms; // of primitives
+    std::vector<GltfForm> forms; // of primitives; all but the texture coordinates are the same
     /// Streams of primitives, by GltfArray within each; then those of the motion and the images.
     std::vector<GltfStream> list;
     std::size_t first_motion = 0; // in `list`
@@ -60,25 +50,16 @@ struct GltfStreams {
     std::vector<std::string> images; // PNG
     std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
     std::uint64_t decoded_bytes = 0; // of the buffer of decoded items; 0: there is none
-
-    [[nodiscard]] bool quantized() const { return compression != ExportCompression::None; }
 };
 
-/// Plans the buffer. `motion` may be null. `images` lie in the buffer.
-[[nodiscard]] GltfStreams plan_gltf_streams(const Mesh& mesh,
-                                            const GltfMotion* motion,
+/// Plans the buffer. `images` lie in it.
+[[nodiscard]] GltfStreams plan_gltf_streams(const GltfPlant& plant,
                                             const Pictures& pictures,
                                             std::vector<std::string> images,
                                             const ExportInfo& info);
-/// Hands over the buffer in order. Normals and tangents that are not of unit length, which glTF
-/// does not allow, are replaced on the way.
-void write_gltf_streams(const Mesh& mesh,
-                        const GltfMotion* motion,
-                        const GltfStreams& streams,
-                        const GltfSink& write);
+/// Hands over the buffer in order.
+void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
 
-/// The name of the attribute of a stream: "POSITION".
-[[nodiscard]] std::string_view attribute_name(GltfArray array);
 /// The view of a stream, in buffer 0 or, decoded, in buffer 1.
 void put_stream_view(JsonWriter& json, const GltfStream& stream);
 /// The accessor of the stream of a primitive in view `view`.
