@@ -47,11 +47,17 @@ struct Export {
     std::set<std::string> pictures; // names of the written ones, shared by all frames
 };
 
-/// Adds the files beside `path`: pictures, and the materials of an OBJ; puts their names into
-/// `info`.
-ExitStatus
-add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, OutputSet& files) {
+/// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
+/// their names into `info`.
+ExitStatus add_side_files(Export& run,
+                          const Skeleton& skeleton,
+                          const std::filesystem::path& path,
+                          ExportInfo& info,
+                          OutputSet& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    const bool separate = run.command.buffers == BufferPlace::Separate;
+    const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
+    info.buffer_name = separate ? buffer.filename().string() : std::string();
     std::vector<PictureFile> pictures;
     ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
     if (status != ExitStatus::Ok) {
@@ -66,6 +72,11 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
         if (status != ExitStatus::Ok) {
             return status;
         }
+    }
+    if (separate) {
+        return files.add(buffer.string(), [&](const ByteSink& sink) {
+            return write_gltf_buffer(run.mesh, skeleton, info, sink);
+        });
     }
     if (!traits_of(run.format).has_mtl) {
         return ExitStatus::Ok;
@@ -115,10 +126,11 @@ ExitStatus write_plant(Export& run,
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
+    info.compression = command.compression.value_or(ExportCompression::None);
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
-        status = add_side_files(run, path, info, files);
+        status = add_side_files(run, skeleton, path, info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
@@ -314,6 +326,17 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
+    const auto names_with = [](bool FormatTraits::*feature) {
+        return format_names("or", [feature](const FormatTraits& each) { return each.*feature; });
+    };
+    if (command.compression && !traits_of(format).compresses) {
+        return fmt::format("--compress needs {}, not {}", names_with(&FormatTraits::compresses),
+                           traits_of(format).name);
+    }
+    if (command.buffers && !traits_of(format).separates) {
+        return fmt::format("--buffers needs {}, not {}", names_with(&FormatTraits::separates),
+                           traits_of(format).name);
+    }
     if (command.grow && command.frames == 0) {
         return "--grow writes a numbered series; say of how many files with --frames";
     }
