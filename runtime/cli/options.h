@@ -112,6 +112,7 @@ struct ForestCommand {
     std::string output;             // empty: none
     SceneOverrides overrides;
     RunOptions run;
+    std::optional<ExportCompression> compression; // default: none
     bool expand = false;
     bool bake = false;
     ForestInstances instances = ForestInstances::Branches;
