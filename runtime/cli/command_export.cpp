@@ -4,6 +4,7 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/surface_options.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -111,6 +112,8 @@ ExitStatus write_plant(Export& run,
     info.user_meshes = &run.plant.user_meshes;
     info.animation = animation;
     info.threads = command.run.threads;
+    info.up = command.surface.up;
+    info.both_sides = command.surface.both_sides;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -301,7 +304,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
                               format_names("or", [](const FormatTraits&) { return true; }))},
             console);
     }
-    if (const std::string conflict = find_conflict(command, *format); !conflict.empty()) {
+    std::string conflict = find_surface_conflict(command.surface, *format);
+    conflict = conflict.empty() ? find_conflict(command, *format) : conflict;
+    if (!conflict.empty()) {
         return report_error(Error{conflict}, console);
     }
     Grammar grammar;

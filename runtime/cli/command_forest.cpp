@@ -1,5 +1,6 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_set.h"
+#include "runtime/cli/surface_options.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
@@ -78,6 +79,14 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "--expand is for " +
                format_names("and", [](const auto& each) { return each.expands_forest; });
     }
+    if (target.kind == OutputKind::None || target.kind == OutputKind::Statistics) {
+        if (command.surface.up != UpAxis::Y || command.surface.both_sides) {
+            return "--up and --both-sides are for files of trees";
+        }
+    } else if (const std::string conflict = find_surface_conflict(command.surface, target.format);
+               !conflict.empty()) {
+        return conflict;
+    }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }
@@ -142,6 +151,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.name = std::filesystem::path(path).stem().string();
     info.generator = "lsc " LSC_VERSION;
     info.cell = run.command.cell;
+    info.up = run.command.surface.up;
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     OutputSet outputs(run.console); // pictures before the file that names them
@@ -180,6 +190,8 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;
     info.threads = options.threads;
+    info.up = run.command.surface.up;
+    info.both_sides = run.command.surface.both_sides;
     const FormatTraits& format = traits_of(run.target.format);
     OutputSet outputs(run.console); // the files beside it first
     if (path == "-") {

@@ -148,6 +148,18 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --stage heroes --heroes 2 tree.lsys");
 }
 
+void add_surface(CLI::App& app, SurfaceOptions& options) {
+    const std::string up =
+        fmt::format("Axis that points up in {} (default y)",
+                    format_names("and", [](const FormatTraits& format) { return format.up_axes; }));
+    add_choice<UpAxis>(app, "--up", options.up, {{"y", UpAxis::Y}, {"z", UpAxis::Z}}, up.c_str());
+    app.add_flag(
+        "--both-sides", options.both_sides,
+        fmt::format("Write leaves a second time as seen from behind, in {}: for readers that show "
+                    "front faces only",
+                    format_names("and", [](const FormatTraits& each) { return each.back_faces; })));
+}
+
 void add_export(CLI::App& app, ExportCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -160,6 +172,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     }
     add_choice(app, "--format", command.format, std::move(formats),
                "Format (default: by the extension of the output)");
+    add_surface(app, command.surface);
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
@@ -198,7 +211,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Units are metres, +Y is up. The output is complete or absent. OBJ writes a .mtl "
+    app.footer("Units are metres, +Y is up unless --up says otherwise. The output is complete or "
+               "absent. OBJ writes a .mtl "
                "file beside it, OBJ\n"
                "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
                "output. SVG is\n"
@@ -229,6 +243,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--expand", command.expand,
                  "glTF without EXT_mesh_gpu_instancing: one node per branch");
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
+    add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },

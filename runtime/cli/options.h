@@ -71,6 +71,12 @@ struct DumpCommand {
     std::string from;
 };
 
+/// Options of the file of a mesh.
+struct SurfaceOptions {
+    UpAxis up = UpAxis::Y;
+    bool both_sides = false;
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -79,6 +85,7 @@ struct ExportCommand {
     std::string file;
     std::string output;
     std::optional<ExportFormat> format; // default: by the extension of the output
+    SurfaceOptions surface;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
@@ -99,6 +106,7 @@ struct ForestCommand {
     RunOptions run;
     bool expand = false;
     bool bake = false;
+    SurfaceOptions surface;
     float cell = 100.0F; // m, side of the ground cells with one node each; 0: one cell
     std::uint32_t frames = 0;
     bool check = false;

@@ -1,7 +1,7 @@
 // Export: a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a sink in
 // pieces and in order, large arrays straight from memory; no file is held as a whole. Made from the
-// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres and
-// +Y up in every format that can state them. Same input, same bytes.
+// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres;
+// +Y up, or +Z if asked for. Same input, same bytes.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -30,9 +30,13 @@ enum class ExportFormat : std::uint8_t {
 enum class ExportPictures : std::uint8_t {
     None,
     Inside,           // embedded in the file; readers multiply them by the colour of the material
-    FilesWithOpacity, // files with the colour of the material; opacity of leaves in further files
     FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
+    FilesWithOpacity, // as FilesWithRelief; opacity of leaves in further files
 };
+
+/// Axis of a file that points away from the ground. Z: x stays, and a point (x, y, z) of the mesh is
+/// at (x, -z, y).
+enum class UpAxis : std::uint8_t { Y, Z };
 
 struct ExportJob;
 struct ForestExportJob;
@@ -47,8 +51,10 @@ struct FormatTraits {
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;
-    bool has_mtl = false; // materials in a file beside it, by write_mtl()
-    bool motion = false;  // one file holds all frames of an animation
+    bool has_mtl = false;    // materials in a file beside it, by write_mtl()
+    bool motion = false;     // one file holds all frames of an animation
+    bool up_axes = false;    // takes ExportInfo::up
+    bool back_faces = false; // takes ExportInfo::both_sides
     /// Writes trees as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
@@ -90,6 +96,10 @@ struct ExportInfo {
     /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
     /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
+    UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
+    /// Triangles of two-sided materials are written a second time, reversed, with normals of their
+    /// own, for readers that draw front faces only; for FormatTraits::back_faces.
+    bool both_sides = false;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

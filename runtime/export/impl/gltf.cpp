@@ -1,7 +1,6 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64. One
 // mesh with a primitive for each part; all share the arrays of vertices. glTF is in metres and +Y
 // up by definition.
-#include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_parts.h"
@@ -141,11 +140,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return {Stop::Limit,
-                    messages_of(plant_limit_diagnostic(
-                        "the skin", fmt::format("{} joints", grouped_digits(kMaxJoints)),
-                        "ask for fewer generations with `-n`, or for a numbered series in "
-                        "another format, which is any but glTF: `-o tree.ply`"))};
+            return too_many_joints();
         }
         moving.emplace(GltfMotion{std::move(*skin), *info.animation});
     }

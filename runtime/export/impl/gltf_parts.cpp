@@ -115,7 +115,7 @@ void put_material(JsonWriter& json,
         json.object("baseColorTexture").member("index", *shown.colour).end();
     }
     json.member("metallicFactor", 0);
-    json.member("roughnessFactor", material.kind == MaterialKind::Bark ? 0.95 : 0.7).end();
+    json.member("roughnessFactor", roughness(material)).end();
     if (shown.relief) {
         json.object("normalTexture").member("index", *shown.relief).end();
     }

@@ -114,14 +114,18 @@ void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const B
         std::any_of(surface.parts.begin(), surface.parts.end(), [&](const MeshPart& part) {
             return surface.mesh.materials[part.material].two_sided;
         });
-    out.put(fmt::format("    def Mesh \"{}\"\n"
+    out.put(fmt::format("    def Mesh \"{}\"{}\n"
                         "    {{\n"
                         "        uniform token subdivisionScheme = \"none\"\n"
                         "        uniform token orientation = \"rightHanded\"\n"
                         "        uniform bool doubleSided = {}\n"
                         "        float3[] extent = [({}, {}, {}), ({}, {}, {})]\n",
-                        surface.name, two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z,
-                        bounds.high.x, bounds.high.y, bounds.high.z));
+                        surface.name,
+                        surface.put_skin ? " (\n        prepend apiSchemas = "
+                                           "[\"SkelBindingAPI\"]\n    )"
+                                         : "",
+                        two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x,
+                        bounds.high.y, bounds.high.z));
 }
 
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,17 @@ namespace lsys {
 
 inline constexpr std::size_t kUsdaItemsPerLine = 8;
 inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
+
+/// The value of `upAxis`.
+[[nodiscard]] constexpr std::string_view usda_axis(UpAxis up) {
+    return up == UpAxis::Z ? "Z" : "Y";
+}
+/// Properties of the root prim that turn +Y of its children to the axis of the file.
+[[nodiscard]] constexpr std::string_view usda_turn(UpAxis up) {
+    return up == UpAxis::Z ? "    double xformOp:rotateX = 90\n"
+                             "    uniform token[] xformOpOrder = [\"xformOp:rotateX\"]\n\n"
+                           : "";
+}
 
 /// A unique name for each part.
 [[nodiscard]] std::vector<std::string> usda_part_names(const Mesh& mesh);
@@ -52,6 +64,7 @@ struct UsdaSurface {
     std::span<const MeshPart> parts;
     const std::vector<std::string>& materials; // names, by parts
     std::string_view root;                     // path of the prim of put_usda_materials()
+    std::function<void()> put_skin;            // writes properties of a skin; empty: none
 };
 void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
@@ -107,6 +120,9 @@ void put_usda_surface(PieceWriter& out,
             return put_tuple<3>(at, {c.r, c.g, c.b});
         });
         out.put(kVertexInterpolation);
+    }
+    if (surface.put_skin) {
+        surface.put_skin();
     }
     put_usda_subsets(out, surface);
     out.put("    }\n");
