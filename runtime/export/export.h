@@ -53,6 +53,7 @@ struct FormatTraits {
     ExportPictures pictures = ExportPictures::None;
     bool has_mtl = false;    // materials in a file beside it, by write_mtl()
     bool motion = false;     // one file holds all frames of an animation
+    bool wind_data = false;  // takes ExportInfo::wind_data
     bool up_axes = false;    // takes ExportInfo::up
     bool back_faces = false; // takes ExportInfo::both_sides
     /// Writes trees as instances; null: the format has no instances.
@@ -96,6 +97,12 @@ struct ExportInfo {
     /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
     /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
+    /// Max count of joints of the skin, 2 to kMaxJoints: a light skeleton with smooth weights. 0: a
+    /// joint for each segment that moves.
+    std::uint32_t max_joints = 0;
+    /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
+    /// FormatTraits::wind_data. Mesh::segments is complete.
+    bool wind_data = false;
     UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
     /// Triangles of two-sided materials are written a second time, reversed, with normals of their
     /// own, for readers that draw front faces only; for FormatTraits::back_faces.

@@ -87,6 +87,17 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
     return Stop::Failed;
 }
 
+/// The warning that a solid has `pieces` which do not touch.
+Diagnostic separate_pieces(std::uint64_t pieces) {
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::SeparatePieces, {},
+                        fmt::format("the solid consists of {} pieces that do not touch", pieces));
+    diagnostic.help.emplace_back(
+        "a printer needs parts that hang together: draw the gaps, or close them with a larger "
+        "`--min-width`");
+    return diagnostic;
+}
+
 } // namespace
 
 Diagnostic
@@ -179,6 +190,9 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
     limited.max_bytes = project.limits.max_bytes;
     Mesh mesh;
     const std::optional<Stop> stop = make_mesh(skeleton, plant.user_meshes, limited, mesh);
+    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
+        return step.end(Stop::Diagnosed);
+    }
     if (!stop) {
         return step.done(std::move(mesh));
     }

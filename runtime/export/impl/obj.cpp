@@ -85,7 +85,7 @@ BackNormals find_back_normals(const Mesh& mesh) {
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
         if (is_two_sided(mesh, part)) {
-            backs.numbers.resize(mesh.positions.size());
+            backs.numbers.resize(mesh.positions.size(), 0); // else without values
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
                 backs.numbers[indices[part.first_index + i]] = 1;
             }

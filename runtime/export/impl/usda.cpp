@@ -13,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -87,14 +88,19 @@ void put_layer(const ExportJob& job, const UsdaMotion* motion, PieceWriter& out)
 /// Makes the skin of a plant that moves, and calls `write` with its motion or null.
 template <typename Write>
 Outcome<void> with_motion(const ExportJob& job, const Write& write) {
-    if (job.info.animation == nullptr) {
+    const PlantAnimation* const poses = job.info.animation;
+    if (poses == nullptr) {
         return write(nullptr);
     }
-    const std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *job.info.animation);
+    if (job.info.max_joints != 0) {
+        const UsdaMotion motion{{}, *poses, make_bones(job.skeleton, *poses, job.info.max_joints)};
+        return write(&motion);
+    }
+    std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *poses);
     if (!skin) {
         return too_many_joints();
     }
-    const UsdaMotion motion{*skin, *job.info.animation};
+    const UsdaMotion motion{std::move(*skin), *poses, {}};
     return write(&motion);
 }
 

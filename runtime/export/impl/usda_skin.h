@@ -1,18 +1,27 @@
-// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton whose joints are placed in the
-// world, as in glTF, and an animation with a sample for each frame. Time codes are frames.
+// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton with the joints of glTF,
+// placed in the world or nested, and an animation with a sample for each frame. Time codes are
+// frames.
 #pragma once
 
+#include "runtime/export/impl/bones.h"
 #include "runtime/export/impl/piece_writer.h"
 #include "runtime/export/impl/skin.h"
 
+#include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace lsys {
 
 /// A moving plant.
 struct UsdaMotion {
-    const Skin& skin;
-    const PlantAnimation& poses;
+    Skin skin;                   // without `bones`
+    const PlantAnimation& poses; // at least one frame
+    std::optional<Bones> bones;  // a light skeleton instead of `skin`
+
+    [[nodiscard]] std::size_t joint_count() const {
+        return bones ? bones->joints.size() : skin.joint_count();
+    }
 };
 
 /// Fields of the layer: range of time codes and their rate.

@@ -184,8 +184,8 @@ TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
     CHECK(occurrences(text, "<path fill=\"#ffffff\" fill-rule=\"evenodd\" d=\"M") == 1);
     CHECK(occurrences(text, "z") >= 2);
     CHECK(occurrences(text, "<polygon") == 0);
-    // The square is 1 m wide, from 0.5 m to 1.5 m up, and so is the drawing.
-    CHECK(text.find("viewBox=\"-0.52 -1.52 1.04 1.04\"") != std::string::npos);
+    // The square is 1 m wide, from 0.5 m to 1.5 m up; the drawing begins where the card hangs.
+    CHECK(text.find("viewBox=\"-0.53 -1.53 1.06 1.56\"") != std::string::npos);
 
     // Bent: drawn whole, in the mean colour.
     meshes[0].positions[2].z = 1.0F;
