@@ -227,7 +227,7 @@ function readMesh(mesh, root) {
     assert(value('faceVertexCounts').every(n => n === 3), 'a face that is no triangle');
     assert(indices.length === 3 * triangles, 'faceVertexIndices');
     assert(indices.every(n => Number.isInteger(n) && n >= 0 && n < vertices), 'an index');
-    const widths = { points: 3, normals: 3, 'primvars:st': 2, 'primvars:displayColor': 3 };
+    const widths = { points: 3, normals: 3, 'primvars:st': 2 };
     for (const [name, width] of Object.entries(widths)) {
         if (name in mesh.properties) {
             assert(value(name).length === vertices &&
@@ -236,6 +236,17 @@ function readMesh(mesh, root) {
                    mesh.properties[name].metadata.interpolation.value === 'vertex',
                    `interpolation of ${name}`);
         }
+    }
+    if ('primvars:displayColor' in mesh.properties) {
+        const colours = value('primvars:displayColor');
+        assert(colours.every(c => c.length === 3 && c.every(x => x >= 0 && x <= 1)), 'a colour');
+        const interpolation = colours.length === 1 ? 'constant' : 'vertex';
+        assert(mesh.properties['primvars:displayColor'].metadata.interpolation.value ===
+               interpolation, 'interpolation of colours');
+        const places = mesh.properties['primvars:displayColor:indices']?.value;
+        assert(colours.length === 1 ? places === undefined :
+               places.length === vertices && places.every(i => i >= 0 && i < colours.length),
+               'indices of colours');
     }
     const [low, high] = value('extent');
     assert(value('points').every(p => p.every((x, i) => x >= low[i] && x <= high[i])), 'extent');

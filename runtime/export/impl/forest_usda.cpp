@@ -10,6 +10,7 @@
 #include "runtime/export/impl/usda_parts.h"
 #include "runtime/export/impl/usdz.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,9 +116,19 @@ private:
                 fmt::format("{}</Forest/{}/Prototypes/I{}>", p == 0 ? "" : ", ", name, used[p]));
         }
         out_->put("]\n");
-        put_branches(kind);
-        out_->put("        def Scope \"Prototypes\"\n        {\n");
         const InstanceVertices own = number_vertices(kind, plan_);
+        std::vector<float> sizes; // of the prototypes
+        for (const std::uint32_t i : used) {
+            Bounds bounds;
+            for (const std::uint32_t vertex : own.of(i)) {
+                bounds.add(kind.meshes->mesh.positions[vertex]);
+            }
+            const glm::vec3 extent = bounds.high - bounds.low;
+            sizes.push_back(std::max({extent.x, extent.y, extent.z}));
+        }
+        const float largest = sizes.empty() ? 0.0F : *std::max_element(sizes.begin(), sizes.end());
+        put_branches(kind, place_digits(largest));
+        out_->put("        def Scope \"Prototypes\"\n        {\n");
         for (const std::uint32_t i : used) {
             const Instance& instance = kind.cache->instances[i];
             const glm::dquat back = glm::conjugate(instance.frame);
@@ -132,7 +143,8 @@ private:
                  parts,
                  names,
                  "/Forest",
-                 {}},
+                 {},
+                 UsdaDigits{.points = place_digits(sizes[prototypes_[i]])}},
                 [vertices](std::uint64_t k) { return vertices[k]; },
                 [&](const glm::vec3& v, bool place) {
                     return glm::vec3(
@@ -144,13 +156,14 @@ private:
     }
 
     /// Writes each part of the transforms as an array of its own, by one pass over the trees.
-    void put_branches(const ForestKind& kind) {
+    /// `place_digits`: digits behind the point of positions.
+    void put_branches(const ForestKind& kind, int place_digits) {
         put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
         });
-        put_array("point3f[] positions", kind, [](const BranchInstance& branch, char* at) {
+        put_array("point3f[] positions", kind, [&](const BranchInstance& branch, char* at) {
             const glm::vec3& p = branch.position;
-            return put_tuple<3>(at, {p.x, p.y, p.z});
+            return put_tuple<3>(at, {p.x, p.y, p.z}, place_digits);
         });
         put_array("quath[] orientations", kind, [this](const BranchInstance& branch, char* at) {
             const glm::quat q = glm::normalize(branch.rotation);
@@ -161,7 +174,14 @@ private:
             return put_text(at, ")");
         });
         put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
-            return put_tuple<3>(at, {branch.scale, branch.scale, branch.scale});
+            // Six digits: a millionth.
+            const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);
+            const std::string_view digits(at + 1, static_cast<std::size_t>(end - at - 1));
+            *at = '(';
+            at += 1 + digits.size();
+            at = put_text(put_text(at, ", "), digits);
+            at = put_text(put_text(at, ", "), digits);
+            return put_text(at, ")");
         });
     }
 
