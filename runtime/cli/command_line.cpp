@@ -396,6 +396,31 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
     return usage;
 }
 
+/// The mistake found by CLI11, with help that knows the commands. `command`: the one given; null if
+/// the first argument is none.
+UsageError usage_error(const CLI::ParseError& error,
+                       const CLI::App& app,
+                       const CLI::App* command,
+                       std::span<const std::string> arguments) {
+    if (command == nullptr) {
+        UsageError usage = to_usage_error(error, app, "lsc");
+        for (const std::string& argument : arguments.subspan(1)) {
+            if (find_command(app, argument) != nullptr) {
+                usage.help = fmt::format("options stand after the command: `lsc {} {}`", argument,
+                                         arguments.front());
+                break;
+            }
+        }
+        return usage;
+    }
+    UsageError usage = to_usage_error(error, *command, "lsc " + command->get_name());
+    if (command->get_name() == "export" && usage.message == "--output is missing") {
+        usage.help = fmt::format("`-o FILE`, whose name ends in {}",
+                                 format_names("or", [](const FormatTraits&) { return true; }));
+    }
+    return usage;
+}
+
 } // namespace
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
@@ -436,8 +461,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsc " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
-        return to_usage_error(error, command == nullptr ? app : *command,
-                              command == nullptr ? "lsc" : "lsc " + command->get_name());
+        return usage_error(error, app, command, arguments);
     }
     const std::optional<UsageError> mistake = std::visit(
         []<typename Command>(Command& given) -> std::optional<UsageError> {
