@@ -5,6 +5,7 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/surface_options.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -133,6 +134,8 @@ ExitStatus write_mesh(Export& run,
     info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
     info.compression = command.compression.value_or(ExportCompression::None);
+    info.up = command.surface.up;
+    info.both_sides = command.surface.both_sides;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -416,10 +419,10 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--bones are joints of an animation: --frames N and {}",
             format_names("or", [](const FormatTraits& each) { return each.motion; }));
     }
-    if (command.wind_data && !traits_of(format).motion) {
+    if (command.wind_data && !traits_of(format).wind_data) {
         return fmt::format(
             "--wind-data is for shaders, and has a place in {}",
-            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+            format_names("and", [](const FormatTraits& each) { return each.wind_data; }));
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";
@@ -480,7 +483,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
                               format_names("or", [](const FormatTraits&) { return true; }))},
             console);
     }
-    if (const std::string conflict = find_conflict(command, *format); !conflict.empty()) {
+    std::string conflict = find_surface_conflict(command.surface, *format);
+    conflict = conflict.empty() ? find_conflict(command, *format) : conflict;
+    if (!conflict.empty()) {
         return report_error(Error{conflict}, console);
     }
     Grammar grammar;

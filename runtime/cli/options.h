@@ -77,6 +77,12 @@ enum class BufferPlace : std::uint8_t {
     Separate, // files beside the output
 };
 
+/// Options of the file of a mesh.
+struct SurfaceOptions {
+    UpAxis up = UpAxis::Y;
+    bool both_sides = false;
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -87,6 +93,7 @@ struct ExportCommand {
     std::optional<ExportFormat> format;           // default: by the extension of the output
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
+    SurfaceOptions surface;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
@@ -115,6 +122,7 @@ struct ForestCommand {
     std::optional<ExportCompression> compression; // default: none
     bool expand = false;
     bool bake = false;
+    SurfaceOptions surface;
     ForestInstances instances = ForestInstances::Branches;
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
     std::optional<float> cell;

@@ -1,7 +1,6 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64 or in
 // a file beside it. One mesh with a primitive for each part, or for many parts that differ in
 // colour only. glTF is in metres and +Y up by definition.
-#include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_parts.h"
@@ -288,11 +287,7 @@ Outcome<Contents> plan(const ExportJob& job) {
     } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return {Stop::Limit,
-                    messages_of(plant_limit_diagnostic(
-                        "the skin", fmt::format("{} joints", grouped_digits(kMaxJoints)),
-                        "ask for fewer generations with `-n`, or for a numbered series in "
-                        "another format, which is any but glTF: `-o tree.ply`"))};
+            return too_many_joints();
         }
         contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
