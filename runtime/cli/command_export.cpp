@@ -441,7 +441,9 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--frames writes several files of this format, which do not go to standard "
             "output; {} hold all frames in one",
-            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+            format_names("and", [&](const FormatTraits& each) {
+                return command.grow ? each.film : each.motion;
+            }));
     }
     return {};
 }

@@ -1,5 +1,5 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | compressed | motion | obj | svg | off+ | usda |
+//   node read_files.mjs MODULES (validator | three | compressed | motion | growth | obj | svg | off+ | usda |
 //                              usdz | usd-three | usd-motion | tinyusdz |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
@@ -8,7 +8,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { distance, posedVertices, readPlyPositions } from './motion.mjs';
+import { distance, posedVertices, readPlyPositions, shownCorners } from './motion.mjs';
 import { extentOf, greatestDifference, primitivesOf, sameTriangles } from './compressed.mjs';
 import { instancedForest, readAccessors } from './forest.mjs';
 import { readOffPlus, readUsda, readUsdaForest, readUsdz } from './own_readers.mjs';
@@ -17,7 +17,7 @@ import { posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|obj|svg|off+|usda|usdz|usd-three|usd-motion|tinyusdz|forest-three|forest-transform|forest-usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|growth|obj|svg|off+|usda|usdz|usd-three|usd-motion|tinyusdz|forest-three|forest-transform|forest-usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -499,6 +499,37 @@ const checks = {
             });
             expect(file, 'number of triangles', corners / 3, mesh.triangles);
             expect(file, 'finite bounds', Number.isFinite(box.min.length() + box.max.length()), true);
+        });
+    },
+
+    // At the time of each frame, the meshes that are shown have the triangles of that frame.
+    async growth() {
+        const { three, GLTFLoader } = await threeAndLoader();
+        await eachMesh(['glb', 'gltf'], async (file, mesh) => {
+            const loader = new GLTFLoader();
+            loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+            const gltf = await loader.parseAsync(arrayBuffer(file), '');
+            expect(file, 'number of animations', gltf.animations.length, 1);
+            expect(file, 'duration in frames',
+                   Math.round(gltf.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
+            let shapes = 0;
+            gltf.scene.traverse(object => { shapes += object.isMesh && object.visible ? 1 : 0; });
+            expect(file, 'several shapes', shapes > 1, true);
+            let triangles = 0;
+            for (let number = 0; number < mesh.frames; ++number) {
+                const ply = readFileSync(
+                    join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`));
+                const positions = readPlyPositions(ply);
+                const expected = readPlyTriangles(ply).map(vertex => positions[vertex]);
+                const found = shownCorners(three, gltf, number / mesh.fps);
+                expect(file, `corners in frame ${number}`, found.length, expected.length);
+                const size = Math.max(...expected.flat().map(Math.abs));
+                const off = expected.map((at, i) => distance(at, found[i] ?? [NaN, NaN, NaN]));
+                expect(file, `frame ${number}: corners that are off`,
+                       off.filter(d => !(d <= 1e-5 * size)).length, 0);
+                triangles = Math.max(triangles, expected.length / 3);
+            }
+            expect(file, 'it grows', triangles > 100, true);
         });
     },
 

@@ -266,8 +266,7 @@ private:
     std::vector<std::size_t> materials_; // by primitive
 };
 
-Outcome<Contents> refuse_size(ExportSubject subject) {
-    Outcome<void> refusal = too_large_for_format(subject);
+Outcome<Contents> refused(Outcome<void> refusal) {
     return {refusal.stop(), std::move(refusal.messages())};
 }
 
@@ -279,7 +278,7 @@ Outcome<Contents> plan(const ExportJob& job) {
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;
     if (job.mesh.positions.size() * vertex_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+        return refused(too_large_for_format(info.subject));
     }
     if (info.animation != nullptr && info.max_joints != 0) {
         contents.motion.emplace(GltfMotion{
@@ -287,7 +286,7 @@ Outcome<Contents> plan(const ExportJob& job) {
     } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return too_many_joints();
+            return refused(too_many_joints());
         }
         contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
@@ -302,7 +301,7 @@ Outcome<Contents> plan(const ExportJob& job) {
     contents.streams =
         plan_gltf_streams(contents.plant(job), contents.pictures, std::move(images), info);
     if (contents.streams.bytes > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+        return refused(too_large_for_format(info.subject));
     }
     return {std::move(contents), {}};
 }
