@@ -7,6 +7,7 @@
 #include "runtime/cli/progress.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/animation.h"
 #include "runtime/pipeline/plant.h"
@@ -106,6 +107,9 @@ ExitStatus write_plant(Export& run,
     start = SteadyClock::now();
     ExportInfo info;
     info.grammar = std::filesystem::path(command.file).filename().string();
+    // Without the name of a file, nodes have that of any plant.
+    const std::string& named = command.output == "-" ? command.file : command.output;
+    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
@@ -115,6 +119,24 @@ ExitStatus write_plant(Export& run,
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
+    info.unit = command.unit;
+    info.collision = command.collision;
+    info.collision_names = command.collision_names;
+    const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
+    const PlantPlacement placement{pivot_of(rest, command.pivot), units_per_metre(command.unit)};
+    const bool stays = placement == PlantPlacement{};
+    Skeleton placed;
+    PlantAnimation placed_animation;
+    if (!stays) {
+        placed = skeleton;
+        place(placement, run.mesh);
+        place(placement, placed);
+        if (animation != nullptr) {
+            placed_animation = *animation;
+            place(placement, placed_animation);
+            info.animation = &placed_animation;
+        }
+    }
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -122,7 +144,7 @@ ExitStatus write_plant(Export& run,
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
-            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+            return export_mesh(run.mesh, stays ? skeleton : placed, run.format, info, sink);
         });
     }
     if (status == ExitStatus::Ok) {
@@ -304,6 +326,23 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--wind-data is for shaders, and has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.motion; }));
+    }
+    if (command.unit != LengthUnit::Metres && !traits_of(format).units) {
+        return fmt::format("--unit is for {}; {}",
+                           format_names("and", [](const auto& each) { return each.units; }),
+                           traits_of(format).collision
+                               ? "glTF is in metres by definition, and importers scale it to the "
+                                 "unit of the engine"
+                               : "this format has a scale of its own");
+    }
+    if (command.collision != CollisionKind::None && !traits_of(format).collision) {
+        return fmt::format(
+            "--collision has a place in {}",
+            format_names("and", [](const FormatTraits& each) { return each.collision; }));
+    }
+    if (command.grow && command.pivot == PlantPivot::Centre) {
+        return "--grow and --pivot centre do not go together, because the middle of a plant moves "
+               "as it grows";
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";

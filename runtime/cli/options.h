@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/grammar.h"
@@ -79,6 +80,11 @@ struct ExportCommand {
     std::string file;
     std::string output;
     std::optional<ExportFormat> format; // default: by the extension of the output
+    std::string preset;                 // of presets.def; empty: none
+    LengthUnit unit = LengthUnit::Metres;
+    PlantPivot pivot = PlantPivot::Origin;
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
@@ -102,6 +108,7 @@ struct ForestCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or grammars
     std::string output;             // empty: none
+    std::string preset;             // of presets.def; empty: none
     SceneOverrides overrides;
     RunOptions run;
     bool expand = false;

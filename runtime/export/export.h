@@ -34,6 +34,17 @@ enum class ExportPictures : std::uint8_t {
     FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
 };
 
+/// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
+enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
+/// Names by which an importer knows such a node: `UCP_tree_00`, `UCX_tree_00`;
+/// `tree_00-convcolonly`; `tree_collider_00`.
+enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
+
+/// Unit of the lengths in a file. The mesh is in it already; the formats that can say so state it.
+enum class LengthUnit : std::uint8_t { Metres, Centimetres, Millimetres };
+/// Units in a metre.
+[[nodiscard]] float units_per_metre(LengthUnit unit);
+
 struct ExportJob;
 struct ForestExportJob;
 class PieceWriter;
@@ -47,8 +58,10 @@ struct FormatTraits {
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;
-    bool has_mtl = false; // materials in a file beside it, by write_mtl()
-    bool motion = false;  // one file holds all frames of an animation
+    bool has_mtl = false;   // materials in a file beside it, by write_mtl()
+    bool motion = false;    // one file holds all frames of an animation
+    bool units = false;     // takes ExportInfo::unit
+    bool collision = false; // takes ExportInfo::collision
     /// Writes trees as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
@@ -75,11 +88,13 @@ enum class ExportSubject : std::uint8_t { Plant, Forest };
 /// Origin and contents of a file.
 struct ExportInfo {
     ExportSubject subject = ExportSubject::Plant;
-    std::string grammar; // name of the grammar
+    std::string grammar;   // name of the grammar
+    std::string name = {}; // of the plant, for nodes and meshes; empty: `plant`
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
-    std::string generator; // the program and its version
-    std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
+    std::string generator;                // the program and its version
+    LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
+    std::string mtl_name;                 // the file of write_mtl() beside an OBJ; empty: none
     /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
     /// colours.
     std::string picture_prefix;
@@ -96,6 +111,9 @@ struct ExportInfo {
     /// Numbers for shaders that move the plant in wind (impl/wind_data.h), in glTF. Mesh::segments
     /// is complete.
     bool wind_data = false;
+    /// Of the skeleton at rest, in glTF.
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

@@ -4,9 +4,11 @@
 #include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/gltf_collision.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
+#include "runtime/export/impl/text.h"
 
 #include <fmt/format.h>
 
@@ -28,9 +30,10 @@ public:
              const GltfMotion* motion,
              const GltfData& data,
              const Pictures& pictures,
+             const GltfCollision& collision,
              JsonWriter& json)
         : mesh_(job.mesh), info_(job.info), motion_(motion), data_(data), pictures_(pictures),
-          json_(json) {}
+          collision_(collision), json_(json) {}
 
     void write() {
         json_.object("asset").member("version", "2.0").member("generator", info_.generator).end();
@@ -48,6 +51,7 @@ public:
         for (const GltfView& view : data_.views) {
             put_view(json_, view, 0);
         }
+        put_collision_views(json_, collision_, data_.bytes);
         json_.end();
     }
 
@@ -59,22 +63,28 @@ private:
             json_.value(kFirstJoint);
         }
         json_.end().end().end();
-        json_.array("nodes").object().member("name", "plant").member("mesh", 0);
+        json_.array("nodes").object().member("name", plant_name(info_)).member("mesh", 0);
         if (motion_ != nullptr) {
             json_.member("skin", 0);
         }
+        put_collision_children(json_, collision_, first_collision_node());
         json_.object("extras").member("grammar", info_.grammar).member("seed", info_.seed);
         json_.member("n", info_.generations).end().end();
         if (motion_ != nullptr) {
             put_joint_nodes(json_, *motion_, kFirstJoint);
         }
+        put_collision_nodes(json_, collision_, 1);
         json_.end();
+    }
+
+    [[nodiscard]] std::size_t first_collision_node() const {
+        return kFirstJoint + (motion_ != nullptr ? motion_->joint_count() : 0);
     }
 
     /// Numbers accessors as put_accessors(): the attributes, then the indices of each part. Each
     /// part has a material of its own.
     void put_primitives() {
-        json_.array("meshes").object().member("name", "plant").array("primitives");
+        json_.array("meshes").object().member("name", plant_name(info_)).array("primitives");
         const std::size_t attribute_count = data_.first_view(GltfArray::Indices);
         std::size_t written = 0;
         for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
@@ -87,7 +97,9 @@ private:
                 ++written;
             }
         }
-        json_.end().end().end();
+        json_.end().end();
+        put_collision_meshes(json_, collision_, attribute_count + written);
+        json_.end();
     }
 
     void put_materials() {
@@ -120,6 +132,8 @@ private:
                 ++count;
             }
         }
+        put_collision_accessors(json_, collision_, data_.views.size());
+        count += collision_.accessor_count();
         if (motion_ != nullptr) {
             put_motion_accessors(json_, *motion_, data_);
         }
@@ -132,6 +146,7 @@ private:
     const GltfMotion* motion_;
     const GltfData& data_;
     const Pictures& pictures_;
+    const GltfCollision& collision_;
     JsonWriter& json_;
 };
 
@@ -160,15 +175,18 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const Pictures pictures = find_pictures(job.mesh, ExportPictures::Inside, info);
     const GltfData data = plan_gltf_data(job.mesh, motion, wind ? &*wind : nullptr,
                                          encode_pictures(pictures.list, info.threads));
-    if (data.bytes > kMaxGltfBytes) {
+    const GltfCollision collision{make_collision(job.skeleton, info)};
+    const std::uint64_t bytes = data.bytes + collision.byte_count();
+    if (bytes > kMaxGltfBytes) {
         return too_large_for_format(info.subject);
     }
     // Formatted once for both passes of a GLB: the nodes of many joints are long.
     const std::string members = json_document(
-        [&](JsonWriter& json) { Document(job, motion, data, pictures, json).write(); });
-    const GltfFile file{binary, [&members](JsonWriter& to) { to.literal(members); }, data.bytes,
+        [&](JsonWriter& json) { Document(job, motion, data, pictures, collision, json).write(); });
+    const GltfFile file{binary, [&members](JsonWriter& to) { to.literal(members); }, bytes,
                         [&](const GltfSink& write) {
                             write_gltf_data(job.mesh, motion, wind ? &*wind : nullptr, data, write);
+                            write_collision(collision, write);
                         }};
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(info.subject);
 }

@@ -64,13 +64,13 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 Outcome<void> write_obj(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
-    out.put(fmt::format("# {}\n# {}\n# metres, +Y up\n", one_line(job.info.generator),
-                        origin_line(job.info)));
+    out.put(fmt::format("# {}\n# {}\n# {}, +Y up\n", one_line(job.info.generator),
+                        origin_line(job.info), unit_text(job.info.unit)));
     if (!job.info.mtl_name.empty()) {
         // Readers take the rest of the line as the name, blanks included.
         out.put(fmt::format("mtllib {}\n", one_line(job.info.mtl_name)));
     }
-    out.put("o plant\n");
+    out.put(fmt::format("o {}\n", obj_identifier(plant_name(job.info))));
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
         const glm::vec3& p = mesh.positions[i];
         put_line<3>(out, "v", {p.x, p.y, p.z});

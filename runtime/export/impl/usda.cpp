@@ -36,7 +36,7 @@ void put_header(const ExportInfo& info, PieceWriter& out) {
                         "(\n"
                         "    defaultPrim = \"Plant\"\n"
                         "    doc = \"{}: {}\"\n"
-                        "    metersPerUnit = 1\n"
+                        "    metersPerUnit = {}\n"
                         "    upAxis = \"Y\"\n"
                         "    customLayerData = {{\n"
                         "        string generator = \"{}\"\n"
@@ -46,8 +46,8 @@ void put_header(const ExportInfo& info, PieceWriter& out) {
                         "    }}\n"
                         ")\n\n",
                         json_text(one_line(info.generator)), json_text(origin_line(info)),
-                        json_text(one_line(info.generator)), json_text(one_line(info.grammar)),
-                        info.seed, info.generations));
+                        metres_per_unit(info.unit), json_text(one_line(info.generator)),
+                        json_text(one_line(info.grammar)), info.seed, info.generations));
 }
 
 } // namespace
