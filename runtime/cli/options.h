@@ -72,6 +72,12 @@ struct DumpCommand {
     std::string from;
 };
 
+/// Place of the buffer and the pictures of a glTF.
+enum class BufferPlace : std::uint8_t {
+    Embedded,
+    Separate, // files beside the output
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -79,8 +85,10 @@ struct ExportCommand {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output;
-    std::optional<ExportFormat> format; // default: by the extension of the output
-    std::string preset;                 // of presets.def; empty: none
+    std::optional<ExportFormat> format;           // default: by the extension of the output
+    std::optional<ExportCompression> compression; // default: none
+    std::optional<BufferPlace> buffers;           // default: embedded
+    std::string preset;                           // of presets.def; empty: none
     LengthUnit unit = LengthUnit::Metres;
     PlantPivot pivot = PlantPivot::Origin;
     CollisionKind collision = CollisionKind::None;

@@ -1,5 +1,7 @@
 #include "runtime/export/impl/gltf_collision.h"
 
+#include "runtime/export/impl/gltf_items.h"
+
 #include <array>
 #include <span>
 
@@ -23,19 +25,6 @@ std::uint64_t GltfCollision::index_bytes() const {
 
 std::uint64_t GltfCollision::byte_count() const {
     return position_bytes() + (index_bytes() + 3) / 4 * 4;
-}
-
-void put_collision_children(JsonWriter& json,
-                            const GltfCollision& collision,
-                            std::size_t first_node) {
-    if (collision.shapes.empty()) {
-        return;
-    }
-    json.array("children");
-    for (std::size_t i = 0; i < collision.shapes.size(); ++i) {
-        json.value(first_node + i);
-    }
-    json.end();
 }
 
 void put_collision_nodes(JsonWriter& json, const GltfCollision& collision, std::size_t first_mesh) {
@@ -81,9 +70,13 @@ void put_collision_views(JsonWriter& json, const GltfCollision& collision, std::
     if (collision.shapes.empty()) {
         return;
     }
+    constexpr int kVertices = 34962;
+    constexpr int kIndices = 34963;
     const std::uint64_t bytes = collision.position_bytes();
-    put_view(json, {GltfArray::Positions, 0, bytes, 0}, offset);
-    put_view(json, {GltfArray::Indices, bytes, collision.index_bytes(), 0}, offset);
+    json.object().member("buffer", 0).member("byteOffset", offset).member("byteLength", bytes);
+    json.member("target", kVertices).end();
+    json.object().member("buffer", 0).member("byteOffset", offset + bytes);
+    json.member("byteLength", collision.index_bytes()).member("target", kIndices).end();
 }
 
 void write_collision(const GltfCollision& collision, const GltfSink& write) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "runtime/export/impl/collision.h"
-#include "runtime/export/impl/gltf_motion.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
 
@@ -23,10 +22,6 @@ struct GltfCollision {
     [[nodiscard]] std::uint64_t byte_count() const;
 };
 
-/// The member `children` of the node of the plant; nothing without shapes.
-void put_collision_children(JsonWriter& json,
-                            const GltfCollision& collision,
-                            std::size_t first_node);
 // Items of the arrays of the document; `first_...`: the number of the first one that is referred to.
 void put_collision_nodes(JsonWriter& json, const GltfCollision& collision, std::size_t first_mesh);
 void put_collision_meshes(JsonWriter& json,

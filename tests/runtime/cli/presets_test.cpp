@@ -70,6 +70,7 @@ TEST_CASE("each preset sets what its options set one by one") {
                     CHECK(named.mesh == spelt.mesh);
                     CHECK(named.unit == spelt.unit);
                     CHECK(named.pivot == spelt.pivot);
+                    CHECK(named.compression == spelt.compression);
                     CHECK(named.collision == spelt.collision);
                     CHECK(named.collision_names == spelt.collision_names);
                     CHECK(named.wind_data == spelt.wind_data);
