@@ -96,26 +96,31 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Meshes `skeleton` and writes the mesh to `path`; with `animation` as a skin, whose first pose is
-/// `skeleton`.
-ExitStatus write_plant(Export& run,
-                       const Skeleton& skeleton,
-                       const std::string& path,
-                       const PlantAnimation* animation = nullptr) {
-    const ExportCommand& command = run.command;
-    SteadyClock::time_point start = SteadyClock::now();
-    if (traits_of(run.format).uses_mesh) {
-        MeshOptions options = command.mesh;
-        options.segments = animation != nullptr || command.wind_data;
-        run.mesh = {};
-        const ExitStatus status =
-            run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
-        if (status != ExitStatus::Ok) {
-            return status;
-        }
-    }
+/// Makes the mesh of `skeleton`; with `segments` those of its vertices too.
+ExitStatus mesh_frame(Export& run, const Skeleton& skeleton, bool segments) {
+    const SteadyClock::time_point start = SteadyClock::now();
+    MeshOptions options = run.command.mesh;
+    options.segments = segments;
+    run.mesh = {};
+    const ExitStatus status =
+        run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
     run.timing.mesh_seconds += seconds_since(start);
-    start = SteadyClock::now();
+    return status;
+}
+
+/// How the mesh of a file moves; both null: not at all.
+struct Movement {
+    const PlantAnimation* animation = nullptr;
+    const MeshFilm* film = nullptr;
+};
+
+/// Writes the mesh to `path`.
+ExitStatus write_mesh(Export& run,
+                      const Skeleton& skeleton,
+                      const std::string& path,
+                      const Movement& movement) {
+    const ExportCommand& command = run.command;
+    const SteadyClock::time_point start = SteadyClock::now();
     ExportInfo info;
     info.grammar = std::filesystem::path(command.file).filename().string();
     // Without the name of a file, nodes have that of any plant.
@@ -125,7 +130,8 @@ ExitStatus write_plant(Export& run,
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
-    info.animation = animation;
+    info.animation = movement.animation;
+    info.film = movement.film;
     info.wind_data = command.wind_data;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
@@ -143,20 +149,21 @@ ExitStatus write_plant(Export& run,
         placed = skeleton;
         place(placement, run.mesh);
         place(placement, placed);
-        if (animation != nullptr) {
-            placed_animation = *animation;
+        if (movement.animation != nullptr) {
+            placed_animation = *movement.animation;
             place(placement, placed_animation);
             info.animation = &placed_animation;
         }
     }
+    const Skeleton& written = stays ? skeleton : placed;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
-        status = add_side_files(run, skeleton, path, info, files);
+        status = add_side_files(run, written, path, info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
-            return export_mesh(run.mesh, stays ? skeleton : placed, run.format, info, sink);
+            return export_mesh(run.mesh, written, run.format, info, sink);
         });
     }
     if (status == ExitStatus::Ok) {
@@ -165,6 +172,22 @@ ExitStatus write_plant(Export& run,
     run.timing.bytes += files.byte_count();
     run.timing.write_seconds += seconds_since(start);
     return status;
+}
+
+/// Meshes `skeleton` and writes the mesh to `path`; with `animation` as a skin, whose first pose is
+/// `skeleton`.
+ExitStatus write_plant(Export& run,
+                       const Skeleton& skeleton,
+                       const std::string& path,
+                       const PlantAnimation* animation = nullptr) {
+    if (traits_of(run.format).uses_mesh) {
+        const ExitStatus status =
+            mesh_frame(run, skeleton, animation != nullptr || run.command.wind_data);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+    }
+    return write_mesh(run, skeleton, path, {animation, nullptr});
 }
 
 /// Stops if `bytes` of an animation are more than the limit.
@@ -310,6 +333,13 @@ ExitStatus find_first_drawn(const Export& run, PlantGrowth& growth, std::uint32_
     return ExitStatus::Ok;
 }
 
+/// Makes the skeleton of a moment.
+ExitStatus
+pose_growth(const Export& run, PlantGrowth& growth, const GrowthMoment& moment, Skeleton& grown) {
+    return run.console.interrupted() ? ExitStatus::Interrupted
+                                     : run.console.take(growth.pose(moment, run.project, grown));
+}
+
 /// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
@@ -331,9 +361,7 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
         GrowthMoment moment = moment_of_frame(frame + skipped, command.frames + skipped,
                                               growth.last_generation() - start);
         moment.generation += start;
-        ExitStatus status = run.console.interrupted()
-                                ? ExitStatus::Interrupted
-                                : run.console.take(growth.pose(moment, run.project, grown));
+        ExitStatus status = pose_growth(run, growth, moment, grown);
         if (status == ExitStatus::Ok) {
             status = write_plant(run, grown, numbered_path(command.output, frame + 1));
         }
@@ -343,6 +371,30 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
         }
     }
     return ExitStatus::Ok;
+}
+
+/// Writes the plant from its axiom to its last generation to one file. `grown` becomes the skeleton
+/// of the last frame.
+ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
+    const ExportCommand& command = run.command;
+    MeshFilmBuilder builder(command.frames_per_second);
+    for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
+        ExitStatus status = pose_growth(
+            run, growth, moment_of_frame(frame, command.frames, growth.last_generation()), grown);
+        if (status == ExitStatus::Ok) {
+            status = mesh_frame(run, grown, false);
+        }
+        if (status == ExitStatus::Ok) {
+            builder.add(std::move(run.mesh));
+            status = check_animation(run, builder.byte_count());
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+    }
+    MeshFilm film = builder.finish();
+    run.mesh = std::move(film.mesh);
+    return write_mesh(run, grown, command.output, {nullptr, &film});
 }
 
 /// A message about options that do not go together; empty if there are none.
@@ -360,10 +412,18 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
                            traits_of(format).name);
     }
     if (command.grow && command.frames == 0) {
-        return "--grow writes a numbered series; say of how many files with --frames";
+        return "--grow needs the number of its frames: --frames N";
     }
     if (command.grow && bends) {
         return "--grow and --gravity or --wind do not go together";
+    }
+    if (command.grow && (command.wind_data || command.bones)) {
+        return "--grow and --wind-data or --bones do not go together, because branches come and go";
+    }
+    if (command.grow &&
+        command.compression.value_or(ExportCompression::None) != ExportCompression::None) {
+        return "--grow and --compress do not go together: the changes from frame to frame are not "
+               "quantised";
     }
     if (command.grow && command.stream) {
         return "--grow and --stream do not go together, because a generation is drawn between "
@@ -397,9 +457,13 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--collision has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.collision; }));
     }
-    if (command.grow && command.pivot == PlantPivot::Centre) {
-        return "--grow and --pivot centre do not go together, because the middle of a plant moves "
-               "as it grows";
+    if (command.grow && command.pivot != PlantPivot::Origin) {
+        return "--grow and --pivot do not go together, because base and middle of a plant change "
+               "as "
+               "it grows";
+    }
+    if (command.grow && command.collision != CollisionKind::None) {
+        return "--grow and --collision do not go together, because branches come and go";
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";
@@ -413,10 +477,8 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     if (command.frames != 0 && !bends && !command.grow) {
         return "--frames needs something that moves: --gravity, --wind or --grow";
     }
-    if (command.frames != 0 && command.output == "-" && command.grow) {
-        return "--grow writes several files, which do not go to standard output";
-    }
-    if (command.frames != 0 && command.output == "-" && !traits_of(format).motion) {
+    const bool one_file = command.grow ? traits_of(format).film : traits_of(format).motion;
+    if (command.frames != 0 && command.output == "-" && !one_file) {
         return fmt::format(
             "--frames writes several files of this format, which do not go to standard "
             "output; {} hold all frames in one",
@@ -439,7 +501,8 @@ ExitStatus export_growth(const ExportCommand& command,
     PlantGrowth& growth = begun.value();
     Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}};
     Skeleton grown;
-    const ExitStatus status = write_growth(run, growth, grown);
+    const ExitStatus status =
+        traits_of(format).film ? write_film(run, growth, grown) : write_growth(run, growth, grown);
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }

@@ -267,8 +267,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
                  "With gusts: the last frame equals the first, and the motion goes on through it")
         ->group("Physics");
     app.add_flag("--grow", command.grow,
-                 "The frames show the plant from its axiom to its last generation: numbered files, "
-                 "with parts of generations between whole ones");
+                 "The frames show the plant from its axiom to its last generation, with parts of "
+                 "generations between whole ones");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
     add_parsed(app, "--fps", command.frames_per_second, rate, "Frames per second (default 24)")
         ->type_name("F")

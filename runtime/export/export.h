@@ -6,6 +6,7 @@
 
 #include "grammar/base/outcome.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/meshing/mesh_film.h"
 #include "runtime/turtle/skeleton.h"
 
 #include <cstdint>
@@ -60,6 +61,7 @@ struct FormatTraits {
     ExportPictures pictures = ExportPictures::None;
     bool has_mtl = false;    // materials in a file beside it, by write_mtl()
     bool motion = false;     // one file holds all frames of an animation
+    bool film = false;       // one file holds all frames of a growth
     bool compresses = false; // takes ExportInfo::compression
     bool separates = false;  // takes ExportInfo::buffer_name
     bool units = false;      // takes ExportInfo::unit
@@ -120,6 +122,9 @@ struct ExportInfo {
     /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
     /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
+    /// Frames with different meshes, in formats with films. The mesh is that of the film, and there
+    /// is no animation, compression or wind data.
+    const MeshFilm* film = nullptr;
     /// Max count of joints of the skin, 2 to kMaxJoints: a light skeleton with smooth weights. 0: a
     /// joint for each segment that moves.
     std::uint32_t max_joints = 0;

@@ -14,15 +14,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
 namespace {
 
-/// The skin, pictures, arrays and shapes of collision of a file.
+/// The skin, pictures and arrays of a file.
 struct Contents {
     std::optional<GltfMotion> motion;
     std::optional<WindData> wind;
@@ -32,8 +34,8 @@ struct Contents {
 
     [[nodiscard]] std::uint64_t bytes() const { return streams.bytes + collision.byte_count(); }
     [[nodiscard]] const GltfMotion* moving() const { return motion ? &*motion : nullptr; }
-    [[nodiscard]] GltfPlant plant(const Mesh& mesh) const {
-        return {mesh, moving(), wind ? &*wind : nullptr};
+    [[nodiscard]] GltfPlant plant(const ExportJob& job) const {
+        return {job.mesh, moving(), wind ? &*wind : nullptr, job.info.film};
     }
 };
 
@@ -41,15 +43,17 @@ struct Contents {
 class Document {
 public:
     Document(const ExportJob& job, const Contents& contents, JsonWriter& json)
-        : mesh_(job.mesh), info_(job.info), motion_(contents.moving()),
+        : mesh_(job.mesh), info_(job.info), motion_(contents.moving()), film_(job.info.film),
           pictures_(contents.pictures), streams_(contents.streams), collision_(contents.collision),
-          json_(json) {}
+          json_(json) {
+        number_materials();
+    }
 
     void write() {
         json_.object("asset").member("version", "2.0").member("generator", info_.generator).end();
         put_extensions();
         put_nodes();
-        put_primitives();
+        put_meshes();
         put_materials();
         if (!pictures_.list.empty()) {
             const bool embedded = info_.buffer_name.empty();
@@ -60,6 +64,9 @@ public:
         if (motion_ != nullptr) {
             put_skin_and_animation(json_, *motion_, first_joint(), accessors);
         }
+        if (film_ != nullptr) {
+            put_film_animation(json_, *film_, 1, accessors);
+        }
         json_.array("bufferViews");
         for (const GltfStream& stream : streams_.list) {
             put_stream_view(json_, stream);
@@ -69,6 +76,23 @@ public:
     }
 
 private:
+    /// A material for each primitive; those of a film share the ones of earlier shapes.
+    void number_materials() {
+        const std::vector<GltfPrimitive>& list = streams_.primitives.list;
+        std::size_t count = 0;
+        for (const GltfPrimitive& primitive : list) {
+            const auto is_like = [&](const GltfPrimitive& other) {
+                return &material_of(mesh_, other) == &material_of(mesh_, primitive) &&
+                       other.colour == primitive.colour && other.colours == primitive.colours &&
+                       other.parts.size() == primitive.parts.size();
+            };
+            const auto end = list.begin() + static_cast<std::ptrdiff_t>(materials_.size());
+            const auto same = film_ == nullptr ? end : std::find_if(list.begin(), end, is_like);
+            materials_.push_back(
+                same == end ? count++ : materials_[static_cast<std::size_t>(same - list.begin())]);
+        }
+    }
+
     /// Whether positions have a node of their own that decodes them. Joints decode those of a skin.
     [[nodiscard]] bool has_decoding_node() const {
         return streams_.forms.front().quantized() && motion_ == nullptr;
@@ -103,13 +127,13 @@ private:
         }
         json_.end().end().end();
         json_.array("nodes").object().member("name", plant_name(info_));
-        if (!has_decoding_node()) {
+        if (film_ == nullptr && !has_decoding_node()) {
             json_.member("mesh", 0);
         }
+        put_children();
         if (motion_ != nullptr) {
             json_.member("skin", 0);
         }
-        put_children();
         json_.object("extras").member("grammar", info_.grammar).member("seed", info_.seed);
         json_.member("n", info_.generations).end().end();
         if (has_decoding_node()) {
@@ -121,52 +145,116 @@ private:
         if (motion_ != nullptr) {
             put_joint_nodes(json_, *motion_, first_joint());
         }
-        put_collision_nodes(json_, collision_, 1);
+        if (film_ != nullptr) {
+            put_film_nodes(json_, *film_);
+        }
+        put_collision_nodes(json_, collision_, mesh_count());
         json_.end();
     }
 
-    /// The children of the node of the plant: the one that decodes, and the shapes of collision,
-    /// which are the last nodes.
+    /// Meshes but those of the shapes of collision.
+    [[nodiscard]] std::size_t mesh_count() const {
+        return film_ != nullptr ? drawn_shapes(*film_).size() : 1;
+    }
+
+    /// The children of the node of the plant: the shapes of a film or the node that decodes, and the
+    /// shapes of collision, which are the last nodes.
     void put_children() {
-        if (!has_decoding_node() && collision_.shapes.empty()) {
+        std::size_t own = has_decoding_node() ? 1 : 0;
+        own = film_ != nullptr ? drawn_shapes(*film_).size() : own;
+        if (own + collision_.shapes.size() == 0) {
             return;
         }
         json_.array("children");
-        if (has_decoding_node()) {
-            json_.value(1);
+        for (std::size_t i = 0; i < own; ++i) {
+            json_.value(1 + i);
         }
-        const std::size_t first = has_decoding_node()  ? 2
-                                  : motion_ != nullptr ? first_joint() + motion_->joint_count()
-                                                       : 1;
+        const std::size_t joints = motion_ != nullptr ? motion_->joint_count() : 0;
         for (std::size_t i = 0; i < collision_.shapes.size(); ++i) {
-            json_.value(first + i);
+            json_.value(1 + own + joints + i);
         }
         json_.end();
     }
 
-    /// Accessors have the numbers of their streams.
-    void put_primitives() {
-        json_.array("meshes").object().member("name", plant_name(info_)).array("primitives");
-        for (std::size_t i = 0; i < streams_.first_motion; ++i) {
-            const GltfStream& stream = streams_.list[i];
-            if (stream.array == GltfArray::Positions) {
-                json_.object().object("attributes");
-            }
-            if (stream.array != GltfArray::Indices) {
-                json_.member(attribute_name(stream.array), i);
-            } else {
-                json_.end().member("indices", i).member("material", stream.item).end();
-            }
+    /// The streams of the primitives of a shape begin at `first`; returns their end.
+    [[nodiscard]] std::size_t end_of_shape(std::size_t first) const {
+        const auto shape_of = [this](std::size_t i) {
+            return streams_.primitives.list[streams_.list[i].item].shape;
+        };
+        std::size_t end = first;
+        while (end < streams_.first_motion && shape_of(end) == shape_of(first)) {
+            ++end;
         }
-        json_.end().end();
+        return end;
+    }
+
+    /// A mesh for the plant or for each shape of a film.
+    void put_meshes() {
+        json_.array("meshes");
+        for (std::size_t first = 0; first < streams_.first_motion;) {
+            const std::size_t end = end_of_shape(first);
+            json_.object();
+            if (film_ != nullptr) {
+                put_target_names(streams_.primitives.list[streams_.list[first].item].shape);
+            } else {
+                json_.member("name", plant_name(info_));
+            }
+            json_.array("primitives");
+            put_primitives(first, end);
+            json_.end().end();
+            first = end;
+        }
         put_collision_meshes(json_, collision_, streams_.first_motion);
         json_.end();
     }
 
+    /// The name of the mesh of a shape, and those of its targets, which glTF has no place for but
+    /// which readers look for here.
+    void put_target_names(std::uint32_t number) {
+        const MeshFilm::Shape& shape = film_->shapes[number];
+        json_.member("name", fmt::format("shape {}", number + 1));
+        if (!shape.earlier.empty()) {
+            json_.object("extras").array("targetNames");
+            for (std::size_t i = 0; i < shape.earlier.size(); ++i) {
+                json_.value(fmt::format("frame {}", shape.first_frame + i + 1));
+            }
+            json_.end().end();
+        }
+    }
+
+    /// Of the streams from `first` to `end`. Accessors have the numbers of their streams.
+    void put_primitives(std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            const GltfStream& stream = streams_.list[i];
+            const bool has_targets = film_ != nullptr && stream.array == GltfArray::PositionChanges;
+            if (stream.array == GltfArray::Positions) {
+                json_.object().object("attributes");
+            } else if (has_targets && stream.frame == 0) {
+                json_.end().array("targets").object();
+            } else if (has_targets) {
+                json_.end().object();
+            }
+            if (stream.array != GltfArray::Indices) {
+                json_.member(attribute_name(stream.array), i);
+                continue;
+            }
+            if (i > first && streams_.list[i - 1].array == GltfArray::NormalChanges) {
+                json_.end(); // of the targets
+            }
+            json_.end().member("indices", i);
+            json_.member("material", materials_[stream.item]).end();
+        }
+    }
+
     void put_materials() {
         json_.array("materials");
+        std::size_t count = 0;
         for (std::size_t i = 0; i < streams_.primitives.list.size(); ++i) {
             const GltfPrimitive& primitive = streams_.primitives.list[i];
+            if (materials_[i] < count) {
+                continue; // an earlier shape has it
+            }
+            ++count;
             const std::uint32_t number = mesh_.parts[primitive.parts.front().part].material;
             GltfMaterial look{mesh_.materials[number].name, primitive.colour,
                               streams_.forms[i].texture.transform};
@@ -188,6 +276,9 @@ private:
         if (motion_ != nullptr) {
             put_motion_accessors(json_, *motion_, streams_.first_motion);
         }
+        if (film_ != nullptr) {
+            put_film_accessors(json_, *film_, streams_.first_motion);
+        }
         json_.end();
         return streams_.first_motion + collision_.accessor_count();
     }
@@ -195,10 +286,12 @@ private:
     const Mesh& mesh_;
     const ExportInfo& info_;
     const GltfMotion* motion_;
+    const MeshFilm* film_;
     const Pictures& pictures_;
     const GltfStreams& streams_;
     const GltfCollision& collision_;
     JsonWriter& json_;
+    std::vector<std::size_t> materials_; // by primitive
 };
 
 Outcome<Contents> refuse_size(ExportSubject subject) {
@@ -239,8 +332,10 @@ Outcome<Contents> plan(const ExportJob& job) {
         images = encode_pictures(contents.pictures.list, info.threads);
     }
     contents.streams =
-        plan_gltf_streams(contents.plant(job.mesh), contents.pictures, std::move(images), info);
-    contents.collision.shapes = make_collision(job.skeleton, info);
+        plan_gltf_streams(contents.plant(job), contents.pictures, std::move(images), info);
+    if (info.film == nullptr) {
+        contents.collision.shapes = make_collision(job.skeleton, info);
+    }
     if (contents.bytes() > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
         return refuse_size(info.subject);
     }
@@ -264,7 +359,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     file.data_name = job.info.buffer_name;
     file.decoded_bytes = streams.decoded_bytes;
     file.put_data = [&](const GltfSink& write_bytes) {
-        write_gltf_streams(contents.plant(job.mesh), streams, write_bytes);
+        write_gltf_streams(contents.plant(job), streams, write_bytes);
         write_collision(contents.collision, write_bytes);
     };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
@@ -297,7 +392,8 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
             out.put_bytes(bytes);
             return !out.stopped();
         };
-        write_gltf_streams(planned.value().plant(mesh), planned.value().streams, write_bytes);
+        write_gltf_streams(planned.value().plant({mesh, skeleton, info}), planned.value().streams,
+                           write_bytes);
         write_collision(planned.value().collision, write_bytes);
         return finish(out);
     });

@@ -17,11 +17,15 @@ enum class GltfArray : std::uint8_t {
     Weights,
     WindPivots,
     WindMotions,
+    PositionChanges, // of morph targets
+    NormalChanges,
     Indices,
     InverseBinds,
     Times,
     Translations,
     Rotations,
+    Scales,
+    MorphWeights,
     Image,
 };
 

@@ -211,9 +211,9 @@ GltfItem item_of(GltfArray array, const GltfForm& form) {
 }
 
 std::string_view attribute_name(GltfArray array) {
-    constexpr std::array<std::string_view, 9> kNames{
-        "POSITION", "NORMAL",    "TEXCOORD_0", "TANGENT",    "COLOR_0",
-        "JOINTS_0", "WEIGHTS_0", "TEXCOORD_1", "TEXCOORD_2",
+    constexpr std::array<std::string_view, 11> kNames{
+        "POSITION",  "NORMAL",     "TEXCOORD_0", "TANGENT",  "COLOR_0", "JOINTS_0",
+        "WEIGHTS_0", "TEXCOORD_1", "TEXCOORD_2", "POSITION", "NORMAL",
     };
     static_assert(kNames.size() == static_cast<std::size_t>(GltfArray::Indices));
     return kNames[static_cast<std::size_t>(array)];
@@ -238,8 +238,7 @@ void write_items(const Mesh& mesh,
                  const GltfBytes& write) {
     if (array == GltfArray::Colours) {
         write_colours(mesh, vertices, write);
-    } else if (array == GltfArray::TextureCoordinates ? form.texture.quantized
-                                                      : form.quantized()) {
+    } else if (array == GltfArray::TextureCoordinates ? form.texture.quantized : form.quantized()) {
         write_quantized(mesh, vertices, array, form, write);
     } else if (array == GltfArray::Positions) {
         write_each(vertices, write, [&](std::uint32_t vertex) { return mesh.positions[vertex]; });
@@ -291,8 +290,7 @@ std::string compress_items(std::string_view items, std::uint32_t stride) {
     return bytes;
 }
 
-std::string
-compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices) {
+std::string compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices) {
     const std::size_t count = items.size() / stride;
     LargeVector<unsigned> indices(count);
     if (stride == sizeof(std::uint16_t)) {

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace lsys {
 
@@ -35,11 +36,12 @@ void merge_colours(const Mesh& mesh, GltfPrimitive& primitive) {
     }
 }
 
-/// Primitives with their parts and colours, without vertices.
-std::vector<GltfPrimitive> group_parts(const Mesh& mesh) {
+/// Primitives of some parts with their colours, without vertices.
+std::vector<GltfPrimitive>
+group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count) {
     std::vector<std::vector<GltfPart>> groups;
     std::vector<bool> coloured;
-    for (std::uint32_t i = 0; i < mesh.parts.size(); ++i) {
+    for (std::uint32_t i = first_part; i < first_part + part_count; ++i) {
         if (mesh.parts[i].index_count < 3) {
             continue;
         }
@@ -79,10 +81,10 @@ std::vector<GltfPrimitive> group_parts(const Mesh& mesh) {
             }
         }
     }
-    const auto first_part = [](const GltfPrimitive& a, const GltfPrimitive& b) {
+    const auto begins_before = [](const GltfPrimitive& a, const GltfPrimitive& b) {
         return a.parts.front().part < b.parts.front().part;
     };
-    std::sort(list.begin(), list.end(), first_part);
+    std::sort(list.begin(), list.end(), begins_before);
     return list;
 }
 
@@ -101,9 +103,19 @@ const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive) {
     return mesh.materials[mesh.parts[primitive.parts.front().part].material];
 }
 
-GltfPrimitives plan_gltf_primitives(const Mesh& mesh) {
+GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film) {
     GltfPrimitives primitives;
-    primitives.list = group_parts(mesh);
+    if (film == nullptr) {
+        primitives.list = group_parts(mesh, 0, static_cast<std::uint32_t>(mesh.parts.size()));
+    } else {
+        for (std::uint32_t shape = 0; shape < film->shapes.size(); ++shape) {
+            const MeshFilm::Shape& from = film->shapes[shape];
+            for (GltfPrimitive& each : group_parts(mesh, from.first_part, from.part_count)) {
+                each.shape = shape;
+                primitives.list.push_back(std::move(each));
+            }
+        }
+    }
     primitives.vertices.reserve(mesh.positions.size());
     // Number of the part that used a vertex last.
     LargeVector<std::uint32_t> users(mesh.positions.size());

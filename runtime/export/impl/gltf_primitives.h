@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/meshing/mesh.h"
+#include "runtime/meshing/mesh_film.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,8 @@ enum class GltfColours : std::uint8_t {
 /// Parts that are drawn with one material.
 struct GltfPrimitive {
     std::vector<GltfPart> parts;
-    glm::vec3 colour{1.0F}; // of the material, linear
+    std::uint32_t shape = 0; // of the film; 0 without one
+    glm::vec3 colour{1.0F};  // of the material, linear
     GltfColours colours = GltfColours::None;
     std::uint64_t first_vertex = 0;
     std::uint64_t vertex_count = 0;
@@ -55,8 +57,9 @@ struct GltfPrimitives {
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
 /// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
-/// only become one primitive from kMinMergedMaterials on.
-[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh);
+/// only become one primitive from kMinMergedMaterials on. `film`: the parts are those of its
+/// shapes, each of which has primitives of its own; may be null.
+[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film = nullptr);
 
 /// The material of a primitive, which gives all but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);

@@ -52,6 +52,15 @@ void write_indices(const Mesh& mesh,
     });
 }
 
+/// The way of a vertex from the last frame of its shape to an earlier one.
+glm::vec3 position_change(const GltfPlant& plant,
+                          const MeshFilm::Shape& shape,
+                          std::uint32_t frame,
+                          std::uint32_t vertex) {
+    return shape.earlier[frame].positions[vertex - shape.first_vertex] -
+           plant.mesh.positions[vertex];
+}
+
 /// Writes the items of a stream of a primitive, uncompressed and without padding behind them.
 void write_primitive_stream(const GltfPlant& plant,
                             const GltfStreams& streams,
@@ -72,6 +81,22 @@ void write_primitive_stream(const GltfPlant& plant,
     case GltfArray::WindMotions:
         write_wind_items(mesh, vertices, stream.array, form, *plant.wind, write);
         break;
+    case GltfArray::PositionChanges: {
+        const MeshFilm::Shape& shape = plant.film->shapes[primitive.shape];
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            return position_change(plant, shape, stream.frame, vertex);
+        });
+        break;
+    }
+    case GltfArray::NormalChanges: {
+        const MeshFilm::Shape& shape = plant.film->shapes[primitive.shape];
+        const LargeVector<glm::vec3>& normals = shape.earlier[stream.frame].normals;
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            return valid_normal(normals[vertex - shape.first_vertex]) -
+                   valid_normal(mesh.normals[vertex]);
+        });
+        break;
+    }
     case GltfArray::Indices:
         if (stream.type.component == kGltfShort) {
             write_indices<std::uint16_t>(mesh, streams, primitive, write);
@@ -139,6 +164,9 @@ public:
             add(GltfArray::WindPivots);
             add(GltfArray::WindMotions);
         }
+        if (plant_.film != nullptr) {
+            add_morph_targets(number);
+        }
         add(GltfArray::Indices);
         GltfStream& indices = streams_.list.back();
         indices.type = primitive.vertex_count <= kMaxNarrowVertices
@@ -148,19 +176,18 @@ public:
     }
 
     void add_motion() {
-        const auto add = [this](GltfArray array, std::uint32_t bytes, std::uint64_t count) {
-            if (count > 0) {
-                GltfStream& stream = streams_.list.emplace_back();
-                stream.array = array;
-                stream.type.stride = bytes;
-                stream.count = count;
-            }
-        };
         const GltfMotion& motion = *plant_.motion;
-        add(GltfArray::InverseBinds, sizeof(glm::mat4), motion.joint_count());
-        add(GltfArray::Times, sizeof(float), motion.time_count());
-        add(GltfArray::Translations, sizeof(glm::vec3), motion.translation_count());
-        add(GltfArray::Rotations, sizeof(glm::quat), motion.rotation_count());
+        add_animation(GltfArray::InverseBinds, sizeof(glm::mat4), motion.joint_count());
+        add_animation(GltfArray::Times, sizeof(float), motion.time_count());
+        add_animation(GltfArray::Translations, sizeof(glm::vec3), motion.translation_count());
+        add_animation(GltfArray::Rotations, sizeof(glm::quat), motion.rotation_count());
+    }
+
+    void add_film() {
+        const GltfFilmCounts counts = count_film_items(*plant_.film);
+        add_animation(GltfArray::Times, sizeof(float), counts.times);
+        add_animation(GltfArray::Scales, sizeof(glm::vec3), counts.scales);
+        add_animation(GltfArray::MorphWeights, sizeof(float), counts.weights);
     }
 
     void compress(std::uint32_t threads) {
@@ -186,6 +213,35 @@ public:
     }
 
 private:
+    void add_animation(GltfArray array, std::uint32_t item_bytes, std::uint64_t count) {
+        if (count > 0) {
+            GltfStream& stream = streams_.list.emplace_back();
+            stream.array = array;
+            stream.type.stride = item_bytes;
+            stream.count = count;
+        }
+    }
+
+    void add_morph_targets(std::size_t number) {
+        const GltfPrimitive& primitive = streams_.primitives.list[number];
+        const MeshFilm::Shape& shape = plant_.film->shapes[primitive.shape];
+        const GltfItem vector{kGltfFloat, "VEC3", false, sizeof(glm::vec3)};
+        for (std::uint32_t frame = 0; frame < shape.earlier.size(); ++frame) {
+            GltfStream stream;
+            stream.array = GltfArray::PositionChanges;
+            stream.item = number;
+            stream.frame = frame;
+            stream.type = vector;
+            stream.count = primitive.vertex_count;
+            for (const std::uint32_t vertex : streams_.primitives.vertices_of(primitive)) {
+                stream.bounds.add(position_change(plant_, shape, frame, vertex));
+            }
+            streams_.list.push_back(stream);
+            stream.array = GltfArray::NormalChanges;
+            streams_.list.push_back(std::move(stream));
+        }
+    }
+
     void compress(GltfStream& stream) {
         std::string items;
         items.reserve(stream.decoded_bytes());
@@ -212,7 +268,7 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
                               const ExportInfo& info) {
     const Mesh& mesh = plant.mesh;
     GltfStreams streams;
-    streams.primitives = plan_gltf_primitives(mesh);
+    streams.primitives = plan_gltf_primitives(mesh, plant.film);
     streams.images = std::move(images);
     streams.forms.assign(streams.primitives.list.size(),
                          form_of(info.compression, streams.primitives.bounds()));
@@ -225,6 +281,9 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
     streams.first_motion = streams.list.size();
     if (plant.motion != nullptr) {
         planner.add_motion();
+    }
+    if (plant.film != nullptr) {
+        planner.add_film();
     }
     streams.first_image = streams.list.size();
     for (std::size_t i = 0; i < streams.images.size(); ++i) {
@@ -252,7 +311,17 @@ void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, cons
             write_inverse_binds(*plant.motion, streams.forms.front().decoding(), put);
             break;
         case GltfArray::Times:
-            write_times(*plant.motion, put);
+            if (plant.film != nullptr) {
+                write_film_times(*plant.film, put);
+            } else {
+                write_times(*plant.motion, put);
+            }
+            break;
+        case GltfArray::Scales:
+            write_film_scales(*plant.film, put);
+            break;
+        case GltfArray::MorphWeights:
+            write_film_weights(*plant.film, put);
             break;
         case GltfArray::Translations:
             write_translations(*plant.motion, put);
@@ -307,8 +376,10 @@ void put_stream_accessor(JsonWriter& json,
                          const GltfStream& stream,
                          std::size_t view) {
     begin_accessor(json, {view, {}, stream.type.component, stream.count, stream.type.type});
-    if (stream.array == GltfArray::Positions) {
-        const Bounds& bounds = streams.primitives.list[stream.item].bounds;
+    if (stream.array == GltfArray::Positions || stream.array == GltfArray::PositionChanges) {
+        const bool changes = stream.array == GltfArray::PositionChanges;
+        const Bounds& bounds =
+            changes ? stream.bounds : streams.primitives.list[stream.item].bounds;
         if (const GltfForm& form = streams.forms[stream.item]; form.quantized()) {
             const auto low = position_item(form, bounds.low);
             const auto high = position_item(form, bounds.high);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/export/export.h"
+#include "runtime/export/impl/gltf_film.h"
 #include "runtime/export/impl/gltf_motion.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/gltf_primitives.h"
@@ -24,11 +25,14 @@ struct GltfPlant {
     const Mesh& mesh;
     const GltfMotion* motion = nullptr; // null: no skin
     const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
+    const MeshFilm* film = nullptr;     // null: no film; else `mesh` is that of the film
 };
 
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
-    std::size_t item = 0; // the primitive, or the image
+    std::size_t item = 0;    // the primitive, or the image
+    std::uint32_t frame = 0; // of MeshFilm::Shape::earlier, of a morph target
+    Bounds bounds = {};      // of PositionChanges
     GltfItem type;
     std::uint64_t count = 0;  // items
     std::uint64_t offset = 0; // in the buffer, a multiple of 4

@@ -189,9 +189,37 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     refused({"--wind", "1,0,0", "--bones", "9"}, "glb or gltf");
     refused({"--wind", "1,0,0", "--frames", "9", "--bones", "1"}, "whole number from 2");
     const LscRun piped =
-        run_lsc({"export", "-", "-o", "-", "--format", "glb", "--grow", "--frames", "2"}, kTree);
+        run_lsc({"export", "-", "-o", "-", "--format", "ply", "--grow", "--frames", "2"}, kTree);
     CHECK(piped.status == 2);
+    refused({"--grow", "--frames", "2", "--bones", "9"}, "branches come and go");
+    refused({"--grow", "--frames", "2", "--wind-data"}, "branches come and go");
+    refused({"--grow", "--frames", "2", "--compress", "meshopt"}, "not quantised");
     CHECK(count_files(folder) == 10);
+}
+
+TEST_CASE("glb and gltf hold all frames of a growth in one file") {
+    const ScratchFolder folder;
+    for (const std::string name : {"tree.gltf", "tree.glb"}) {
+        const LscRun run = run_lsc(
+            {"export", "-", "-o", folder / name, "--grow", "--frames", "9", "--fps", "2"}, kTree);
+        REQUIRE(run.status == 0);
+        CHECK(run.err.empty());
+    }
+    CHECK(count_files(folder) == 2);
+    const auto document = nlohmann::json::parse(read_text(folder / "tree.gltf"));
+    CHECK(document["animations"][0]["name"] == "growth");
+    double last = 0.0;
+    for (const auto& sampler : document["animations"][0]["samplers"]) {
+        const auto& times = document["accessors"][sampler["input"].get<std::size_t>()];
+        last = std::max(last, times["max"][0].get<double>());
+    }
+    CHECK(last == 4.0); // 8 steps of half a second
+    const LscRun limited = run_lsc(
+        {"export", "-", "-o", folder / "no.glb", "--grow", "--frames", "999", "--max-memory", "1M"},
+        kTree);
+    CHECK(limited.status != 0);
+    CHECK(limited.err.find("--frames") != std::string::npos);
+    CHECK(count_files(folder) == 2);
 }
 
 TEST_CASE("frames that grow begin after the last generation that draws nothing") {
@@ -278,11 +306,11 @@ TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
     // Standard output holds everything.
     const LscRun whole = with({"export", "-", "-o", "-", "--format", "gltf"});
     CHECK(whole.out == run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree).out);
-    // Frames share pictures and have buffers of their own.
+    // A film has one buffer.
     REQUIRE(with({"export", "-", "-o", folder / "b.gltf", "--grow", "--frames", "3"}).status == 0);
-    CHECK(std::filesystem::exists(folder / "b.0003.bin"));
+    CHECK(std::filesystem::exists(folder / "b.bin"));
     CHECK(std::filesystem::exists(folder / "b.bark.png"));
-    CHECK(count_files(folder) == 4 + 2 * 3 + 2);
+    CHECK(count_files(folder) == 4 + 4);
     const LscRun glb = with({"export", "-", "-o", folder / "c.glb"});
     CHECK(glb.status == 2);
     CHECK(glb.err.find("--buffers needs gltf, not glb") != std::string::npos);

@@ -1,0 +1,64 @@
+// MeshFilm: the meshes of successive frames as shapes whose vertices move. Frames with the same
+// triangles and materials are one shape; where a frame has others, another shape follows. Made of
+// the frames of a growth by MeshFilmBuilder; written by runtime/export as morph targets.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+struct MeshFilm {
+    /// Vertices of a frame.
+    struct Frame {
+        LargeVector<glm::vec3> positions;
+        LargeVector<glm::vec3> normals;
+    };
+    struct Shape {
+        std::uint32_t first_frame = 0;
+        std::vector<Frame> earlier;     // its frames but the last, which is in MeshFilm::mesh
+        std::uint64_t first_vertex = 0; // in MeshFilm::mesh
+        std::uint32_t first_part = 0;
+        std::uint32_t part_count = 0; // 0: nothing is drawn
+
+        [[nodiscard]] std::uint32_t frame_count() const {
+            return static_cast<std::uint32_t>(earlier.size()) + 1;
+        }
+    };
+
+    Mesh mesh; // the last frame of each shape, one after the other
+    std::vector<Shape> shapes;
+    float frames_per_second = 24.0F;
+
+    [[nodiscard]] std::uint32_t frame_count() const {
+        return shapes.empty() ? 0 : shapes.back().first_frame + shapes.back().frame_count();
+    }
+    [[nodiscard]] std::uint64_t byte_count() const;
+};
+
+class MeshFilmBuilder {
+public:
+    explicit MeshFilmBuilder(float frames_per_second) {
+        film_.frames_per_second = frames_per_second;
+    }
+
+    /// Texture coordinates, tangents and colours of a shape are those of its last frame. May throw
+    /// std::bad_alloc.
+    void add(Mesh frame);
+    /// Bytes of all frames so far.
+    [[nodiscard]] std::uint64_t byte_count() const;
+    /// The film. The builder cannot be used afterwards.
+    [[nodiscard]] MeshFilm finish();
+
+private:
+    void close_shape();
+
+    MeshFilm film_;
+    Mesh last_; // the last frame of the open shape
+    std::vector<MeshFilm::Frame> earlier_;
+    std::uint32_t frames_ = 0;
+};
+
+} // namespace lsys
