@@ -78,6 +78,11 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "--expand is for " +
                format_names("and", [](const auto& each) { return each.expands_forest; });
     }
+    const bool has_format = target.kind == OutputKind::Instances || target.kind == OutputKind::Mesh;
+    if (command.compression && !(has_format && traits_of(target.format).compresses)) {
+        return "--compress is for " +
+               format_names("and", [](const auto& each) { return each.compresses; });
+    }
     if (command.instances == ForestInstances::Trees &&
         command.overrides.rho.value_or(0.0F) > 0.0F) {
         return "--instances trees shows heroes as they are, so --rho does not go with it";
@@ -152,6 +157,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     const bool whole_trees = run.command.instances == ForestInstances::Trees;
     info.cell = run.command.cell.value_or(whole_trees ? 0.0F : kCell);
     info.threads = run.command.run.threads;
+    info.compression = run.command.compression.value_or(ExportCompression::None);
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     OutputSet outputs(run.console); // pictures before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
@@ -189,6 +195,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;
     info.threads = options.threads;
+    info.compression = run.command.compression.value_or(ExportCompression::None);
     const FormatTraits& format = traits_of(run.target.format);
     OutputSet outputs(run.console); // the files beside it first
     if (path == "-") {

@@ -198,6 +198,16 @@ void add_placement(CLI::App& app, ExportCommand& command) {
         "(default unreal)");
 }
 
+void add_compression(CLI::App& app, std::optional<ExportCompression>& compression) {
+    add_choice<std::optional<ExportCompression>>(
+        app, "--compress", compression,
+        {{"none", ExportCompression::None},
+         {"quantize", ExportCompression::Quantize},
+         {"meshopt", ExportCompression::Meshopt}},
+        "glb and gltf: numbers of 8 to 16 bits (KHR_mesh_quantization), with `meshopt` compressed "
+        "by EXT_meshopt_compression too (default none)");
+}
+
 void add_export(CLI::App& app, ExportCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -212,13 +222,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
                "Format (default: by the extension of the output)");
     add_preset(app, PresetCommand::Export, command.preset);
     add_placement(app, command);
-    add_choice<std::optional<ExportCompression>>(
-        app, "--compress", command.compression,
-        {{"none", ExportCompression::None},
-         {"quantize", ExportCompression::Quantize},
-         {"meshopt", ExportCompression::Meshopt}},
-        "glb and gltf: numbers of 8 to 16 bits (KHR_mesh_quantization), with `meshopt` compressed "
-        "by EXT_meshopt_compression too (default none)");
+    add_compression(app, command.compression);
     add_choice<std::optional<BufferPlace>>(
         app, "--buffers", command.buffers,
         {{"embedded", BufferPlace::Embedded}, {"separate", BufferPlace::Separate}},
@@ -311,6 +315,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--check", command.check, "Check the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
+    add_compression(app, command.compression);
     app.add_flag("--expand", command.expand,
                  "glTF without EXT_mesh_gpu_instancing: one node per instance");
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
@@ -346,7 +351,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
         "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
-        "          lsc forest wood.toml --instances trees --heroes 5 -o wood.glb\n"
+        "          lsc forest wood.toml --instances trees --heroes 5 --compress meshopt -o "
+        "wood.glb\n"
         "          lsc forest wood.toml --stats\n"
         "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
         "tile.glb");

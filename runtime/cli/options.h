@@ -119,6 +119,7 @@ struct ForestCommand {
     std::string preset;             // of presets.def; empty: none
     SceneOverrides overrides;
     RunOptions run;
+    std::optional<ExportCompression> compression; // default: none
     bool expand = false;
     bool bake = false;
     ForestInstances instances = ForestInstances::Branches;

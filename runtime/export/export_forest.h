@@ -35,7 +35,10 @@ struct ForestExportInfo {
     float cell = 0.0F;
     bool textures = true;
     std::string picture_prefix; // as in ExportInfo
-    std::uint32_t threads = 0;  // 0: as many as the machine has
+    /// Form of the arrays of vertices and indices, for FormatTraits::compresses. The ground keeps
+    /// exact positions, and instances their transforms.
+    ExportCompression compression = ExportCompression::None;
+    std::uint32_t threads = 0; // 0: as many as the machine has
     /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };

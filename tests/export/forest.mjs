@@ -73,9 +73,8 @@ function turned([x, y, z, w], [a, b, c]) {
             c + w * t[2] + x * t[1] - y * t[0]];
 }
 
-/// As glTF-Transform reads it, with or without the extension. `bytes`: of an instance's attributes.
-export async function readAccessors(core, extensions, file) {
-    const io = new core.NodeIO().registerExtensions([extensions.EXTMeshGPUInstancing]);
+/// As glTF-Transform reads it, with or without instances. `bytes`: of an instance's attributes.
+export async function readAccessors(io, file) {
     const document = await io.readBinary(new Uint8Array(file));
     const root = document.getRoot();
     const found = { branches: 0, triangles: 0, wrong: 0, bytes: 0 };
@@ -126,5 +125,5 @@ export async function readAccessors(core, extensions, file) {
             place(mesh, ...attributes.map(a => a.getElement(i, [])));
         }
     }
-    return { ...found, low: extent.low, high: extent.high };
+    return { ...found, document, low: extent.low, high: extent.high };
 }

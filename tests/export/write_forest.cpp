@@ -171,6 +171,17 @@ int main(int argument_count, char** arguments) {
             all = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) && all;
         }
     }
+    for (const auto& [name, compression] : {std::pair{"quantize", ExportCompression::Quantize},
+                                            std::pair{"meshopt", ExportCompression::Meshopt}}) {
+        ForestExportInfo small = info;
+        small.compression = compression;
+        for (const auto& [prefix, form] : {std::pair{"forest", ForestForm::Instanced},
+                                           std::pair{"expanded", ForestForm::Expanded}}) {
+            all = write_forest(folder / fmt::format("{}.{}.glb", prefix, name), scene,
+                               ExportFormat::Glb, form, small) &&
+                  all;
+        }
+    }
     const auto pictures = make_forest_picture_files(scene, ExportFormat::Usda, info);
     for (const PictureFile& picture : pictures.value()) {
         std::ofstream(folder / picture.name, std::ios::binary) << picture.bytes;

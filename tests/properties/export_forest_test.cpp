@@ -8,8 +8,10 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <meshoptimizer.h>
 #include <string>
 #include <vector>
 
@@ -120,20 +122,46 @@ std::uint64_t instances_in(const json& document) {
     return count;
 }
 
-/// The items of an accessor as they lie in the buffer; views with a stride are packed.
-std::string_view bytes_of(const Exported& file, std::size_t number, std::size_t item_bytes) {
+/// A view of the buffer, decoded where it is compressed.
+std::string view_of(const Exported& file, std::size_t number) {
+    const json& view = file.document["bufferViews"][number];
+    const auto slice = [&](const json& of) {
+        return std::string(file.buffer().substr(of.value("byteOffset", std::size_t{0}),
+                                                of["byteLength"].get<std::size_t>()));
+    };
+    if (!view.contains("extensions")) {
+        return slice(view);
+    }
+    const json& packed = view["extensions"]["EXT_meshopt_compression"];
+    const std::string bytes = slice(packed);
+    const auto count = packed["count"].get<std::size_t>();
+    const auto stride = packed["byteStride"].get<std::size_t>();
+    std::string decoded(count * stride, '\0');
+    CHECK(decoded.size() == view["byteLength"]);
+    const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
+    const int failed =
+        packed["mode"] == "TRIANGLES"
+            ? meshopt_decodeIndexBuffer(decoded.data(), count, stride, from, bytes.size())
+            : meshopt_decodeVertexBuffer(decoded.data(), count, stride, from, bytes.size());
+    REQUIRE(failed == 0);
+    return decoded;
+}
+
+/// The items of an accessor; views with a stride are packed.
+std::string bytes_of(const Exported& file, std::size_t number, std::size_t item_bytes) {
     const json& accessor = file.document["accessors"][number];
-    const json& view = file.document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const auto view_number = accessor["bufferView"].get<std::size_t>();
+    const json& view = file.document["bufferViews"][view_number];
     CHECK(view.value("byteStride", item_bytes) == item_bytes);
     const std::size_t at = accessor.value("byteOffset", std::size_t{0});
     const std::size_t size = accessor["count"].get<std::size_t>() * item_bytes;
     REQUIRE(at + size <= view["byteLength"].get<std::size_t>());
-    return file.buffer().substr(view.value("byteOffset", std::size_t{0}) + at, size);
+    return view_of(file, view_number).substr(at, size);
 }
 
 template <typename Item>
 std::vector<Item> items_of(const Exported& file, std::size_t number) {
-    const std::string_view bytes = bytes_of(file, number, sizeof(Item));
+    const std::string bytes = bytes_of(file, number, sizeof(Item));
     std::vector<Item> items(bytes.size() / sizeof(Item));
     std::memcpy(items.data(), bytes.data(), bytes.size());
     return items;
@@ -148,7 +176,14 @@ struct Primitive {
 
 Primitive read_primitive(const Exported& file, const json& primitive) {
     Primitive read;
-    read.positions = items_of<glm::vec3>(file, primitive["attributes"]["POSITION"]);
+    const std::size_t positions = primitive["attributes"]["POSITION"];
+    if (file.document["accessors"][positions]["componentType"] == 5126) {
+        read.positions = items_of<glm::vec3>(file, positions);
+    } else {
+        for (const auto& item : items_of<std::array<std::uint16_t, 4>>(file, positions)) {
+            read.positions.emplace_back(item[0], item[1], item[2]);
+        }
+    }
     const std::size_t indices = primitive["indices"];
     read.wide = file.document["accessors"][indices]["componentType"] == 5125;
     if (read.wide) {
@@ -230,6 +265,15 @@ TEST_CASE("a forest has the same bytes for any number of threads") {
             CHECK(!one.stop);
             CHECK(one.bytes == four.bytes);
         }
+        if (!traits_of(format).compresses) {
+            continue;
+        }
+        ForestExportInfo info;
+        info.compression = ExportCompression::Meshopt;
+        info.threads = 1;
+        const Exported one = exported(wood.scene(), format, ForestForm::Instanced, info);
+        info.threads = 4;
+        CHECK(exported(wood.scene(), format, ForestForm::Instanced, info).bytes == one.bytes);
     }
     const Mesh one = bake(wood.scene(), 1);
     const Mesh four = bake(wood.scene(), 4);
@@ -263,39 +307,56 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     const Mesh baked = bake(wood.scene());
     test::check_mesh(baked, {});
     const Shape wanted = shape_of(baked);
-    const Exported file = exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, 300.0F);
-    const json& document = file.document;
-    Shape found;
-    for (const json& node : document["nodes"]) {
-        if (!node.contains("extensions")) {
-            continue;
-        }
-        const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
-        const auto t = items_of<glm::vec3>(file, attributes["TRANSLATION"]);
-        const auto r = items_of<glm::vec4>(file, attributes["ROTATION"]);
-        const auto s = items_of<glm::vec3>(file, attributes["SCALE"]);
-        const json& primitives = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
-        for (const json& each : primitives) {
-            const Primitive primitive = read_primitive(file, each);
-            for (std::size_t i = 0; i < t.size(); ++i) {
-                const glm::dvec4 q(r[i]);
-                const glm::dquat turn(q.w, q.x, q.y, q.z);
-                CHECK(std::abs(glm::length(turn) - 1.0) < 1e-6);
-                found.triangles += primitive.indices.size() / 3;
-                for (const std::uint32_t index : primitive.indices) {
-                    const glm::dvec3 place =
-                        glm::dvec3(t[i]) + static_cast<double>(s[i].x) *
-                                               (turn * glm::dvec3(primitive.positions[index]));
-                    found.sum += place;
-                    found.bounds.add(glm::vec3(place));
+    ForestExportInfo info;
+    info.cell = 300.0F;
+    double last_bytes = 1e9;
+    // Positions are off by at most half a step along each axis: a tree is less than 10 m wide.
+    for (const auto& [compression, most] :
+         {std::pair{ExportCompression::None, 1e-3F}, std::pair{ExportCompression::Quantize, 2e-3F},
+          std::pair{ExportCompression::Meshopt, 4e-3F}}) {
+        info.compression = compression;
+        const Exported file =
+            exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, info);
+        const json& document = file.document;
+        Shape found;
+        for (const json& node : document["nodes"]) {
+            if (!node.contains("extensions")) {
+                continue;
+            }
+            const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+            const auto t = items_of<glm::vec3>(file, attributes["TRANSLATION"]);
+            const auto r = items_of<glm::vec4>(file, attributes["ROTATION"]);
+            const auto s = items_of<glm::vec3>(file, attributes["SCALE"]);
+            const json& primitives =
+                document["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
+            for (const json& each : primitives) {
+                const Primitive primitive = read_primitive(file, each);
+                for (std::size_t i = 0; i < t.size(); ++i) {
+                    const glm::dvec4 q(r[i]);
+                    const glm::dquat turn(q.w, q.x, q.y, q.z);
+                    CHECK(std::abs(glm::length(turn) - 1.0) < 1e-6);
+                    found.triangles += primitive.indices.size() / 3;
+                    for (const std::uint32_t index : primitive.indices) {
+                        const glm::dvec3 place =
+                            glm::dvec3(t[i]) + static_cast<double>(s[i].x) *
+                                                   (turn * glm::dvec3(primitive.positions[index]));
+                        found.sum += place;
+                        found.bounds.add(glm::vec3(place));
+                    }
                 }
             }
         }
+        CHECK(found.triangles == wanted.triangles);
+        CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < most);
+        CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < most);
+        CHECK(glm::distance(found.sum, wanted.sum) <
+              0.1 * static_cast<double>(most) * 3.0 * static_cast<double>(found.triangles));
+        CHECK(static_cast<double>(file.bytes.size()) < 0.95 * last_bytes);
+        last_bytes = static_cast<double>(file.bytes.size());
+        const bool required = document["extensionsRequired"].dump().find("KHR_mesh_quantization") !=
+                              std::string::npos;
+        CHECK(required == (compression != ExportCompression::None));
     }
-    CHECK(found.triangles == wanted.triangles);
-    CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < 1e-3F);
-    CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < 1e-3F);
-    CHECK(glm::distance(found.sum, wanted.sum) < 1e-4 * 3.0 * static_cast<double>(found.triangles));
 }
 
 TEST_CASE("each primitive of a forest has vertices, bounds and indices of its own") {

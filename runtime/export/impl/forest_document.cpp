@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 namespace lsys {
 
 namespace {
@@ -11,15 +14,22 @@ namespace {
 constexpr int kVertices = 34962;
 constexpr int kIndices = 34963;
 
-/// The view of an array of several slices, for which glTF asks for a stride.
+/// The view of an array of several slices, for which glTF asks for a stride; in buffer 0 or,
+/// decoded, in buffer 1.
 void put_array_view(JsonWriter& json, const ForestView& view) {
     const bool indices = view.array == GltfArray::Indices;
-    json.object().member("buffer", 0).member("byteOffset", view.offset);
+    const bool compressed = !view.compressed.empty();
+    json.object().member("buffer", compressed ? 1 : 0);
+    json.member("byteOffset", compressed ? view.decoded_offset : view.offset);
     json.member("byteLength", view.item_bytes());
     if (!indices) {
         json.member("byteStride", view.type.stride);
     }
-    json.member("target", indices ? kIndices : kVertices).end();
+    json.member("target", indices ? kIndices : kVertices);
+    if (compressed) {
+        put_packed_view(json, {view.offset, view.bytes, view.type.stride, view.count, indices});
+    }
+    json.end();
 }
 
 /// A view of bytes that are no vertices.
@@ -57,7 +67,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
     put_extras(json);
     json.end();
     if (ground > 0) {
-        json.object().member("name", "ground").member("mesh", 0).end();
+        json.object().member("name", "ground").member("mesh", 0).end(); // positions are exact
     }
     std::uint64_t child = 1 + ground + cells;
     for (const ForestCell& cell : plan_.cells()) {
@@ -95,7 +105,9 @@ void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
             if (plan_.uses()[instance] == 0) {
                 return;
             }
-            const InstancePose pose = pose_of(branch, kind.cache->instances[branch.instance]);
+            const auto number = static_cast<std::size_t>(&kind - plan_.kinds().data());
+            const InstancePose pose = pose_of_items(
+                pose_of(branch, kind.cache->instances[branch.instance]), grids_[number]);
             const glm::vec3& t = pose.translation;
             const glm::quat& r = pose.rotation;
             json.object().member("mesh", mesh_of_instance_[instance]);
@@ -157,7 +169,8 @@ void ForestDocument::put_materials(JsonWriter& json) const {
     for (const auto& [material, coloured] : list) {
         const Material& shown = materials_.samples.materials[material];
         put_material(json, shown, pictures_.of_materials[material],
-                     {shown.name, coloured ? glm::vec3(1.0F) : glm::vec3(shown.colour), {}});
+                     {shown.name, coloured ? glm::vec3(1.0F) : glm::vec3(shown.colour),
+                      texture_forms_[material].transform});
     }
     json.end();
     if (!pictures_.list.empty()) {
@@ -176,10 +189,7 @@ void ForestDocument::put_part_accessors(JsonWriter& json,
         begin_accessor(json, {block.first_view + i, view.type.stride * slice.first_vertex,
                               view.type.component, slice.vertex_count, view.type.type});
         if (view.array == GltfArray::Positions) {
-            // Digits of doubles: readers parse the shortest text of a float as another double.
-            const glm::dvec3 low(slice.bounds.low);
-            const glm::dvec3 high(slice.bounds.high);
-            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
+            put_position_bounds(json, block.form, slice.bounds);
         }
         if (view.type.normalized) {
             json.member("normalized", true);
@@ -250,13 +260,36 @@ void ForestDocument::put_views(JsonWriter& json) const {
     json.end();
 }
 
+void ForestDocument::put_extensions(JsonWriter& json) const {
+    std::vector<std::string_view> names;
+    if (first_image_view_ > transforms_view_) {
+        names.emplace_back("EXT_mesh_gpu_instancing");
+    }
+    if (info_.compression != ExportCompression::None) {
+        names.emplace_back("KHR_mesh_quantization");
+    }
+    if (std::any_of(texture_forms_.begin(), texture_forms_.end(),
+                    [](const GltfTextureForm& form) { return form.transform.has_value(); })) {
+        names.emplace_back("KHR_texture_transform");
+    }
+    if (decoded_bytes_ > 0) {
+        names.emplace_back("EXT_meshopt_compression");
+    }
+    if (names.empty()) {
+        return;
+    }
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+        json.array(list);
+        for (const std::string_view name : names) {
+            json.value(name);
+        }
+        json.end();
+    }
+}
+
 void ForestDocument::put_members(JsonWriter& json) const {
     json.object("asset").member("version", "2.0").member("generator", info_.generator).end();
-    if (first_image_view_ > transforms_view_) {
-        for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
-            json.member(list, {"EXT_mesh_gpu_instancing"});
-        }
-    }
+    put_extensions(json);
     put_nodes(json);
     put_meshes(json);
     put_materials(json);

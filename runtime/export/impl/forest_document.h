@@ -2,6 +2,7 @@
 // The document is made anew for each put_members() and never stored.
 #pragma once
 
+#include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/forest_slices.h"
 #include "runtime/export/impl/gltf_items.h"
@@ -19,6 +20,8 @@
 
 namespace lsys {
 
+inline constexpr std::size_t kNoKind = ~std::size_t{0};
+
 /// An array of the vertices or indices of a block: a buffer view.
 struct ForestView {
     GltfArray array = GltfArray::Positions;
@@ -26,6 +29,9 @@ struct ForestView {
     std::uint64_t count = 0;  // items
     std::uint64_t offset = 0; // in the buffer, a multiple of 4
     std::uint64_t bytes = 0;  // in the buffer
+    /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
+    std::string compressed = {};
+    std::uint64_t decoded_offset = 0;
 
     [[nodiscard]] std::uint64_t item_bytes() const { return type.stride * count; }
 };
@@ -42,6 +48,7 @@ struct ForestBlock {
 
 /// Arrays of a kind of tree, or of the ground.
 struct ForestSurface {
+    std::size_t kind = kNoKind; // of ForestPlan::kinds(); kNoKind: the ground
     const Mesh* mesh = nullptr;
     const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
     SlicedMesh sliced;
@@ -56,6 +63,8 @@ public:
                    const ForestExportInfo& info);
 
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
+    /// Size of the buffer that exists when the arrays have been decoded; 0: there is none.
+    [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
     /// Writes all members of the document but `buffers`.
     void put_members(JsonWriter& json) const;
     /// Writes the buffer to the sink.
@@ -65,11 +74,20 @@ private:
     static constexpr std::size_t kNoSurface = ~std::size_t{0};
     [[nodiscard]] bool instanced() const { return form_ == ForestForm::Instanced; }
 
-    void add_surface(const Mesh& mesh,
+    void add_surface(std::size_t kind,
+                     const Mesh& mesh,
                      const std::vector<std::uint32_t>& materials,
                      std::span<const PartList> lists);
-    /// Plans the views of a surface.
+    /// Plans the forms of texture coordinates, by material of the scene.
+    void plan_texture_forms();
+    /// Plans the views of a surface, without their places.
     void add_views(ForestSurface& surface);
+    void compress_views();
+    void place_views();
+    /// Calls visit(surface, material of the mesh, view) for each view in order.
+    template <typename Visit>
+    void for_each_view(const Visit& visit);
+    void put_extensions(JsonWriter& json) const;
     void put_extras(JsonWriter& json) const;
     void put_nodes(JsonWriter& json) const;
     void put_instanced_nodes(JsonWriter& json) const;
@@ -95,6 +113,8 @@ private:
     const ForestExportInfo& info_;
     ForestMaterials materials_;
     std::vector<ForestSurface> surfaces_;
+    std::vector<ItemGrid> grids_;                // of kinds
+    std::vector<GltfTextureForm> texture_forms_; // by material of the scene
     std::vector<std::size_t> surface_of_kind_;
     std::size_t ground_surface_ = kNoSurface;
     std::vector<std::uint32_t> mesh_of_instance_;
@@ -108,7 +128,25 @@ private:
     std::size_t first_group_accessor_ = 0;
     std::uint64_t transforms_offset_ = 0;
     std::uint64_t bytes_ = 0;
+    std::uint64_t decoded_bytes_ = 0;
 };
+
+template <typename Visit>
+void ForestDocument::for_each_view(const Visit& visit) {
+    for (ForestSurface& surface : surfaces_) {
+        for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
+            ForestBlock& block = surface.blocks[material];
+            for (ForestView& view : block.attributes) {
+                visit(surface, material, view);
+            }
+            for (ForestView* view : {&block.wide_indices, &block.narrow_indices}) {
+                if (view->count > 0) {
+                    visit(surface, material, *view);
+                }
+            }
+        }
+    }
+}
 
 template <typename Visit>
 void ForestDocument::for_each_mesh(const Visit& visit) const {

@@ -29,8 +29,18 @@ inline constexpr std::uint64_t kRotationBytes = 16;
 inline constexpr std::uint64_t kScaleBytes = 12;
 inline constexpr std::uint64_t kInstanceBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
 
-/// Hands over the transforms of all groups in order, until `write` returns false.
+/// Positions of a surface in a file are `low + step * item`.
+struct ItemGrid {
+    glm::vec3 low{0.0F};
+    float step = 1.0F;
+};
+/// The pose that puts the items of a surface where `pose` puts its positions.
+[[nodiscard]] InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid);
+
+/// Hands over the transforms of all groups in order, until `write` returns false. `grids`: of the
+/// surfaces of kinds.
 void write_transforms(const ForestPlan& plan,
+                      std::span<const ItemGrid> grids,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);
 

@@ -3,13 +3,19 @@
 // species share arrays, of which each primitive has a slice: many readers copy, upload and bound
 // whole accessors.
 #include "runtime/base/size_text.h"
+#include "runtime/base/workers.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_document.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_parts.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
 
 namespace lsys {
 
@@ -21,12 +27,13 @@ ForestDocument::ForestDocument(const ForestScene& scene,
       materials_(find_forest_materials(scene, plan)) {
     ExportInfo pictures;
     pictures.textures = info.textures;
+    grids_.resize(plan.kinds().size());
     pictures_ = find_pictures(materials_.samples, ExportPictures::Inside, pictures);
     images_ = encode_pictures(pictures_.list, info.threads);
     if (scene.ground != nullptr && triangle_count(*scene.ground) > 0) {
         ground_surface_ = 0;
         const PartList all{0, scene.ground->parts.size(), 0};
-        add_surface(*scene.ground, materials_.of_ground, std::span(&all, 1));
+        add_surface(kNoKind, *scene.ground, materials_.of_ground, std::span(&all, 1));
     }
     for (std::size_t k = 0; k < plan.kinds().size(); ++k) {
         const ForestKind& kind = plan.kinds()[k];
@@ -34,16 +41,21 @@ ForestDocument::ForestDocument(const ForestScene& scene,
         const bool used = std::any_of(uses.begin(), uses.end(), [](auto n) { return n > 0; });
         surface_of_kind_.push_back(used ? surfaces_.size() : kNoSurface);
         if (used) {
-            add_surface(kind.meshes->mesh, materials_.of_kinds[k], nested_lists(kind, plan));
+            add_surface(k, kind.meshes->mesh, materials_.of_kinds[k], nested_lists(kind, plan));
         }
     }
     std::uint32_t meshes = ground_surface_ == kNoSurface ? 0 : 1;
     for (const std::uint64_t uses : plan.uses()) {
         mesh_of_instance_.push_back(uses > 0 ? meshes++ : 0);
     }
+    plan_texture_forms();
     for (ForestSurface& surface : surfaces_) {
         add_views(surface);
     }
+    if (info.compression == ExportCompression::Meshopt) {
+        compress_views();
+    }
+    place_views();
     std::size_t accessor = 0;
     for_each_mesh([&](const ForestSurface& surface, std::span<const MeshPart> parts) {
         for (const MeshPart& part : parts) {
@@ -67,10 +79,12 @@ ForestDocument::ForestDocument(const ForestScene& scene,
     }
 }
 
-void ForestDocument::add_surface(const Mesh& mesh,
+void ForestDocument::add_surface(std::size_t kind,
+                                 const Mesh& mesh,
                                  const std::vector<std::uint32_t>& materials,
                                  std::span<const PartList> lists) {
     ForestSurface& surface = surfaces_.emplace_back();
+    surface.kind = kind;
     surface.mesh = &mesh;
     surface.materials = &materials;
     surface.sliced = slice_mesh(mesh, lists);
@@ -78,6 +92,53 @@ void ForestDocument::add_surface(const Mesh& mesh,
     for (const MeshPart& part : mesh.parts) {
         ForestBlock& block = surface.blocks[part.material];
         block.coloured = block.coloured || has_vertex_colours(mesh, part);
+    }
+    Bounds bounds;
+    for (const std::size_t part : surface.sliced.order) {
+        bounds.add(surface.sliced.slices[part].bounds.low);
+        bounds.add(surface.sliced.slices[part].bounds.high);
+    }
+    GltfForm form = form_of(info_.compression, bounds);
+    if (kind == kNoKind) {
+        form.step = 0.0F; // steps of a wide ground would leave trees in the air
+    } else if (form.step > 0.0F) {
+        grids_[kind] = {form.low, form.step};
+    }
+    for (ForestBlock& block : surface.blocks) {
+        block.form = form;
+    }
+}
+
+void ForestDocument::plan_texture_forms() {
+    texture_forms_.resize(materials_.samples.materials.size());
+    if (info_.compression == ExportCompression::None) {
+        return;
+    }
+    struct Range {
+        glm::vec2 low{std::numeric_limits<float>::max()};
+        glm::vec2 high{std::numeric_limits<float>::lowest()};
+    };
+    std::vector<Range> ranges(texture_forms_.size());
+    for (const ForestSurface& surface : surfaces_) {
+        const auto& coordinates = surface.mesh->texture_coordinates;
+        for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
+            const SliceBlock& block = surface.sliced.blocks[material];
+            Range& range = ranges[(*surface.materials)[material]];
+            if (!is_complete(*surface.mesh, coordinates)) {
+                continue;
+            }
+            for (std::uint64_t v = 0; v < block.vertex_count; ++v) {
+                const glm::vec2& at = coordinates[surface.sliced.vertices[block.first_vertex + v]];
+                range.low = glm::min(range.low, at);
+                range.high = glm::max(range.high, at);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const MaterialPictures& shown = pictures_.of_materials[i];
+        if ((shown.colour || shown.relief) && ranges[i].low.x <= ranges[i].high.x) {
+            texture_forms_[i] = texture_form_of(ranges[i].low, ranges[i].high);
+        }
     }
 }
 
@@ -90,25 +151,20 @@ void ForestDocument::add_views(ForestSurface& surface) {
         if (from.vertex_count == 0) {
             continue;
         }
-        const auto place = [this](ForestView& view) {
-            view.offset = bytes_;
-            view.bytes = view.item_bytes();
-            bytes_ += (view.bytes + 3) / 4 * 4;
-            view_count_ += view.count > 0 ? 1 : 0;
-        };
+        to.form.texture = texture_forms_[(*surface.materials)[material]];
+        const MaterialPictures& shown = pictures_.of_materials[(*surface.materials)[material]];
         const auto add = [&](GltfArray array) {
             to.attributes.push_back(
                 {.array = array, .type = item_of(array, to.form), .count = from.vertex_count});
-            place(to.attributes.back());
         };
         add(GltfArray::Positions);
         add(GltfArray::Normals);
-        if (is_complete(mesh, mesh.texture_coordinates)) {
+        if (is_complete(mesh, mesh.texture_coordinates) &&
+            (shown.colour || shown.relief || !to.form.quantized())) {
             add(GltfArray::TextureCoordinates);
         }
         // Only normal maps need tangents.
-        if (is_complete(mesh, mesh.tangents) &&
-            pictures_.of_materials[(*surface.materials)[material]].relief) {
+        if (is_complete(mesh, mesh.tangents) && shown.relief) {
             add(GltfArray::Tangents);
         }
         if (to.coloured) {
@@ -117,61 +173,158 @@ void ForestDocument::add_views(ForestSurface& surface) {
         to.wide_indices = {.array = GltfArray::Indices,
                            .type = {kGltfInteger, "SCALAR", false, 4},
                            .count = from.wide_indices};
-        place(to.wide_indices);
         to.narrow_indices = {.array = GltfArray::Indices,
                              .type = {kGltfShort, "SCALAR", false, 2},
                              .count = from.narrow_indices};
-        place(to.narrow_indices);
+        view_count_ += to.attributes.size();
+        view_count_ += (from.wide_indices > 0 ? 1U : 0U) + (from.narrow_indices > 0 ? 1U : 0U);
     }
 }
 
 namespace {
 
-constexpr std::size_t kChunk = 16384; // indices
+/// The indices of a part, within its slice. For compression triangles come in the order of their
+/// last vertices: those of nested lists first, as if each slice were a mesh of its own.
+void read_indices(const ForestSurface& surface,
+                  std::size_t number,
+                  bool ordered,
+                  LargeVector<std::uint32_t>& indices) {
+    const MeshPart& part = surface.mesh->parts[number];
+    const Slice& slice = surface.sliced.slices[number];
+    const auto from =
+        surface.sliced.indices.begin() + static_cast<std::ptrdiff_t>(part.first_index);
+    const auto count = static_cast<std::ptrdiff_t>(part.index_count);
+    if (!ordered) {
+        indices.assign(from, from + count);
+        return;
+    }
+    const auto last_of = [&](std::ptrdiff_t first) {
+        return std::max({from[first], from[first + 1], from[first + 2]});
+    };
+    LargeVector<std::uint32_t> places; // of the triangles of each last vertex
+    places.assign(slice.vertex_count + 1, 0);
+    for (std::ptrdiff_t i = 0; i + 2 < count; i += 3) {
+        ++places[last_of(i) + 1];
+    }
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    indices.resize(static_cast<std::size_t>(count));
+    for (std::ptrdiff_t i = 0; i + 2 < count; i += 3) {
+        const std::uint64_t place = 3 * std::uint64_t{places[last_of(i)]++};
+        std::copy_n(from + i, 3, indices.begin() + static_cast<std::ptrdiff_t>(place));
+    }
+}
 
 /// Writes the indices of the parts of one material whose slices are wide, or of the others.
 template <typename Index>
-void write_indices(const ForestSurface& surface, std::size_t material, const GltfBytes& write) {
+void write_indices(const ForestSurface& surface,
+                   std::size_t material,
+                   bool ordered,
+                   const GltfBytes& write) {
     const bool wide = sizeof(Index) == sizeof(std::uint32_t);
-    std::vector<Index> chunk;
-    std::uint64_t count = 0;
+    LargeVector<std::uint32_t> indices;
+    LargeVector<Index> narrowed;
     for (const std::size_t p : surface.sliced.order) {
         const MeshPart& part = surface.mesh->parts[p];
         if (part.material != material || surface.sliced.slices[p].is_wide() != wide) {
             continue;
         }
-        const std::uint64_t end = part.first_index + part.index_count;
-        for (std::uint64_t first = part.first_index; first < end; first += kChunk) {
-            const auto from = surface.sliced.indices.begin();
-            chunk.assign(from + static_cast<std::ptrdiff_t>(first),
-                         from + static_cast<std::ptrdiff_t>(std::min(first + kChunk, end)));
-            write(std::as_bytes(std::span<const Index>(chunk)));
-        }
-        count += part.index_count;
+        read_indices(surface, p, ordered, indices);
+        narrowed.resize(indices.size());
+        std::transform(indices.begin(), indices.end(), narrowed.begin(),
+                       [](std::uint32_t index) { return static_cast<Index>(index); });
+        write(std::as_bytes(std::span<const Index>(narrowed)));
     }
-    chunk.assign(count * sizeof(Index) % 4 / sizeof(Index), 0);
-    write(std::as_bytes(std::span<const Index>(chunk)));
+}
+
+/// Writes the items of a view.
+void write_view(const ForestSurface& surface,
+                std::size_t material,
+                const ForestView& view,
+                const GltfBytes& write) {
+    const SliceBlock& block = surface.sliced.blocks[material];
+    const GltfForm& form = surface.blocks[material].form;
+    const bool ordered = form.compression == ExportCompression::Meshopt;
+    if (view.array != GltfArray::Indices) {
+        write_items(
+            *surface.mesh,
+            std::span(surface.sliced.vertices).subspan(block.first_vertex, block.vertex_count),
+            view.array, form, write);
+    } else if (view.type.component == kGltfInteger) {
+        write_indices<std::uint32_t>(surface, material, ordered, write);
+    } else {
+        write_indices<std::uint16_t>(surface, material, ordered, write);
+    }
 }
 
 } // namespace
 
+void ForestDocument::compress_views() {
+    struct Task {
+        const ForestSurface& surface;
+        std::size_t material;
+        ForestView& view;
+    };
+    std::vector<Task> tasks;
+    for_each_view([&](const ForestSurface& surface, std::size_t material, ForestView& view) {
+        tasks.push_back({surface, material, view});
+    });
+    Workers workers(info_.threads);
+    workers.for_each(tasks.size(), [&](std::uint64_t i) {
+        const Task& task = tasks[i];
+        std::string items;
+        items.reserve(task.view.item_bytes());
+        write_view(task.surface, task.material, task.view, [&](std::span<const std::byte> bytes) {
+            items.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        });
+        const std::uint32_t stride = task.view.type.stride;
+        task.view.compressed =
+            task.view.array == GltfArray::Indices
+                ? compress_indices(items, stride, task.surface.mesh->positions.size())
+                : compress_items(items, stride);
+    });
+}
+
+void ForestDocument::place_views() {
+    for_each_view([this](const ForestSurface&, std::size_t, ForestView& view) {
+        view.offset = bytes_;
+        view.bytes = view.item_bytes();
+        if (!view.compressed.empty()) {
+            view.bytes = view.compressed.size();
+            view.decoded_offset = decoded_bytes_;
+            decoded_bytes_ += (view.item_bytes() + 3) / 4 * 4;
+        }
+        bytes_ += (view.bytes + 3) / 4 * 4;
+    });
+}
+
 void ForestDocument::put_data(const GltfSink& write) const {
-    const GltfBytes put = [&write](std::span<const std::byte> bytes) { write(bytes); };
+    std::uint64_t written = 0;
+    const GltfBytes put = [&](std::span<const std::byte> bytes) {
+        written += bytes.size();
+        write(bytes);
+    };
     for (const ForestSurface& surface : surfaces_) {
         for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
-            const SliceBlock& block = surface.sliced.blocks[material];
-            const auto vertices =
-                std::span(surface.sliced.vertices).subspan(block.first_vertex, block.vertex_count);
-            const ForestBlock& to = surface.blocks[material];
-            for (const ForestView& view : to.attributes) {
-                write_items(*surface.mesh, vertices, view.array, to.form, put);
+            const auto put_view = [&](const ForestView& view) {
+                if (view.compressed.empty()) {
+                    write_view(surface, material, view, put);
+                } else {
+                    put(std::as_bytes(std::span(view.compressed)));
+                }
+                constexpr std::array<std::byte, 3> kPadding{};
+                put(std::span(kPadding).first((4 - written % 4) % 4));
+            };
+            const ForestBlock& block = surface.blocks[material];
+            std::for_each(block.attributes.begin(), block.attributes.end(), put_view);
+            for (const ForestView* view : {&block.wide_indices, &block.narrow_indices}) {
+                if (view->count > 0) {
+                    put_view(*view);
+                }
             }
-            write_indices<std::uint32_t>(surface, material, put);
-            write_indices<std::uint16_t>(surface, material, put);
         }
     }
     if (instanced()) {
-        write_transforms(plan_, info_, write);
+        write_transforms(plan_, grids_, info_, write);
     }
     for (const std::string& image : images_) {
         write(std::as_bytes(std::span(image)));
@@ -188,12 +341,15 @@ Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
                                  "without --expand, branches are instances"))};
     }
     const ForestDocument document(job.scene, job.plan, job.form, job.info);
-    if (document.data_bytes() > kMaxGltfBytes) {
+    if (document.data_bytes() > kMaxGltfBytes || document.decoded_bytes() > kMaxGltfBytes) {
         return too_large_for_format(ExportSubject::Forest);
     }
-    const GltfFile file{binary, [&document](JsonWriter& json) { document.put_members(json); },
-                        document.data_bytes(),
-                        [&document](const GltfSink& write) { document.put_data(write); }};
+    GltfFile file;
+    file.binary = binary;
+    file.put_members = [&document](JsonWriter& json) { document.put_members(json); };
+    file.data_bytes = document.data_bytes();
+    file.decoded_bytes = document.decoded_bytes();
+    file.put_data = [&document](const GltfSink& to) { document.put_data(to); };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(ExportSubject::Forest);
 }
 

@@ -17,9 +17,12 @@ using Write = std::function<bool(std::span<const std::byte>)>;
 
 class Transforms {
 public:
-    Transforms(const ForestPlan& plan, const ForestExportInfo& info, const Write& write)
-        : plan_(plan), window_(info.window_bytes / kInstanceBytes), workers_(info.threads),
-          write_(write) {}
+    Transforms(const ForestPlan& plan,
+               std::span<const ItemGrid> grids,
+               const ForestExportInfo& info,
+               const Write& write)
+        : plan_(plan), grids_(grids), window_(info.window_bytes / kInstanceBytes),
+          workers_(info.threads), write_(write) {}
 
     void write_all() {
         std::size_t cell = 0; // of the group `first`
@@ -98,8 +101,8 @@ private:
                 return;
             }
             const std::uint64_t i = place.next++;
-            put(pose_of(branch, kind.cache->instances[branch.instance]), place.base + 3 * i,
-                place.base + 3 * place.count + 4 * i, place.base + 7 * place.count + 3 * i);
+            put(pose(kind, branch), place.base + 3 * i, place.base + 3 * place.count + 4 * i,
+                place.base + 7 * place.count + 3 * i);
         });
     }
 
@@ -114,8 +117,7 @@ private:
                 std::array<float, 3> translation{};
                 std::array<float, 4> rotation{};
                 std::array<float, 3> scale{};
-                put(pose_of(branch, kind.cache->instances[branch.instance]), translation.data(),
-                    rotation.data(), scale.data());
+                put(pose(kind, branch), translation.data(), rotation.data(), scale.data());
                 const auto append = [this](std::span<const float> values) {
                     floats_.insert(floats_.end(), values.begin(), values.end());
                 };
@@ -127,6 +129,12 @@ private:
             });
             pass_on(floats_);
         }
+    }
+
+    [[nodiscard]] InstancePose pose(const ForestKind& kind, const BranchInstance& branch) const {
+        const auto number = static_cast<std::size_t>(&kind - plan_.kinds().data());
+        return pose_of_items(pose_of(branch, kind.cache->instances[branch.instance]),
+                             grids_[number]);
     }
 
     static void put(const InstancePose& pose, float* translation, float* rotation, float* scale) {
@@ -145,6 +153,7 @@ private:
     }
 
     const ForestPlan& plan_;
+    std::span<const ItemGrid> grids_;
     std::uint64_t window_; // instances
     Workers workers_;
     const Write& write_;
@@ -154,8 +163,23 @@ private:
 
 } // namespace
 
-void write_transforms(const ForestPlan& plan, const ForestExportInfo& info, const Write& write) {
-    Transforms(plan, info, write).write_all();
+InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid) {
+    if (grid.step == 1.0F && grid.low == glm::vec3(0.0F)) {
+        return pose;
+    }
+    InstancePose moved = pose;
+    const double scale = static_cast<double>(pose.scale);
+    moved.translation = glm::vec3(glm::dvec3(pose.translation) +
+                                  glm::dquat(pose.rotation) * (scale * glm::dvec3(grid.low)));
+    moved.scale = static_cast<float>(scale * static_cast<double>(grid.step));
+    return moved;
+}
+
+void write_transforms(const ForestPlan& plan,
+                      std::span<const ItemGrid> grids,
+                      const ForestExportInfo& info,
+                      const Write& write) {
+    Transforms(plan, grids, info, write).write_all();
 }
 
 } // namespace lsys

@@ -187,8 +187,8 @@ GltfItem item_of(GltfArray array, const GltfForm& form) {
     const bool quantized = form.quantized();
     switch (array) {
     case GltfArray::Positions:
-        return quantized ? GltfItem{kGltfShort, "VEC3", false, 8, true}
-                         : GltfItem{kGltfFloat, "VEC3", false, 12};
+        return form.step > 0.0F ? GltfItem{kGltfShort, "VEC3", false, 8, true}
+                                : GltfItem{kGltfFloat, "VEC3", false, 12};
     case GltfArray::Normals:
         return quantized ? GltfItem{kGltfSignedByte, "VEC3", true, 4, true}
                          : GltfItem{kGltfFloat, "VEC3", false, 12};
@@ -236,9 +236,12 @@ void write_items(const Mesh& mesh,
                  GltfArray array,
                  const GltfForm& form,
                  const GltfBytes& write) {
+    const bool quantized = array == GltfArray::Positions            ? form.step > 0.0F
+                           : array == GltfArray::TextureCoordinates ? form.texture.quantized
+                                                                    : form.quantized();
     if (array == GltfArray::Colours) {
         write_colours(mesh, vertices, write);
-    } else if (array == GltfArray::TextureCoordinates ? form.texture.quantized : form.quantized()) {
+    } else if (quantized) {
         write_quantized(mesh, vertices, array, form, write);
     } else if (array == GltfArray::Positions) {
         write_each(vertices, write, [&](std::uint32_t vertex) { return mesh.positions[vertex]; });

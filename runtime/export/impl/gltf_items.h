@@ -49,7 +49,7 @@ struct GltfTextureForm {
 /// The form of the arrays of vertices.
 struct GltfForm {
     ExportCompression compression = ExportCompression::None;
-    /// Positions are `low + step * item`; step 0: items are positions.
+    /// Positions are `low + step * item`; step 0: items are positions, also in quantised files.
     glm::vec3 low{0.0F};
     float step = 0.0F;
     /// TEXCOORD_1 is a multiple of this; 0: not rounded.

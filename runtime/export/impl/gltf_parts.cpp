@@ -30,6 +30,26 @@ JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor) {
         .member("type", accessor.type);
 }
 
+void put_position_bounds(JsonWriter& json, const GltfForm& form, const Bounds& bounds) {
+    if (form.step > 0.0F) {
+        const auto low = position_item(form, bounds.low);
+        const auto high = position_item(form, bounds.high);
+        json.member("min", {low[0], low[1], low[2]}).member("max", {high[0], high[1], high[2]});
+        return;
+    }
+    // Digits of doubles: readers parse the shortest text of a float as another double.
+    const glm::dvec3 low(bounds.low);
+    const glm::dvec3 high(bounds.high);
+    json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
+}
+
+void put_packed_view(JsonWriter& json, const GltfPackedView& view) {
+    json.object("extensions").object("EXT_meshopt_compression").member("buffer", 0);
+    json.member("byteOffset", view.offset).member("byteLength", view.bytes);
+    json.member("byteStride", view.stride).member("count", view.count);
+    json.member("mode", view.triangles ? "TRIANGLES" : "ATTRIBUTES").end().end();
+}
+
 void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,

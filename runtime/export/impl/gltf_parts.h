@@ -31,6 +31,19 @@ struct GltfAccessor {
 /// Begins the object of an accessor; the caller adds members and ends it.
 JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
 
+/// The members `min` and `max` of an accessor of positions.
+void put_position_bounds(JsonWriter& json, const GltfForm& form, const Bounds& bounds);
+/// A view compressed by EXT_meshopt_compression, in buffer 0.
+struct GltfPackedView {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+    std::uint32_t stride = 0;
+    std::uint64_t count = 0;
+    bool triangles = false; // indices of triangles, else attributes
+};
+/// The member `extensions` of a view in the buffer of decoded items.
+void put_packed_view(JsonWriter& json, const GltfPackedView& view);
+
 /// Appearance of a material in a file.
 struct GltfMaterial {
     std::string name;

@@ -363,10 +363,8 @@ void put_stream_view(JsonWriter& json, const GltfStream& stream) {
         json.member("target", indices ? kIndices : kVertices);
     }
     if (compressed) {
-        json.object("extensions").object("EXT_meshopt_compression").member("buffer", 0);
-        json.member("byteOffset", stream.offset).member("byteLength", stream.bytes);
-        json.member("byteStride", stream.type.stride).member("count", stream.count);
-        json.member("mode", indices ? "TRIANGLES" : "ATTRIBUTES").end().end();
+        put_packed_view(json,
+                        {stream.offset, stream.bytes, stream.type.stride, stream.count, indices});
     }
     json.end();
 }
@@ -378,19 +376,8 @@ void put_stream_accessor(JsonWriter& json,
     begin_accessor(json, {view, {}, stream.type.component, stream.count, stream.type.type});
     if (stream.array == GltfArray::Positions || stream.array == GltfArray::PositionChanges) {
         const bool changes = stream.array == GltfArray::PositionChanges;
-        const Bounds& bounds =
-            changes ? stream.bounds : streams.primitives.list[stream.item].bounds;
-        if (const GltfForm& form = streams.forms[stream.item]; form.quantized()) {
-            const auto low = position_item(form, bounds.low);
-            const auto high = position_item(form, bounds.high);
-            json.member("min", {low[0], low[1], low[2]});
-            json.member("max", {high[0], high[1], high[2]});
-        } else {
-            // Digits of doubles: readers parse the shortest text of a float as another double.
-            const glm::dvec3 low(bounds.low);
-            const glm::dvec3 high(bounds.high);
-            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
-        }
+        put_position_bounds(json, streams.forms[stream.item],
+                            changes ? stream.bounds : streams.primitives.list[stream.item].bounds);
     }
     if (stream.type.normalized) {
         json.member("normalized", true);

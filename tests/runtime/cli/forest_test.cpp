@@ -169,3 +169,37 @@ TEST_CASE("a forest without plants of its own says why") {
     fails("#n = 2; #w : A", {"--stats"}, 1, "missing-semicolon");
     CHECK(!std::filesystem::exists(folder / "x.glb"));
 }
+
+TEST_CASE("forests are compressed as plants are, instanced or baked") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    const auto bytes_of = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"forest", folder / "bush.lsys", "--count", "40",
+                                           "-o",     folder / "wood.glb"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const LscRun run = run_lsc(arguments, "");
+        INFO(run.err);
+        REQUIRE(run.status == 0);
+        return read_text(folder / "wood.glb");
+    };
+    for (const std::vector<std::string>& form :
+         {std::vector<std::string>{}, std::vector<std::string>{"--bake"},
+          std::vector<std::string>{"--instances", "trees", "--expand"}}) {
+        std::vector<std::string> options = form;
+        const std::string plain = bytes_of(options);
+        CHECK(plain.find("KHR_mesh_quantization") == std::string::npos);
+        options.insert(options.end(), {"--compress", "meshopt"});
+        const std::string packed = bytes_of(options);
+        CHECK(packed.find("EXT_meshopt_compression") != std::string::npos);
+        CHECK(packed.find("KHR_mesh_quantization") != std::string::npos);
+        CHECK(packed.size() < plain.size());
+    }
+    for (const char* const name : {"wood.usda", "wood.json"}) {
+        const LscRun run = run_lsc({"forest", folder / "bush.lsys", "--count", "4", "-o",
+                                    folder / name, "--compress", "meshopt"},
+                                   "");
+        CHECK(run.status == 2);
+        CHECK(run.err.find("--compress is for glb and gltf") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(folder / name));
+    }
+}

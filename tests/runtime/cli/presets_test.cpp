@@ -79,6 +79,7 @@ TEST_CASE("each preset sets what its options set one by one") {
                     const auto named = parsed<ForestCommand>(by_name);
                     const auto spelt = parsed<ForestCommand>(one_by_one);
                     CHECK(named.instances == spelt.instances);
+                    CHECK(named.compression == spelt.compression);
                     CHECK(named.expand == spelt.expand);
                 }
             }
