@@ -6,9 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -187,4 +191,46 @@ TEST_CASE("a file states its unit, and its lengths are in it") {
     const LscRun refused = run_lsc({"export", "-", "-o", folder / "a.glb", "--unit", "cm"}, kTree);
     CHECK(refused.status == 2);
     CHECK(refused.err.find("--unit is for obj, off, ply, stl and usda") != std::string::npos);
+}
+
+TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincident parts") {
+    const ScratchFolder folder;
+    const std::string path = folder / "a.stl";
+    const LscRun run = run_lsc({"export", "-", "-o", path, "--preset", "print"}, kTree);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.empty()); // no separate pieces
+    const std::string stl = read_text(path);
+    CHECK(stl.find("STL in millimetres") == 0);
+    std::uint32_t count = 0;
+    std::memcpy(&count, stl.data() + 80, sizeof count);
+    REQUIRE(stl.size() == 84 + 50 * std::size_t{count});
+    // Each edge of exact coordinates once in each direction.
+    using Corner = std::array<float, 3>;
+    std::map<std::pair<Corner, Corner>, int> edges;
+    Corner low{1e9F, 1e9F, 1e9F};
+    Corner high{-1e9F, -1e9F, -1e9F};
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<Corner, 3> corners{};
+        std::memcpy(corners.data(), stl.data() + 84 + 50 * i + 12, sizeof corners);
+        for (std::size_t c = 0; c < 3; ++c) {
+            ++edges[{corners[c], corners[(c + 1) % 3]}];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], corners[c][axis]);
+                high[axis] = std::max(high[axis], corners[c][axis]);
+            }
+        }
+    }
+    std::size_t bad = 0;
+    for (const auto& [edge, times] : edges) {
+        const auto back = edges.find({edge.second, edge.first});
+        bad += times == 1 && back != edges.end() && back->second == 1 ? 0U : 1U;
+    }
+    CHECK(bad == 0);
+    float tallest = 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        tallest = std::max(tallest, high[axis]);
+    }
+    // Round ends of branches of 1 mm stand out by half of it.
+    CHECK(tallest >= 149.9F);
+    CHECK(tallest <= 151.5F);
 }
