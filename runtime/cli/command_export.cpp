@@ -5,6 +5,7 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
+#include "runtime/cli/surface_options.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
 #include "runtime/export/placed_plant.h"
@@ -137,6 +138,8 @@ ExitStatus write_mesh(Export& run,
     info.max_joints = command.bones.value_or(kDefaultJoints);
     info.threads = command.run.threads;
     info.compression = command.compression.value_or(ExportCompression::None);
+    info.up = command.surface.up;
+    info.both_sides = command.surface.both_sides;
     info.unit = command.unit;
     info.collision = command.collision;
     info.collision_names = command.collision_names;
@@ -439,10 +442,10 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--bones are joints of an animation: --frames N and {}",
             format_names("or", [](const FormatTraits& each) { return each.motion; }));
     }
-    if (command.wind_data && !traits_of(format).motion) {
+    if (command.wind_data && !traits_of(format).wind_data) {
         return fmt::format(
             "--wind-data is for shaders, and has a place in {}",
-            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+            format_names("and", [](const FormatTraits& each) { return each.wind_data; }));
     }
     if (command.unit != LengthUnit::Metres && !traits_of(format).units) {
         return fmt::format("--unit is for {}; {}",
@@ -482,7 +485,9 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--frames writes several files of this format, which do not go to standard "
             "output; {} hold all frames in one",
-            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+            format_names("and", [&](const FormatTraits& each) {
+                return command.grow ? each.film : each.motion;
+            }));
     }
     return {};
 }
@@ -524,7 +529,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
                               format_names("or", [](const FormatTraits&) { return true; }))},
             console);
     }
-    if (const std::string conflict = find_conflict(command, *format); !conflict.empty()) {
+    std::string conflict = find_surface_conflict(command.surface, *format);
+    conflict = conflict.empty() ? find_conflict(command, *format) : conflict;
+    if (!conflict.empty()) {
         return report_error(Error{conflict}, console);
     }
     Grammar grammar;

@@ -1,5 +1,6 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_set.h"
+#include "runtime/cli/surface_options.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
@@ -90,6 +91,14 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
     if (command.mesh.method == MeshMethod::Solid) {
         return "--method solid is for a single plant: the branches of a forest are instances";
     }
+    if (target.kind == OutputKind::None || target.kind == OutputKind::Statistics) {
+        if (command.surface.up != UpAxis::Y || command.surface.both_sides) {
+            return "--up and --both-sides are for files of trees";
+        }
+    } else if (const std::string conflict = find_surface_conflict(command.surface, target.format);
+               !conflict.empty()) {
+        return conflict;
+    }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }
@@ -156,6 +165,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     constexpr float kCell = 100.0F;
     const bool whole_trees = run.command.instances == ForestInstances::Trees;
     info.cell = run.command.cell.value_or(whole_trees ? 0.0F : kCell);
+    info.up = run.command.surface.up;
     info.threads = run.command.run.threads;
     info.compression = run.command.compression.value_or(ExportCompression::None);
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
@@ -196,6 +206,8 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.generator = "lsc " LSC_VERSION;
     info.threads = options.threads;
     info.compression = run.command.compression.value_or(ExportCompression::None);
+    info.up = run.command.surface.up;
+    info.both_sides = run.command.surface.both_sides;
     const FormatTraits& format = traits_of(run.target.format);
     OutputSet outputs(run.console); // the files beside it first
     if (path == "-") {

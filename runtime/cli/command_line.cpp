@@ -208,6 +208,18 @@ void add_compression(CLI::App& app, std::optional<ExportCompression>& compressio
         "by EXT_meshopt_compression too (default none)");
 }
 
+void add_surface(CLI::App& app, SurfaceOptions& options) {
+    const std::string up =
+        fmt::format("Axis that points up in {} (default y)",
+                    format_names("and", [](const FormatTraits& format) { return format.up_axes; }));
+    add_choice<UpAxis>(app, "--up", options.up, {{"y", UpAxis::Y}, {"z", UpAxis::Z}}, up.c_str());
+    app.add_flag(
+        "--both-sides", options.both_sides,
+        fmt::format("Write leaves a second time as seen from behind, in {}: for readers that show "
+                    "front faces only",
+                    format_names("and", [](const FormatTraits& each) { return each.back_faces; })));
+}
+
 void add_export(CLI::App& app, ExportCommand& command) {
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
@@ -228,6 +240,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         {{"embedded", BufferPlace::Embedded}, {"separate", BufferPlace::Separate}},
         "gltf: the buffer in the file, or with the pictures beside it: tree.bin, tree.bark.png "
         "(default embedded)");
+    add_surface(app, command.surface);
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
@@ -286,7 +299,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_deny(app, command.messages);
     app.footer("Presets:\n" + preset_table(PresetCommand::Export) +
                "A flag of a preset is taken back by `--wind-data=false`.\n\n"
-               "Units are metres, +Y is up. The output is complete or absent. OBJ writes a .mtl "
+               "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
+               "complete or absent. OBJ writes a .mtl "
                "file beside it, OBJ\n"
                "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
                "output. SVG is\n"
@@ -324,6 +338,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
         "branches: every tree is different; trees: whole heroes, few draw calls and as many "
         "different trees as --heroes (default branches)");
+    add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
@@ -450,6 +465,31 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
     return usage;
 }
 
+/// The mistake found by CLI11, with help that knows the commands. `command`: the one given; null if
+/// the first argument is none.
+UsageError usage_error(const CLI::ParseError& error,
+                       const CLI::App& app,
+                       const CLI::App* command,
+                       std::span<const std::string> arguments) {
+    if (command == nullptr) {
+        UsageError usage = to_usage_error(error, app, "lsc");
+        for (const std::string& argument : arguments.subspan(1)) {
+            if (find_command(app, argument) != nullptr) {
+                usage.help = fmt::format("options stand after the command: `lsc {} {}`", argument,
+                                         arguments.front());
+                break;
+            }
+        }
+        return usage;
+    }
+    UsageError usage = to_usage_error(error, *command, "lsc " + command->get_name());
+    if (command->get_name() == "export" && usage.message == "--output is missing") {
+        usage.help = fmt::format("`-o FILE`, whose name ends in {}",
+                                 format_names("or", [](const FormatTraits&) { return true; }));
+    }
+    return usage;
+}
+
 /// The format of a command's output, as the command itself finds it; null: the name tells none.
 const FormatTraits* format_of(const ExportCommand& command) {
     const std::optional<ExportFormat> format =
@@ -523,8 +563,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     } catch (const CLI::CallForVersion&) {
         return PrintText{"lsc " LSC_VERSION "\n"};
     } catch (const CLI::ParseError& error) {
-        return to_usage_error(error, command == nullptr ? app : *command,
-                              command == nullptr ? "lsc" : "lsc " + command->get_name());
+        return usage_error(error, app, command, arguments);
     }
     const std::optional<UsageError> mistake = std::visit(
         []<typename Command>(Command& given) -> std::optional<UsageError> {

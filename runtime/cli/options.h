@@ -78,6 +78,12 @@ enum class BufferPlace : std::uint8_t {
     Separate, // files beside the output
 };
 
+/// Options of the file of a mesh.
+struct SurfaceOptions {
+    UpAxis up = UpAxis::Y;
+    bool both_sides = false;
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -88,7 +94,8 @@ struct ExportCommand {
     std::optional<ExportFormat> format;           // default: by the extension of the output
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
-    std::string preset;                           // of presets.def; empty: none
+    SurfaceOptions surface;
+    std::string preset; // of presets.def; empty: none
     LengthUnit unit = LengthUnit::Metres;
     PlantPivot pivot = PlantPivot::Origin;
     CollisionKind collision = CollisionKind::None;
@@ -122,6 +129,7 @@ struct ForestCommand {
     std::optional<ExportCompression> compression; // default: none
     bool expand = false;
     bool bake = false;
+    SurfaceOptions surface;
     ForestInstances instances = ForestInstances::Branches;
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
     std::optional<float> cell;

@@ -13,6 +13,11 @@ bool expands(const FormatTraits& format) {
     return format.expands_forest;
 }
 
+/// Whether readers of the format have to guess the axis: PLY and STL are +Z up for most.
+bool cannot_say_up(const FormatTraits& format) {
+    return format.up_axes && format.pictures == ExportPictures::None;
+}
+
 constexpr std::array kPresets{
 #define LSYS_PRESET(name, use, plants, forests) Preset{#name, use, plants, forests},
 #define LSYS_PRESET_OPTION(...)

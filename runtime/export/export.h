@@ -1,7 +1,7 @@
 // Export: a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a sink in
 // pieces and in order, large arrays straight from memory; no file is held as a whole. Made from the
-// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres and
-// +Y up in every format that can state them. Same input, same bytes.
+// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres;
+// +Y up, or +Z if asked for. Same input, same bytes.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -31,9 +31,13 @@ enum class ExportFormat : std::uint8_t {
 enum class ExportPictures : std::uint8_t {
     None,
     Inside,           // embedded in the file; readers multiply them by the colour of the material
-    FilesWithOpacity, // files with the colour of the material; opacity of leaves in further files
     FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
+    FilesWithOpacity, // as FilesWithRelief; opacity of leaves in further files
 };
+
+/// Axis of a file that points away from the ground. Z: x stays, and a point (x, y, z) of the mesh is
+/// at (x, -z, y).
+enum class UpAxis : std::uint8_t { Y, Z };
 
 /// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
 enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
@@ -64,6 +68,9 @@ struct FormatTraits {
     bool film = false;       // one file holds all frames of a growth
     bool compresses = false; // takes ExportInfo::compression
     bool separates = false;  // takes ExportInfo::buffer_name
+    bool wind_data = false;  // takes ExportInfo::wind_data
+    bool up_axes = false;    // takes ExportInfo::up
+    bool back_faces = false; // takes ExportInfo::both_sides
     bool units = false;      // takes ExportInfo::unit
     bool collision = false;  // takes ExportInfo::collision
     /// Writes trees as instances; null: the format has no instances.
@@ -128,9 +135,13 @@ struct ExportInfo {
     /// Max count of joints of the skin, 2 to kMaxJoints: a light skeleton with smooth weights. 0: a
     /// joint for each segment that moves.
     std::uint32_t max_joints = 0;
-    /// Numbers for shaders that move the plant in wind (impl/wind_data.h), in glTF. Mesh::segments
-    /// is complete.
+    /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
+    /// FormatTraits::wind_data. Mesh::segments is complete.
     bool wind_data = false;
+    UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
+    /// Triangles of two-sided materials are written a second time, reversed, with normals of their
+    /// own, for readers that draw front faces only; for FormatTraits::back_faces.
+    bool both_sides = false;
     /// Of the skeleton at rest, in glTF.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;

@@ -39,6 +39,7 @@ struct ForestExportInfo {
     /// exact positions, and instances their transforms.
     ExportCompression compression = ExportCompression::None;
     std::uint32_t threads = 0; // 0: as many as the machine has
+    UpAxis up = UpAxis::Y;     // for FormatTraits::up_axes
     /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };

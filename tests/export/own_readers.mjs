@@ -1,5 +1,5 @@
-// Readers of OFF+ and of the part of USDA that is written here. They know the formats from their
-// descriptions only: no other program has read these files.
+// Readers of OFF+, of the part of USDA that is written here, and of the archives of USDZ. They know
+// the formats from their descriptions only.
 
 function assert(condition, message) {
     if (!condition) {
@@ -27,7 +27,7 @@ export function readOffPlus(text) {
     return { vertices, triangles };
 }
 
-const token = /\s*(?:(@@@(?:\\@@@|(?!@@@)[^\n])*@@@|@[^@\n]*@)|([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,]))/gy;
+const token = /\s*(?:(@@@(?:\\@@@|(?!@@@)[^\n])*@@@|@[^@\n]*@)|([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,:]))/gy;
 
 /// Statements of a prim: `properties` by name, `children` by name.
 class Parser {
@@ -141,6 +141,17 @@ class Parser {
         assert(Object.keys(prim.properties).length === properties.length, 'a property twice');
         return prim;
     }
+    // Values by their time code.
+    samples() {
+        const values = {};
+        for (this.take('{'); !this.at('}'); this.take(',')) {
+            const code = this.literal();
+            this.take(':');
+            values[code] = this.literal();
+        }
+        this.take('}');
+        return values;
+    }
     property() {
         // `uniform` or `custom`, the type and the name: what has no value ends there.
         const words = [];
@@ -151,7 +162,7 @@ class Parser {
         let value = null;
         if (this.at('=')) {
             this.take();
-            value = this.literal();
+            value = this.at('{') ? this.samples() : this.literal();
         }
         const property = { type: words.slice(0, -1).join(' '), value };
         if (this.at('(')) {
@@ -216,7 +227,7 @@ function readMesh(mesh, root) {
     assert(value('faceVertexCounts').every(n => n === 3), 'a face that is no triangle');
     assert(indices.length === 3 * triangles, 'faceVertexIndices');
     assert(indices.every(n => Number.isInteger(n) && n >= 0 && n < vertices), 'an index');
-    const widths = { points: 3, normals: 3, 'primvars:st': 2, 'primvars:displayColor': 3 };
+    const widths = { points: 3, normals: 3, 'primvars:st': 2 };
     for (const [name, width] of Object.entries(widths)) {
         if (name in mesh.properties) {
             assert(value(name).length === vertices &&
@@ -225,6 +236,17 @@ function readMesh(mesh, root) {
                    mesh.properties[name].metadata.interpolation.value === 'vertex',
                    `interpolation of ${name}`);
         }
+    }
+    if ('primvars:displayColor' in mesh.properties) {
+        const colours = value('primvars:displayColor');
+        assert(colours.every(c => c.length === 3 && c.every(x => x >= 0 && x <= 1)), 'a colour');
+        const interpolation = colours.length === 1 ? 'constant' : 'vertex';
+        assert(mesh.properties['primvars:displayColor'].metadata.interpolation.value ===
+               interpolation, 'interpolation of colours');
+        const places = mesh.properties['primvars:displayColor:indices']?.value;
+        assert(colours.length === 1 ? places === undefined :
+               places.length === vertices && places.every(i => i >= 0 && i < colours.length),
+               'indices of colours');
     }
     const [low, high] = value('extent');
     assert(value('points').every(p => p.every((x, i) => x >= low[i] && x <= high[i])), 'extent');
@@ -260,10 +282,64 @@ export function readUsda(text) {
     return readMesh(root.children.Mesh, root);
 }
 
+const crcTable = Array.from({ length: 256 }, (_, byte) => {
+    let crc = byte;
+    for (let bit = 0; bit < 8; ++bit) {
+        crc = crc & 1 ? crc >>> 1 ^ 0xEDB88320 : crc >>> 1;
+    }
+    return crc >>> 0;
+});
+
+function crc32(bytes) {
+    let crc = 0xFFFFFFFF;
+    for (const byte of bytes) {
+        crc = crcTable[(crc ^ byte) & 255] ^ crc >>> 8;
+    }
+    return (crc ^ 0xFFFFFFFF) >>> 0;
+}
+
+/// The entries of a USDZ by name, in order: stored, at multiples of 64 bytes, with right checksums.
+export function readUsdz(bytes) {
+    const end = bytes.length - 22;
+    assert(bytes.readUInt32LE(end) === 0x06054b50, 'no end of an archive');
+    const count = bytes.readUInt16LE(end + 10);
+    let at = bytes.readUInt32LE(end + 16);
+    assert(at + bytes.readUInt32LE(end + 12) === end, 'size of the list');
+    const entries = new Map();
+    for (let i = 0; i < count; ++i) {
+        assert(bytes.readUInt32LE(at) === 0x02014b50, 'entry of the list');
+        const nameBytes = bytes.readUInt16LE(at + 28);
+        const name = bytes.toString('utf8', at + 46, at + 46 + nameBytes);
+        const header = bytes.readUInt32LE(at + 42);
+        assert(bytes.readUInt32LE(header) === 0x04034b50, `header of ${name}`);
+        // Version to flags, method, time, date, checksum, sizes, length of the name.
+        assert(bytes.subarray(header + 4, header + 28).equals(bytes.subarray(at + 6, at + 30)),
+               `${name}: two headers`);
+        assert(bytes.readUInt16LE(header + 8) === 0, `${name} is compressed`);
+        const begin = header + 30 + nameBytes + bytes.readUInt16LE(header + 28);
+        assert(begin % 64 === 0, `${name} begins at ${begin}`);
+        const size = bytes.readUInt32LE(header + 18);
+        const entry = bytes.subarray(begin, begin + size);
+        assert(size === bytes.readUInt32LE(header + 22) && entry.length === size, `size of ${name}`);
+        assert(crc32(entry) === bytes.readUInt32LE(header + 14), `checksum of ${name}`);
+        assert(!entries.has(name), `${name} twice`);
+        entries.set(name, entry);
+        at += 46 + nameBytes;
+    }
+    assert(at === end, 'something in the list');
+    return entries;
+}
+
 function turned([w, x, y, z], [a, b, c]) {
     const t = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
     return [a + w * t[0] + y * t[2] - z * t[1], b + w * t[1] + z * t[0] - x * t[2],
             c + w * t[2] + x * t[1] - y * t[0]];
+}
+
+// The nearest half float, as a reader of quath stores it.
+function halfFloat(x) {
+    const step = 2 ** (Math.max(Math.floor(Math.log2(Math.abs(x) || 1e-9)), -14) - 10);
+    return Math.round(x / step) * step;
 }
 
 /// A ground and a PointInstancer for each kind of plant; what they put where.
@@ -298,17 +374,19 @@ export function readUsdaForest(text) {
         });
         assert(prototypes.length === Object.keys(prim.children.Prototypes.children).length,
                'a prototype that is not named');
+        assert(!('orientationsf' in prim.properties), 'orientations in two arrays');
         const count = value('protoIndices').length;
-        const widths = { positions: 3, orientations: 4, orientationsf: 4, scales: 3 };
+        const widths = { positions: 3, orientations: 4, scales: 3 };
         for (const [name, width] of Object.entries(widths)) {
             assert(value(name).length === count &&
                    value(name).every(t => t.length === width && t.every(Number.isFinite)), name);
         }
         value('protoIndices').forEach((number, i) => {
             const { triangles, points } = prototypes[number];
-            const q = value('orientationsf')[i];
-            assert(Math.abs(Math.hypot(...q) - 1) < 1e-5, 'an orientation of another length');
-            assert(value('orientations')[i].every((x, k) => x === q[k]), 'two orientations');
+            const half = value('orientations')[i].map(halfFloat);
+            const length = Math.hypot(...half);
+            assert(Math.abs(length - 1) < 2e-3, 'an orientation of another length');
+            const q = half.map(x => x / length);
             const [s, p] = [value('scales')[i], value('positions')[i]];
             found.triangles += triangles;
             points.forEach(v => add(turned(q, v.map((x, k) => x * s[k])).map((x, k) => x + p[k])));

@@ -1,5 +1,6 @@
 // Holds exported files against readers in JavaScript. Usage:
 //   node read_files.mjs MODULES (validator | three | compressed | motion | obj | svg | off+ | usda |
+//                              usdz | usd-three | usd-motion | tinyusdz |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
 // `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each that moves.
@@ -10,12 +11,13 @@ import { pathToFileURL } from 'node:url';
 import { distance, posedVertices, readPlyPositions } from './motion.mjs';
 import { extentOf, greatestDifference, primitivesOf, sameTriangles } from './compressed.mjs';
 import { instancedForest, readAccessors } from './forest.mjs';
-import { readOffPlus, readUsda, readUsdaForest } from './own_readers.mjs';
+import { readOffPlus, readUsda, readUsdaForest, readUsdz } from './own_readers.mjs';
+import { posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';
 
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|obj|svg|off+|usda|forest-three|forest-transform|forest-usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|obj|svg|off+|usda|usdz|usd-three|usd-motion|tinyusdz|forest-three|forest-transform|forest-usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -41,10 +43,10 @@ function expectSize(file, name, png) {
     expect(file, `size of ${name}`, `${png.width} x ${png.height}`, `${side} x ${side}`);
 }
 
-// A PNG in the folder.
-function expectPicture(file, name) {
+// A PNG in the folder, or these bytes.
+function expectPicture(file, name, bytes = readFileSync(join(folder, name))) {
     const { PNG } = require('pngjs');
-    expectSize(file, name, PNG.sync.read(readFileSync(join(folder, name))));
+    expectSize(file, name, PNG.sync.read(bytes));
 }
 
 function counts() {
@@ -392,7 +394,9 @@ const checks = {
                 for (const { name } of materials) {
                     const info = materialsInfo[name];
                     expect(file, `Kd of ${name}`, info?.kd?.length, 3);
-                    for (const picture of [info?.map_kd, info?.map_d].filter(Boolean)) {
+                    expect(file, `Pr of ${name}`, Number(info?.pr) > 0.5, true);
+                    expect(file, `normals of ${name}`, info?.norm, info?.map_bump);
+                    for (const picture of [info?.map_kd, info?.map_d, info?.norm].filter(Boolean)) {
                         expectPicture(file, picture);
                         ++pictures;
                     }
@@ -431,6 +435,11 @@ const checks = {
                     expect(file, `${point} in the view box`, inside, true);
                     ++points;
                 }
+                for (const number of value('d')?.match(/-?[\d.]+(e-?\d+)?,/g) ?? []) {
+                    const x = parseFloat(number);
+                    expect(file, `${x} in the view box`, x >= box[0] && x <= box[0] + box[2], true);
+                    ++points;
+                }
             });
             parser.write(readFileSync(join(folder, file), 'utf8')).close();
             expect(file, 'something drawn', points > 0, true);
@@ -460,6 +469,88 @@ const checks = {
             textured += found.pictures.length > 0 ? 1 : 0;
         });
         expect('usda', 'some have pictures', textured > 0, true);
+    },
+
+    async usdz() {
+        await eachMesh(['usdz'], (file, mesh) => {
+            const entries = readUsdz(readFileSync(join(folder, file)));
+            const [layer, ...pictures] = entries.keys();
+            const found = readUsda(entries.get(layer).toString('utf8'));
+            expect(file, 'number of vertices', found.vertices, mesh.vertices);
+            expect(file, 'number of triangles', found.triangles, mesh.triangles);
+            expect(file, 'pictures', [...new Set(found.pictures)].sort().join(' '),
+                   pictures.map(name => `./${name}`).sort().join(' '));
+            pictures.forEach(name => expectPicture(file, name, entries.get(name)));
+        });
+    },
+
+    async 'usd-three'() {
+        const { three, load } = await usdLoader(module);
+        await eachMesh(['usda', 'usdz'], (file, mesh) => {
+            const group = load(arrayBuffer(file), file);
+            const box = new three.Box3();
+            let corners = 0;
+            group.traverse(object => {
+                if (object.isMesh) {
+                    const { index, attributes } = object.geometry;
+                    corners += index?.count ?? attributes.position.count;
+                    box.expandByObject(object);
+                }
+            });
+            expect(file, 'number of triangles', corners / 3, mesh.triangles);
+            expect(file, 'finite bounds', Number.isFinite(box.min.length() + box.max.length()), true);
+        });
+    },
+
+    // As `motion`, for the corners of triangles, because three.js splits the vertices of USD.
+    async 'usd-motion'() {
+        const { three, load } = await usdLoader(module);
+        await eachMesh(['usda', 'usdz'], (file, mesh) => {
+            const group = load(arrayBuffer(file), file);
+            expect(file, 'number of animations', group.animations.length, 1);
+            expect(file, 'duration in frames',
+                   Math.round(group.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
+            const frame = number => readFileSync(
+                join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`));
+            const corners = readPlyTriangles(frame(0)); // bent boxes have other diagonals
+            for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
+                const positions = readPlyPositions(frame(number));
+                const expected = corners.map(vertex => positions[vertex]);
+                const found = posedCorners(three, group, number / mesh.fps);
+                expect(file, `corners in frame ${number}`, found.length, expected.length);
+                const off = expected.map((at, i) => distance(at, found[i]));
+                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : mesh.metres || 1e-2;
+                expect(file, `frame ${number}: off by more than ${most}`,
+                       off.filter(d => !(d <= most)).length, 0);
+                const [part, near] = mesh.metres ? [0.5, mesh.metres / 4] : [0.05, 1e-3];
+                expect(file, `frame ${number}: ${part} of the corners are off by ${near} m`,
+                       off.filter(d => !(d <= near)).length > part * off.length, false);
+            }
+        });
+    },
+
+    async tinyusdz() {
+        const open = await tinyUsdz(module, modules);
+        if (existsSync(join(folder, 'forest.usda'))) {
+            for (const file of ['forest.usda', 'forest.usdz'].filter(f => existsSync(join(folder, f)))) {
+                const loader = open(file, readFileSync(join(folder, file)));
+                expect(file, 'meshes', loader.numMeshes() > 1, true);
+                ++files;
+                loader.delete();
+            }
+            return;
+        }
+        await eachMesh(['usda', 'usdz'], (file, mesh) => {
+            const loader = open(file, readFileSync(join(folder, file)));
+            expect(file, 'number of meshes', loader.numMeshes(), 1);
+            const found = loader.getMesh(0);
+            const frame = join(folder, `${mesh.name}.0001.ply`);
+            const corners = existsSync(frame)
+                ? readPlyTriangles(readFileSync(frame)).length : 3 * mesh.triangles;
+            expect(file, 'number of corners', found.faceVertexIndices.length, corners);
+            expect(file, 'points', found.points.length >= 9, true);
+            loader.delete();
+        });
     },
 
     // Instances: as many as there are branches, where the forest as one mesh has its vertices.
@@ -495,7 +586,9 @@ const checks = {
 
     async 'forest-usda'() {
         const found = readUsdaForest(readFileSync(join(folder, 'forest.usda'), 'utf8'));
-        expectFacts('forest.usda', found);
+        // Orientations are half floats.
+        const { low, high } = facts();
+        expectFacts('forest.usda', found, 1e-3 * Math.max(...high.map((x, i) => x - low[i])));
         expect('forest.usda', 'trees', found.trees, facts().trees);
         expect('forest.usda', 'it has pictures', found.pictures.length > 0, true);
         found.pictures.forEach(picture => expectPicture('forest.usda', picture));

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -295,6 +296,11 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return UsageError{"a window reads its file again and again, so it cannot show "
                           "standard input",
                           "add `--screenshot FILE`, or write the grammar to a file"};
+    }
+    std::filesystem::path picture = options.screenshot;
+    if (picture.has_extension() && CLI::detail::to_lower(picture.extension().string()) != ".png") {
+        return UsageError{fmt::format("`{}`: pictures are written as png", options.screenshot),
+                          fmt::format("name it `{}`", picture.replace_extension(".png").string())};
     }
     return options;
 }

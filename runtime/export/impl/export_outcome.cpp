@@ -1,5 +1,6 @@
 #include "runtime/export/impl/export_outcome.h"
 
+#include "runtime/base/size_text.h"
 #include "runtime/export/impl/piece_writer.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,14 @@ Outcome<void> too_large_for_format(ExportSubject subject) {
     return {Stop::Failed,
             messages_of(fmt::format("the {} is larger than a file of this format can be{}",
                                     name_of(subject), help))};
+}
+
+Outcome<void> too_many_joints() {
+    return {Stop::Limit,
+            messages_of(plant_limit_diagnostic(
+                "the skin", fmt::format("{} joints", grouped_digits(kMaxJoints)),
+                "ask for fewer generations with `-n`, or for a numbered series in a format "
+                "without skins: `-o tree.ply`"))};
 }
 
 Outcome<void> finish(PieceWriter& out) {

@@ -16,6 +16,8 @@ namespace lsys {
 [[nodiscard]] Messages messages_of(std::string error);
 Outcome<void> nothing_to_draw(ExportSubject subject);
 Outcome<void> too_large_for_format(ExportSubject subject);
+/// Limit: a skin of more than kMaxJoints.
+Outcome<void> too_many_joints();
 /// Done, or Cancelled where the sink has stopped.
 Outcome<void> finish(PieceWriter& out);
 

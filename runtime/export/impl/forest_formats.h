@@ -22,6 +22,7 @@ struct ForestExportJob {
 Outcome<void> write_forest_gltf(const ForestExportJob& job, PieceWriter& out);
 Outcome<void> write_forest_glb(const ForestExportJob& job, PieceWriter& out);
 Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out);
+Outcome<void> write_forest_usdz(const ForestExportJob& job, PieceWriter& out);
 
 /// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
 inline constexpr std::uint64_t kTranslationBytes = 12;

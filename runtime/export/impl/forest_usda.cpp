@@ -1,16 +1,20 @@
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
 // "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, relative
-// to its entry: older readers take orientations as half floats, whose rounding would displace
-// vertices far from the origin. `orientationsf` has orientations as floats.
+// to its entry: orientations are half floats, whose rounding would displace vertices far from the
+// origin.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/half_digits.h"
 #include "runtime/export/impl/text.h"
 #include "runtime/export/impl/usda_parts.h"
+#include "runtime/export/impl/usdz.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace lsys {
 
@@ -18,17 +22,17 @@ namespace {
 
 class UsdaForest {
 public:
-    UsdaForest(const ForestScene& scene,
-               const ForestPlan& plan,
-               const ForestExportInfo& info,
-               PieceWriter& out)
-        : scene_(scene), plan_(plan), info_(info), out_(out),
-          materials_(find_forest_materials(scene, plan)),
+    UsdaForest(const ForestScene& scene, const ForestPlan& plan, const ForestExportInfo& info)
+        : scene_(scene), plan_(plan), info_(info), materials_(find_forest_materials(scene, plan)),
           names_(usda_part_names(materials_.samples)) {}
 
-    void write() {
+    [[nodiscard]] const Mesh& material_samples() const { return materials_.samples; }
+    /// Writes the layer; as often as wanted.
+    void write(PieceWriter& out) {
+        out_ = &out;
         put_header();
-        out_.put("def Xform \"Forest\" (\n    kind = \"assembly\"\n)\n{\n");
+        out_->put("def Xform \"Forest\" (\n    kind = \"assembly\"\n)\n{\n");
+        out_->put(usda_turn(info_.up));
         if (scene_.ground != nullptr && triangle_count(*scene_.ground) > 0) {
             put_ground(*scene_.ground);
         }
@@ -44,8 +48,8 @@ public:
         ExportInfo pictures;
         pictures.textures = info_.textures;
         pictures.picture_prefix = info_.picture_prefix;
-        put_usda_materials(materials_.samples, names_, pictures, "/Forest", out_);
-        out_.put("}\n");
+        put_usda_materials(materials_.samples, names_, pictures, "/Forest", *out_);
+        out_->put("}\n");
     }
 
 private:
@@ -56,22 +60,23 @@ private:
     }
 
     void put_header() {
-        out_.put(fmt::format("#usda 1.0\n"
-                             "(\n"
-                             "    defaultPrim = \"Forest\"\n"
-                             "    doc = \"{0}\"\n"
-                             "    metersPerUnit = 1\n"
-                             "    upAxis = \"Y\"\n"
-                             "    customLayerData = {{\n"
-                             "        string generator = \"{0}\"\n"
-                             "        string scene = \"{1}\"\n"
-                             "        uint64 key = {2}\n"
-                             "        uint64 trees = {3}\n"
-                             "        uint64 branches = {4}\n"
-                             "    }}\n"
-                             ")\n\n",
-                             json_text(one_line(info_.generator)), json_text(one_line(info_.name)),
-                             scene_.forest.key, scene_.forest.trees.size(), plan_.branches()));
+        out_->put(fmt::format("#usda 1.0\n"
+                              "(\n"
+                              "    defaultPrim = \"Forest\"\n"
+                              "    doc = \"{0}\"\n"
+                              "    metersPerUnit = 1\n"
+                              "    upAxis = \"{5}\"\n"
+                              "    customLayerData = {{\n"
+                              "        string generator = \"{0}\"\n"
+                              "        string scene = \"{1}\"\n"
+                              "        uint64 key = {2}\n"
+                              "        uint64 trees = {3}\n"
+                              "        uint64 branches = {4}\n"
+                              "    }}\n"
+                              ")\n\n",
+                              json_text(one_line(info_.generator)), json_text(one_line(info_.name)),
+                              scene_.forest.key, scene_.forest.trees.size(), plan_.branches(),
+                              usda_axis(info_.up)));
     }
 
     /// Material names of the parts. `materials`: index in names_ of each material of their mesh.
@@ -88,7 +93,7 @@ private:
         TriangleReader indices(mesh.indices);
         const std::vector<std::string> names = names_of(mesh.parts, materials_.of_ground);
         put_usda_surface(
-            out_, {mesh, "Ground", mesh.positions.size(), mesh.parts, names, "/Forest"},
+            *out_, {mesh, "Ground", mesh.positions.size(), mesh.parts, names, "/Forest", {}},
             [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
             [&](std::uint64_t i) { return indices[mesh.parts[0].first_index + i]; });
     }
@@ -96,7 +101,7 @@ private:
     void put_instancer(const ForestKind& kind,
                        const std::vector<std::uint32_t>& materials,
                        const std::string& name) {
-        out_.put(fmt::format("    def PointInstancer \"{}\"\n    {{\n", name));
+        out_->put(fmt::format("    def PointInstancer \"{}\"\n    {{\n", name));
         prototypes_.assign(kind.cache->instances.size(), 0);
         std::vector<std::uint32_t> used;
         for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
@@ -105,15 +110,25 @@ private:
                 used.push_back(i);
             }
         }
-        out_.put("        rel prototypes = [");
+        out_->put("        rel prototypes = [");
         for (std::size_t p = 0; p < used.size(); ++p) {
-            out_.put(
+            out_->put(
                 fmt::format("{}</Forest/{}/Prototypes/I{}>", p == 0 ? "" : ", ", name, used[p]));
         }
-        out_.put("]\n");
-        put_branches(kind);
-        out_.put("        def Scope \"Prototypes\"\n        {\n");
+        out_->put("]\n");
         const InstanceVertices own = number_vertices(kind, plan_);
+        std::vector<float> sizes; // of the prototypes
+        for (const std::uint32_t i : used) {
+            Bounds bounds;
+            for (const std::uint32_t vertex : own.of(i)) {
+                bounds.add(kind.meshes->mesh.positions[vertex]);
+            }
+            const glm::vec3 extent = bounds.high - bounds.low;
+            sizes.push_back(std::max({extent.x, extent.y, extent.z}));
+        }
+        const float largest = sizes.empty() ? 0.0F : *std::max_element(sizes.begin(), sizes.end());
+        put_branches(kind, place_digits(largest));
+        out_->put("        def Scope \"Prototypes\"\n        {\n");
         for (const std::uint32_t i : used) {
             const Instance& instance = kind.cache->instances[i];
             const glm::dquat back = glm::conjugate(instance.frame);
@@ -121,9 +136,15 @@ private:
             const std::span<const MeshPart> parts = kind.meshes->parts_of(i);
             const std::vector<std::string> names = names_of(parts, materials);
             put_usda_surface(
-                out_,
-                {kind.meshes->mesh, fmt::format("I{}", i), vertices.size(), parts, names,
-                 "/Forest"},
+                *out_,
+                {kind.meshes->mesh,
+                 fmt::format("I{}", i),
+                 vertices.size(),
+                 parts,
+                 names,
+                 "/Forest",
+                 {},
+                 UsdaDigits{.points = place_digits(sizes[prototypes_[i]])}},
                 [vertices](std::uint64_t k) { return vertices[k]; },
                 [&](const glm::vec3& v, bool place) {
                     return glm::vec3(
@@ -131,75 +152,105 @@ private:
                 },
                 [&](std::uint64_t k) { return own.indices[parts[0].first_index + k]; });
         }
-        out_.put("        }\n    }\n");
+        out_->put("        }\n    }\n");
     }
 
     /// Writes each part of the transforms as an array of its own, by one pass over the trees.
-    void put_branches(const ForestKind& kind) {
+    /// `place_digits`: digits behind the point of positions.
+    void put_branches(const ForestKind& kind, int place_digits) {
         put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
         });
-        put_array("point3f[] positions", kind, [](const BranchInstance& branch, char* at) {
+        put_array("point3f[] positions", kind, [&](const BranchInstance& branch, char* at) {
             const glm::vec3& p = branch.position;
-            return put_tuple<3>(at, {p.x, p.y, p.z});
+            return put_tuple<3>(at, {p.x, p.y, p.z}, place_digits);
         });
-        for (const std::string_view array : {"quath[] orientations", "quatf[] orientationsf"}) {
-            put_array(array, kind, [](const BranchInstance& branch, char* at) {
-                const glm::quat q = glm::normalize(branch.rotation);
-                return put_tuple<4>(at, {q.w, q.x, q.y, q.z});
-            });
-        }
+        put_array("quath[] orientations", kind, [this](const BranchInstance& branch, char* at) {
+            const glm::quat q = glm::normalize(branch.rotation);
+            for (const auto& [before, part] :
+                 {std::pair{"(", q.w}, {", ", q.x}, {", ", q.y}, {", ", q.z}}) {
+                at = halves_.put(put_text(at, before), part);
+            }
+            return put_text(at, ")");
+        });
         put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
-            return put_tuple<3>(at, {branch.scale, branch.scale, branch.scale});
+            // Six digits: a millionth.
+            const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);
+            const std::string_view digits(at + 1, static_cast<std::size_t>(end - at - 1));
+            *at = '(';
+            at += 1 + digits.size();
+            at = put_text(put_text(at, ", "), digits);
+            at = put_text(put_text(at, ", "), digits);
+            return put_text(at, ")");
         });
     }
 
     template <typename Put>
     void put_array(std::string_view what, const ForestKind& kind, const Put& put) {
-        out_.put(fmt::format("        {} = [", what));
+        out_->put(fmt::format("        {} = [", what));
         std::uint64_t count = 0;
         for (const ForestCell& cell : plan_.cells()) {
             plan_.for_each_branch(cell, [&](const ForestKind& of, std::uint32_t instance,
                                             const BranchInstance& branch) {
-                if (&of != &kind || plan_.uses()[instance] == 0 || out_.stopped()) {
+                if (&of != &kind || plan_.uses()[instance] == 0 || out_->stopped()) {
                     return;
                 }
-                char* at = out_.room(kUsdaItemBytes + kNumberBytes);
+                char* at = out_->room(kUsdaItemBytes + kNumberBytes);
                 at = put_text(at, count == 0                       ? ""
                                   : count % kUsdaItemsPerLine == 0 ? ",\n            "
                                                                    : ", ");
-                out_.used(put(branch, at));
+                out_->used(put(branch, at));
                 ++count;
             });
         }
-        out_.put("]\n");
+        out_->put("]\n");
     }
 
     const ForestScene& scene_;
     const ForestPlan& plan_;
     const ForestExportInfo& info_;
-    PieceWriter& out_;
+    PieceWriter* out_ = nullptr; // of write()
     ForestMaterials materials_;
     std::vector<std::string> names_;        // of materials
     std::vector<std::uint32_t> prototypes_; // of each instance, its number among those used
+    HalfDigits halves_;
 };
+
+/// Whether USD can count the vertices and branches: its integers are signed.
+bool is_countable(const ForestPlan& plan) {
+    constexpr std::uint64_t kMax = 0x7FFFFFFF;
+    return plan.branches() <= kMax &&
+           std::all_of(plan.kinds().begin(), plan.kinds().end(), [](const ForestKind& kind) {
+               return kind.meshes->mesh.positions.size() <= kMax;
+           });
+}
 
 } // namespace
 
 Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out) {
-    const ForestPlan& plan = job.plan;
-    // Integers of USD are signed.
-    constexpr std::uint64_t kMax = 0x7FFFFFFF;
-    for (const ForestKind& kind : plan.kinds()) {
-        if (kind.meshes->mesh.positions.size() > kMax) {
-            return too_large_for_format(ExportSubject::Forest);
-        }
-    }
-    if (plan.branches() > kMax) {
+    if (!is_countable(job.plan)) {
         return too_large_for_format(ExportSubject::Forest);
     }
-    UsdaForest(job.scene, plan, job.info, out).write();
+    UsdaForest(job.scene, job.plan, job.info).write(out);
     return finish(out);
+}
+
+Outcome<void> write_forest_usdz(const ForestExportJob& job, PieceWriter& out) {
+    if (!is_countable(job.plan)) {
+        return too_large_for_format(ExportSubject::Forest);
+    }
+    ForestExportInfo info = job.info;
+    info.picture_prefix = "forest";
+    ExportInfo pictures;
+    pictures.textures = info.textures;
+    pictures.picture_prefix = info.picture_prefix;
+    UsdaForest forest(job.scene, job.plan, info);
+    return write_usdz_archive(
+        {ExportSubject::Forest, "forest.usda",
+         [&forest](PieceWriter& layer) { forest.write(layer); },
+         find_pictures(forest.material_samples(), ExportPictures::FilesWithRelief, pictures).list,
+         info.threads},
+        out);
 }
 
 } // namespace lsys

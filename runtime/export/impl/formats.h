@@ -5,6 +5,10 @@
 
 #include "runtime/export/impl/piece_writer.h"
 
+#include <glm/vec3.hpp>
+
+#include <string_view>
+
 namespace lsys {
 
 /// Input of a writer.
@@ -19,6 +23,15 @@ struct ExportJob {
     Outcome<void> function(const ExportJob& job, PieceWriter& out);
 #include "runtime/export/formats.def"
 #undef LSYS_EXPORT_FORMAT
+
+/// A point or a direction of the mesh with the axis of the file.
+[[nodiscard]] inline glm::vec3 turned(UpAxis up, const glm::vec3& v) {
+    return up == UpAxis::Z ? glm::vec3(v.x, 0.0F - v.z, v.y) : v; // 0 - z avoids -0
+}
+/// "+Y up" or "+Z up".
+[[nodiscard]] constexpr std::string_view axis_text(UpAxis up) {
+    return up == UpAxis::Z ? "+Z up" : "+Y up";
+}
 
 /// Triangles of all parts.
 [[nodiscard]] std::uint64_t triangle_count(const Mesh& mesh);

@@ -1,7 +1,6 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64 or in
 // a file beside it. One mesh with a primitive for each part, or for many parts that differ in
 // colour only. glTF is in metres and +Y up by definition.
-#include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_collision.h"
@@ -294,8 +293,7 @@ private:
     std::vector<std::size_t> materials_; // by primitive
 };
 
-Outcome<Contents> refuse_size(ExportSubject subject) {
-    Outcome<void> refusal = too_large_for_format(subject);
+Outcome<Contents> refused(Outcome<void> refusal) {
     return {refusal.stop(), std::move(refusal.messages())};
 }
 
@@ -307,7 +305,7 @@ Outcome<Contents> plan(const ExportJob& job) {
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;
     if (job.mesh.positions.size() * vertex_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+        return refused(too_large_for_format(info.subject));
     }
     if (info.animation != nullptr && info.max_joints != 0) {
         contents.motion.emplace(GltfMotion{
@@ -315,11 +313,7 @@ Outcome<Contents> plan(const ExportJob& job) {
     } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return {Stop::Limit,
-                    messages_of(plant_limit_diagnostic(
-                        "the skin", fmt::format("{} joints", grouped_digits(kMaxJoints)),
-                        "ask for fewer generations with `-n`, or for a numbered series in "
-                        "another format, which is any but glTF: `-o tree.ply`"))};
+            return refused(too_many_joints());
         }
         contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
@@ -337,7 +331,7 @@ Outcome<Contents> plan(const ExportJob& job) {
         contents.collision.shapes = make_collision(job.skeleton, info);
     }
     if (contents.bytes() > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+        return refused(too_large_for_format(info.subject));
     }
     return {std::move(contents), {}};
 }

@@ -72,7 +72,7 @@ void put_material(JsonWriter& json,
         put_texture("baseColorTexture", *shown.colour);
     }
     json.member("metallicFactor", 0);
-    json.member("roughnessFactor", material.kind == MaterialKind::Bark ? 0.95 : 0.7).end();
+    json.member("roughnessFactor", roughness(material)).end();
     if (shown.relief) {
         put_texture("normalTexture", *shown.relief);
     }

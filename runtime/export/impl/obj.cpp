@@ -1,5 +1,7 @@
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, copied at
-// https://paulbourke.net/dataformats/obj/). v of texture coordinates goes upwards.
+// https://paulbourke.net/dataformats/obj/); `Pr` and `norm` are of its extension for physically
+// based rendering (http://exocortex.com/blog/extending_wavefront_mtl_to_support_pbr). v of texture
+// coordinates goes upwards.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/pictures.h"
@@ -38,22 +40,77 @@ void put_line(PieceWriter& out, std::string_view keyword, const std::array<float
     out.used(at);
 }
 
+char* put_corner(char* at, std::uint64_t vertex, std::uint64_t normal, bool textured) {
+    *at++ = ' ';
+    const char* const digits = at;
+    at = put_number(at, vertex);
+    const std::string_view number(digits, static_cast<std::size_t>(at - digits));
+    *at++ = '/';
+    if (textured) {
+        at = put_text(at, number);
+    }
+    *at++ = '/';
+    return vertex == normal ? put_text(at, number) : put_number(at, normal);
+}
+
 /// Position, texture coordinate and normal of a corner have the same number.
 void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, PieceWriter& out) {
     for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
         char* at = out.room(kLineBytes);
         *at++ = 'f';
         for (std::uint64_t corner = i; corner < i + 3; ++corner) {
-            *at++ = ' ';
-            const char* const digits = at;
-            at = put_number(at, std::uint64_t{indices[part.first_index + corner]} + 1);
-            const std::string_view number(digits, static_cast<std::size_t>(at - digits));
-            *at++ = '/';
-            if (textured) {
-                at = put_text(at, number);
+            const std::uint64_t number = std::uint64_t{indices[part.first_index + corner]} + 1;
+            at = put_corner(at, number, number, textured);
+        }
+        *at++ = '\n';
+        out.used(at);
+    }
+}
+
+/// Normals of the backs of two-sided parts.
+struct BackNormals {
+    std::uint64_t first = 0; // number in the file of the first of them
+    /// For each vertex of a two-sided part, its number among them from 1; 0: none. Empty: no part
+    /// has two sides.
+    LargeVector<std::uint32_t> numbers;
+};
+
+bool is_two_sided(const Mesh& mesh, const MeshPart& part) {
+    return mesh.materials[part.material].two_sided;
+}
+
+BackNormals find_back_normals(const Mesh& mesh) {
+    BackNormals backs;
+    backs.first = std::uint64_t{mesh.positions.size()} + 1;
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        if (is_two_sided(mesh, part)) {
+            backs.numbers.resize(mesh.positions.size(), 0); // else without values
+            for (std::uint64_t i = 0; i < part.index_count; ++i) {
+                backs.numbers[indices[part.first_index + i]] = 1;
             }
-            *at++ = '/';
-            at = put_text(at, number);
+        }
+    }
+    std::uint32_t count = 0;
+    for (std::uint32_t& number : backs.numbers) {
+        number = number != 0 ? ++count : 0;
+    }
+    return backs;
+}
+
+/// The triangles of put_faces() with their last two corners swapped.
+void put_back_faces(TriangleReader& indices,
+                    const MeshPart& part,
+                    const BackNormals& backs,
+                    bool textured,
+                    PieceWriter& out) {
+    for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
+        char* at = out.room(kLineBytes);
+        *at++ = 'f';
+        for (const std::uint64_t corner : {i, i + 2, i + 1}) {
+            const std::uint32_t vertex = indices[part.first_index + corner];
+            at = put_corner(at, std::uint64_t{vertex} + 1, backs.first + backs.numbers[vertex] - 1,
+                            textured);
         }
         *at++ = '\n';
         out.used(at);
@@ -64,15 +121,15 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 Outcome<void> write_obj(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
-    out.put(fmt::format("# {}\n# {}\n# {}, +Y up\n", one_line(job.info.generator),
-                        origin_line(job.info), unit_text(job.info.unit)));
+    out.put(fmt::format("# {}\n# {}\n# {}, {}\n", one_line(job.info.generator),
+                        origin_line(job.info), unit_text(job.info.unit), axis_text(job.info.up)));
     if (!job.info.mtl_name.empty()) {
         // Readers take the rest of the line as the name, blanks included.
         out.put(fmt::format("mtllib {}\n", one_line(job.info.mtl_name)));
     }
     out.put(fmt::format("o {}\n", obj_identifier(plant_name(job.info))));
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
-        const glm::vec3& p = mesh.positions[i];
+        const glm::vec3 p = turned(job.info.up, mesh.positions[i]);
         put_line<3>(out, "v", {p.x, p.y, p.z});
     }
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
@@ -81,14 +138,24 @@ Outcome<void> write_obj(const ExportJob& job, PieceWriter& out) {
         put_line<2>(out, "vt", {t.x, 1.0F - t.y});
     }
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
-        const glm::vec3& n = mesh.normals[i];
+        const glm::vec3 n = turned(job.info.up, mesh.normals[i]);
         put_line<3>(out, "vn", {n.x, n.y, n.z});
+    }
+    const BackNormals backs = job.info.both_sides ? find_back_normals(mesh) : BackNormals{};
+    for (std::size_t i = 0; i < backs.numbers.size() && !out.stopped(); ++i) {
+        if (backs.numbers[i] != 0) {
+            const glm::vec3 n = turned(job.info.up, glm::vec3(0.0F) - mesh.normals[i]);
+            put_line<3>(out, "vn", {n.x, n.y, n.z});
+        }
     }
     const std::vector<std::string> names = material_names(mesh);
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
         out.put(fmt::format("usemtl {}\n", names[part.material]));
         put_faces(indices, part, textured, out);
+        if (job.info.both_sides && is_two_sided(mesh, part)) {
+            put_back_faces(indices, part, backs, textured, out);
+        }
     }
     return finish(out);
 }
@@ -115,11 +182,15 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
                                          ? glm::vec4(1.0F, 1.0F, 1.0F, mesh.materials[i].colour.a)
                                          : mesh.materials[i].colour;
             out.put(fmt::format("\nnewmtl {}\nKa 0 0 0\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\n"
-                                "d {}\nillum 1\n",
-                                names[i], srgb(colour.r), srgb(colour.g), srgb(colour.b),
-                                colour.a));
+                                "d {}\nillum 1\nPr {}\n",
+                                names[i], srgb(colour.r), srgb(colour.g), srgb(colour.b), colour.a,
+                                roughness(mesh.materials[i])));
             put_map("map_Kd", shown.colour);
             put_map("map_d", shown.opacity);
+            // Readers differ: three.js and assimp take normals from `norm`, which hides the heights
+            // of `map_Bump`; Blender and Babylon take normals from `map_Bump` and skip `norm`.
+            put_map("norm", shown.relief);
+            put_map("map_Bump", shown.relief);
         }
         return finish(out);
     });

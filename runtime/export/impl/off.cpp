@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t kLineBytes = 8 + 6 * (kNumberBytes + 1);
 
-Outcome<void> write(const Mesh& mesh, bool plus, PieceWriter& out) {
+Outcome<void> write(const Mesh& mesh, UpAxis up, bool plus, PieceWriter& out) {
     out.put(fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), triangle_count(mesh)));
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
-        const glm::vec3& p = mesh.positions[i];
+        const glm::vec3 p = turned(up, mesh.positions[i]);
         char* at = put_number(out.room(kLineBytes), p.x);
         *at++ = ' ';
         at = put_number(at, p.y);
@@ -56,11 +56,11 @@ Outcome<void> write(const Mesh& mesh, bool plus, PieceWriter& out) {
 } // namespace
 
 Outcome<void> write_off(const ExportJob& job, PieceWriter& out) {
-    return write(job.mesh, false, out);
+    return write(job.mesh, job.info.up, false, out);
 }
 
 Outcome<void> write_off_plus(const ExportJob& job, PieceWriter& out) {
-    return write(job.mesh, true, out);
+    return write(job.mesh, job.info.up, true, out);
 }
 
 } // namespace lsys

@@ -1,12 +1,17 @@
 #include "runtime/export/impl/outline.h"
 
+#include "runtime/export/impl/opacity_outline.h"
 #include "runtime/meshing/shapes.h"
+#include "runtime/meshing/texture.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace lsys {
 
@@ -46,6 +51,115 @@ std::vector<glm::vec3> extreme_points(const std::vector<glm::vec3>& points) {
     return found;
 }
 
+/// Flat part of a mesh: texture coordinates (u, v) are at origin + u * along_u + v * along_v.
+struct Card {
+    glm::vec3 origin;
+    glm::vec3 along_u;
+    glm::vec3 along_v;
+    glm::vec2 low; // box of its texture coordinates
+    glm::vec2 high;
+    float area = 0.0F; // of its triangles in texture coordinates
+
+    [[nodiscard]] glm::vec3 at(const glm::vec2& t) const {
+        return origin + t.x * along_u + t.y * along_v;
+    }
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Nothing for a triangle without area in texture coordinates.
+std::optional<Card> card_of(const UserMesh& mesh, const Triangle& corners) {
+    const auto& t = mesh.texture_coordinates;
+    const auto& p = mesh.positions;
+    const glm::vec2 a = t[corners[1]] - t[corners[0]];
+    const glm::vec2 b = t[corners[2]] - t[corners[0]];
+    const float area = a.x * b.y - a.y * b.x;
+    if (!(std::fabs(area) > 1e-9F)) {
+        return std::nullopt;
+    }
+    const glm::vec3 to_a = (p[corners[1]] - p[corners[0]]) / area;
+    const glm::vec3 to_b = (p[corners[2]] - p[corners[0]]) / area;
+    Card card;
+    card.along_u = to_a * b.y - to_b * a.y;
+    card.along_v = to_b * a.x - to_a * b.x;
+    card.origin = p[corners[0]] - t[corners[0]].x * card.along_u - t[corners[0]].y * card.along_v;
+    card.low = t[corners[0]];
+    card.high = card.low;
+    return card;
+}
+
+bool contains(const Card& card, const UserMesh& mesh, const Triangle& corners, float tolerance) {
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+        return glm::distance(card.at(mesh.texture_coordinates[corner]), mesh.positions[corner]) <=
+               tolerance;
+    });
+}
+
+/// The cards that a mesh consists of; none if it has other parts.
+std::vector<Card> find_cards(const UserMesh& mesh) {
+    constexpr std::size_t kMaxCards = 64;
+    constexpr float kTolerance = 1e-3F; // of the size of the mesh
+    constexpr float kMinFilled = 0.6F;  // of the box of texture coordinates; a triangle fills 0.5
+    constexpr float kBeyond = 0.01F;    // texture coordinates farther out repeat the picture
+    Bounds bounds;
+    for (const glm::vec3& position : mesh.positions) {
+        bounds.add(position);
+    }
+    const float tolerance = kTolerance * glm::distance(bounds.low, bounds.high);
+    std::vector<Card> cards;
+    if (mesh.texture_coordinates.size() != mesh.positions.size()) {
+        return cards;
+    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const Triangle corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        const std::optional<Card> own = card_of(mesh, corners);
+        auto card = std::find_if(cards.begin(), cards.end(), [&](const Card& each) {
+            return contains(each, mesh, corners, tolerance);
+        });
+        if (!own || (card == cards.end() && cards.size() == kMaxCards)) {
+            return {};
+        }
+        if (card == cards.end()) {
+            cards.push_back(*own);
+            card = cards.end() - 1;
+        }
+        const auto& t = mesh.texture_coordinates;
+        for (const std::uint32_t corner : corners) {
+            card->low = glm::min(card->low, t[corner]);
+            card->high = glm::max(card->high, t[corner]);
+        }
+        const glm::vec2 a = t[corners[1]] - t[corners[0]];
+        const glm::vec2 b = t[corners[2]] - t[corners[0]];
+        card->area += 0.5F * std::fabs(a.x * b.y - a.y * b.x);
+    }
+    const bool flat = std::all_of(cards.begin(), cards.end(), [](const Card& card) {
+        const glm::vec2 size = card.high - card.low;
+        return card.area >= kMinFilled * size.x * size.y && card.low.x >= -kBeyond &&
+               card.low.y >= -kBeyond && card.high.x <= 1.0F + kBeyond &&
+               card.high.y <= 1.0F + kBeyond;
+    });
+    return flat ? cards : std::vector<Card>{};
+}
+
+/// The outline of what is opaque on a mesh of cards; empty for other meshes and pictures without
+/// holes.
+std::vector<std::vector<glm::vec3>> picture_outline(const UserMesh& mesh) {
+    std::vector<std::vector<glm::vec3>> loops;
+    if (!has_holes(*mesh.picture)) {
+        return loops;
+    }
+    for (const Card& card : find_cards(mesh)) {
+        for (const std::vector<glm::vec2>& outline :
+             opacity_outline(*mesh.picture, card.low, card.high)) {
+            std::vector<glm::vec3>& loop = loops.emplace_back();
+            for (const glm::vec2& point : outline) {
+                loop.push_back(card.at(point));
+            }
+        }
+    }
+    return loops;
+}
+
 float turn(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -64,7 +178,13 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
     for (const ShapePart& part : shape.parts) {
         const bool own = part.takes_colour && object.colour != 0;
         outlines.push_back({extreme_points(part.positions),
+                            {},
                             palette_colour(own ? object.colour : part.material.palette)});
+        if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
+            const UserMesh& mesh = user_meshes[object.mesh_file];
+            outlines.back().colour = mean_colour(*mesh.picture);
+            outlines.back().loops = picture_outline(mesh);
+        }
     }
     // The calyx, the last part of a flower, is drawn first: petals hide it.
     std::rotate(outlines.begin(), outlines.end() - (outlines.size() > 1 ? 1 : 0), outlines.end());

@@ -1,4 +1,5 @@
-// Outlines of objects for drawings: convex hulls of the parts of their shapes.
+// Outlines of objects for drawings: convex hulls of the parts of their shapes; of cards with a
+// picture that has holes, the outline of what is opaque in it.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -15,11 +16,13 @@ struct Outline {
     /// Extreme points of the part: seen from any side, their hull is about the hull of the part.
     /// Size 1, at the origin, along +Y.
     std::vector<glm::vec3> corners;
+    /// In place of the hull, if not empty: closed lines, inside by the even-odd rule.
+    std::vector<std::vector<glm::vec3>> loops;
     glm::vec3 colour{1.0F}; // linear
 };
 
 /// Outlines of the parts of an object, back to front. Depend on kind, mesh file and colour. Empty
-/// for a mesh file that is not among `user_meshes`.
+/// for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour of it.
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
                                                    const std::vector<UserMesh>& user_meshes);
 /// The convex hull, counter-clockwise; fewer than three corners for points on a line. Sorts

@@ -139,8 +139,7 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
                 shown.opacity = number_of(pictures.list, wanted);
             }
         }
-        if (shows_relief(material) &&
-            (kind == ExportPictures::FilesWithRelief || (inside && has_tangents))) {
+        if (shows_relief(material) && (!inside || has_tangents)) {
             wanted.kind = PictureKind::Relief;
             wanted.file = material.relief;
             wanted.name =

@@ -44,6 +44,11 @@ struct Pictures {
 /// ExportInfo::textures or a name for files.
 [[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
+/// Roughness, 0 to 1, in formats that have one.
+[[nodiscard]] constexpr double roughness(const Material& material) {
+    return material.kind == MaterialKind::Bark ? 0.95 : 0.7;
+}
+
 /// Encodes the pictures as PNG. Throws std::bad_alloc.
 [[nodiscard]] std::vector<std::string> encode_pictures(const std::vector<Picture>& pictures,
                                                        std::uint32_t threads);

@@ -23,8 +23,9 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     // Not `solid`: readers take files that begin with it for text.
-    std::string header = fmt::format("STL in {}, +Y up. {}: {}", unit_text(job.info.unit),
-                                     one_line(job.info.generator), origin_line(job.info));
+    std::string header =
+        fmt::format("STL in {}, {}. {}: {}", unit_text(job.info.unit), axis_text(job.info.up),
+                    one_line(job.info.generator), origin_line(job.info));
     header.resize(kHeaderBytes, ' ');
     out.put(header);
     const auto count = static_cast<std::uint32_t>(triangle_count(mesh));
@@ -33,9 +34,9 @@ Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
     for (const MeshPart& part : mesh.parts) {
         std::uint64_t corner = part.first_index;
         for (std::uint64_t i = 0; i < part.index_count / 3 && !out.stopped(); ++i, corner += 3) {
-            const glm::vec3& a = mesh.positions[indices[corner]];
-            const glm::vec3& b = mesh.positions[indices[corner + 1]];
-            const glm::vec3& c = mesh.positions[indices[corner + 2]];
+            const glm::vec3 a = turned(job.info.up, mesh.positions[indices[corner]]);
+            const glm::vec3 b = turned(job.info.up, mesh.positions[indices[corner + 1]]);
+            const glm::vec3 c = turned(job.info.up, mesh.positions[indices[corner + 2]]);
             const glm::vec3 across = glm::cross(b - a, c - a);
             const float length = glm::length(across);
             const glm::vec3 normal = length > 0.0F ? across / length : glm::vec3(0.0F);

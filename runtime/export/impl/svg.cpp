@@ -1,10 +1,11 @@
 // SVG (W3C, "Scalable Vector Graphics 1.1"), where y goes down: the plane z = 0 seen from +Z. Lines
 // have the mean diameter of their segments; a run of segments of equal width and colour is one
-// polyline. Units are metres.
+// polyline. What shows a picture has its mean colour. Units are metres.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"
 #include "runtime/export/impl/text.h"
+#include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -52,6 +53,9 @@ private:
     void put_point(const glm::vec2& point);
     void put_segments();
     void put_filled(const std::string& colour, const std::vector<glm::vec2>& corners);
+    void put_loops(const PlacedObject& object, const Outline& part);
+    void put_polygons();
+    void put_object(const PlacedObject& object);
 
     const Skeleton& skeleton_;
     const ExportInfo& info_;
@@ -87,8 +91,15 @@ void Drawing::find_bounds() {
     for (const PlacedObject& object : skeleton_.objects) {
         bounds_.add(object.position);
         for (const Outline& part : outlines(object)) {
-            for (const glm::vec3& corner : part.corners) {
-                bounds_.add(placed(object, corner));
+            if (part.loops.empty()) {
+                for (const glm::vec3& corner : part.corners) {
+                    bounds_.add(placed(object, corner));
+                }
+            }
+            for (const std::vector<glm::vec3>& loop : part.loops) {
+                for (const glm::vec3& corner : loop) {
+                    bounds_.add(placed(object, corner));
+                }
             }
         }
     }
@@ -161,10 +172,22 @@ void Drawing::put_filled(const std::string& colour, const std::vector<glm::vec2>
     out_.put("\"/>\n");
 }
 
-void Drawing::write() {
-    find_bounds();
-    put_head();
-    put_segments();
+void Drawing::put_loops(const PlacedObject& object, const Outline& part) {
+    out_.put(fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"", colour_text(part.colour)));
+    for (const std::vector<glm::vec3>& loop : part.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            out_.put(i == 0 ? "M" : " ");
+            put_point(glm::vec2(placed(object, loop[i])));
+        }
+        out_.put("z");
+    }
+    out_.put("\"/>\n");
+}
+
+void Drawing::put_polygons() {
+    std::map<std::uint32_t, glm::vec3> pictures; // mean colours
+    const std::vector<UserMesh> none;
+    const std::vector<UserMesh>& files = info_.user_meshes != nullptr ? *info_.user_meshes : none;
     std::vector<glm::vec2> points;
     for (std::size_t i = 0; i < skeleton_.polygons.size() && !out_.stopped(); ++i) {
         const Polygon& polygon = skeleton_.polygons[i];
@@ -172,20 +195,43 @@ void Drawing::write() {
         for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
             points.emplace_back(skeleton_.corners[polygon.first_corner + c]);
         }
-        put_filled(colour_text(palette_colour(polygon.colour)), points);
-    }
-    for (std::size_t i = 0; i < skeleton_.objects.size() && !out_.stopped(); ++i) {
-        const PlacedObject& object = skeleton_.objects[i];
-        for (const Outline& part : outlines(object)) {
-            points.clear();
-            for (const glm::vec3& corner : part.corners) {
-                points.emplace_back(placed(object, corner));
+        glm::vec3 colour = palette_colour(polygon.colour);
+        if (polygon.picture < files.size() && files[polygon.picture].picture != nullptr) {
+            const auto [found, added] = pictures.try_emplace(polygon.picture);
+            if (added) {
+                found->second = mean_colour(*files[polygon.picture].picture);
             }
-            const std::vector<glm::vec2> corners = convex_hull(points);
-            if (corners.size() >= 3) {
-                put_filled(colour_text(part.colour), corners);
-            }
+            colour = found->second;
         }
+        put_filled(colour_text(colour), points);
+    }
+}
+
+void Drawing::put_object(const PlacedObject& object) {
+    std::vector<glm::vec2> points;
+    for (const Outline& part : outlines(object)) {
+        if (!part.loops.empty()) {
+            put_loops(object, part);
+            continue;
+        }
+        points.clear();
+        for (const glm::vec3& corner : part.corners) {
+            points.emplace_back(placed(object, corner));
+        }
+        const std::vector<glm::vec2> corners = convex_hull(points);
+        if (corners.size() >= 3) {
+            put_filled(colour_text(part.colour), corners);
+        }
+    }
+}
+
+void Drawing::write() {
+    find_bounds();
+    put_head();
+    put_segments();
+    put_polygons();
+    for (std::size_t i = 0; i < skeleton_.objects.size() && !out_.stopped(); ++i) {
+        put_object(skeleton_.objects[i]);
     }
     out_.put("</svg>\n");
 }

@@ -1,9 +1,13 @@
 #include "runtime/export/impl/text.h"
 
+#include "grammar/base/contract.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace lsys {
 
@@ -84,6 +88,36 @@ std::string valid_utf8(std::string_view text) {
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return valid;
+}
+
+char* put_rounded(char* at, float value, int decimals) {
+    constexpr std::array<double, 10> kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+    constexpr double kMaxWhole = 1e15; // whole numbers of a double
+    LSYS_CHECK(decimals >= 0 && static_cast<std::size_t>(decimals) < kPowers.size(), decimals);
+    const double scaled = static_cast<double>(value) * kPowers[static_cast<std::size_t>(decimals)];
+    if (!(std::fabs(scaled) < kMaxWhole)) {
+        return put_number(at, value);
+    }
+    const std::int64_t rounded = std::llround(scaled);
+    if (rounded < 0) {
+        *at++ = '-';
+    }
+    auto left = static_cast<std::uint64_t>(std::abs(rounded));
+    std::array<char, 10> fraction{};
+    std::size_t count = 0; // of its digits, without zeros at the end
+    for (int i = decimals; i > 0; --i, left /= 10) {
+        const auto digit = static_cast<char>('0' + left % 10);
+        fraction[static_cast<std::size_t>(i - 1)] = digit;
+        if (count == 0 && digit != '0') {
+            count = static_cast<std::size_t>(i);
+        }
+    }
+    at = put_number(at, left);
+    if (count > 0) {
+        *at++ = '.';
+        at = put_text(at, {fraction.data(), count});
+    }
+    return at;
 }
 
 std::string one_line(std::string_view text) {

@@ -23,6 +23,9 @@ inline char* put_number(char* at, float value) {
 inline char* put_number(char* at, std::uint64_t value) {
     return fmt::format_to(at, FMT_COMPILE("{}"), value);
 }
+/// Writes `value` rounded to `decimals` digits behind the point, 0 to 9, without zeros at the end;
+/// returns the end.
+char* put_rounded(char* at, float value, int decimals);
 inline char* put_text(char* at, std::string_view text) {
     return at + text.copy(at, text.size());
 }

@@ -3,6 +3,7 @@
 #include "runtime/export/impl/pictures.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace lsys {
 
@@ -114,14 +115,65 @@ void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const B
         std::any_of(surface.parts.begin(), surface.parts.end(), [&](const MeshPart& part) {
             return surface.mesh.materials[part.material].two_sided;
         });
-    out.put(fmt::format("    def Mesh \"{}\"\n"
+    out.put(fmt::format("    def Mesh \"{}\"{}\n"
                         "    {{\n"
                         "        uniform token subdivisionScheme = \"none\"\n"
                         "        uniform token orientation = \"rightHanded\"\n"
-                        "        uniform bool doubleSided = {}\n"
-                        "        float3[] extent = [({}, {}, {}), ({}, {}, {})]\n",
-                        surface.name, two_sided ? 1 : 0, bounds.low.x, bounds.low.y, bounds.low.z,
-                        bounds.high.x, bounds.high.y, bounds.high.z));
+                        "        uniform bool doubleSided = {}\n",
+                        surface.name,
+                        surface.put_skin ? " (\n        prepend apiSchemas = "
+                                           "[\"SkelBindingAPI\"]\n    )"
+                                         : "",
+                        two_sided ? 1 : 0));
+    const std::optional<int> digits =
+        surface.digits ? std::optional<int>(surface.digits->points) : std::nullopt;
+    put_list(out, "float3[] extent", 2, [&](std::uint64_t i, char* at) {
+        const glm::vec3& corner = i == 0 ? bounds.low : bounds.high;
+        return put_tuple<3>(at, {corner.x, corner.y, corner.z}, digits);
+    });
+    out.put("\n");
+}
+
+int place_digits(float size) {
+    constexpr double kPart = 1e-5;
+    constexpr int kMaxDigits = 9;
+    int digits = 0;
+    for (double step = 1.0; step > kPart * static_cast<double>(size) && digits < kMaxDigits;
+         step /= 10) {
+        ++digits;
+    }
+    return digits;
+}
+
+void put_usda_colours(PieceWriter& out,
+                      std::uint64_t vertices,
+                      const std::function<std::uint16_t(std::uint64_t)>& colour_of) {
+    std::vector<std::uint16_t> palette; // colours of the prim, in the order of their first vertices
+    std::vector<std::uint32_t> places;  // of each colour in `palette`, plus 1; 0: none
+    for (std::uint64_t i = 0; i < vertices; ++i) {
+        const std::uint16_t colour = colour_of(i);
+        if (colour >= places.size()) {
+            places.resize(std::size_t{colour} + 1);
+        }
+        if (places[colour] == 0) {
+            palette.push_back(colour);
+            places[colour] = static_cast<std::uint32_t>(palette.size());
+        }
+    }
+    put_list(out, "color3f[] primvars:displayColor", palette.size(),
+             [&](std::uint64_t i, char* at) {
+                 const glm::vec3 c = palette_colour(palette[i]);
+                 return put_tuple<3>(at, {c.r, c.g, c.b});
+             });
+    out.put(fmt::format(" (\n            interpolation = \"{}\"\n        )\n",
+                        palette.size() == 1 ? "constant" : "vertex"));
+    if (palette.size() > 1) {
+        put_list(out, "int[] primvars:displayColor:indices", vertices,
+                 [&](std::uint64_t i, char* at) {
+                     return put_number(at, std::uint64_t{places[colour_of(i)] - 1});
+                 });
+        out.put("\n");
+    }
 }
 
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface) {

@@ -10,6 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +21,17 @@ namespace lsys {
 
 inline constexpr std::size_t kUsdaItemsPerLine = 8;
 inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
+
+/// The value of `upAxis`.
+[[nodiscard]] constexpr std::string_view usda_axis(UpAxis up) {
+    return up == UpAxis::Z ? "Z" : "Y";
+}
+/// Properties of the root prim that turn +Y of its children to the axis of the file.
+[[nodiscard]] constexpr std::string_view usda_turn(UpAxis up) {
+    return up == UpAxis::Z ? "    double xformOp:rotateX = 90\n"
+                             "    uniform token[] xformOpOrder = [\"xformOp:rotateX\"]\n\n"
+                           : "";
+}
 
 /// A unique name for each part.
 [[nodiscard]] std::vector<std::string> usda_part_names(const Mesh& mesh);
@@ -44,6 +57,29 @@ template <std::size_t kCount>
     return put_text(at, ")");
 }
 
+/// A tuple of numbers with `decimals` digits behind the point; without `decimals` exact ones.
+template <std::size_t kCount>
+[[nodiscard]] char*
+put_tuple(char* at, const std::array<float, kCount>& values, const std::optional<int>& decimals) {
+    if (!decimals) {
+        return put_tuple<kCount>(at, values);
+    }
+    for (std::size_t i = 0; i < kCount; ++i) {
+        at = put_text(at, i == 0 ? "(" : ", ");
+        at = put_rounded(at, values[i], *decimals);
+    }
+    return put_text(at, ")");
+}
+
+/// Digits behind the point of the numbers of a mesh prim.
+struct UsdaDigits {
+    int points = 9;
+    int normals = 4;             // 0.005 degrees
+    int texture_coordinates = 5; // 1/100 of a texel of 1024
+};
+/// Digits behind the point that state places of a surface of this size to a 100,000th of it.
+[[nodiscard]] int place_digits(float size);
+
 /// A mesh prim.
 struct UsdaSurface {
     const Mesh& mesh; // may have vertices that the prim has not
@@ -52,9 +88,15 @@ struct UsdaSurface {
     std::span<const MeshPart> parts;
     const std::vector<std::string>& materials; // names, by parts
     std::string_view root;                     // path of the prim of put_usda_materials()
+    std::function<void()> put_skin;            // writes properties of a skin; empty: none
+    std::optional<UsdaDigits> digits = {};     // empty: exact numbers
 };
 void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
+/// Writes the colours of vertices. `colour_of(i)`: the palette index of vertex i.
+void put_usda_colours(PieceWriter& out,
+                      std::uint64_t vertices,
+                      const std::function<std::uint16_t(std::uint64_t)>& colour_of);
 /// Writes a mesh prim. `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v,
 /// is_point)`: a vector of the mesh in the coordinates of the prim. `corner(i)`: the vertex of the
 /// prim at corner i of the triangles of all parts, called with rising i.
@@ -76,6 +118,9 @@ void put_usda_surface(PieceWriter& out,
     for (std::uint64_t i = 0; i < vertices; ++i) {
         bounds.add(turn(mesh.positions[vertex(i)], true));
     }
+    const auto digits_of = [&surface](int UsdaDigits::*of) {
+        return surface.digits ? std::optional<int>((*surface.digits).*of) : std::nullopt;
+    };
     put_usda_surface_head(out, surface, bounds);
     put_list(out, "int[] faceVertexCounts", triangles,
              [](std::uint64_t, char* at) { return put_text(at, "3"); });
@@ -85,9 +130,11 @@ void put_usda_surface(PieceWriter& out,
     out.put("\n");
     const auto put_vectors = [&](std::string_view name, const LargeVector<glm::vec3>& from,
                                  bool are_points) {
+        const std::optional<int> digits =
+            digits_of(are_points ? &UsdaDigits::points : &UsdaDigits::normals);
         put_list(out, name, vertices, [&](std::uint64_t i, char* at) {
             const glm::vec3 v = turn(from[vertex(i)], are_points);
-            return put_tuple<3>(at, {v.x, v.y, v.z});
+            return put_tuple<3>(at, {v.x, v.y, v.z}, digits);
         });
     };
     put_vectors("point3f[] points", mesh.positions, true);
@@ -97,16 +144,15 @@ void put_usda_surface(PieceWriter& out,
     if (is_complete(mesh, mesh.texture_coordinates)) {
         put_list(out, "texCoord2f[] primvars:st", vertices, [&](std::uint64_t i, char* at) {
             const glm::vec2& t = mesh.texture_coordinates[vertex(i)];
-            return put_tuple<2>(at, {t.x, 1.0F - t.y});
+            return put_tuple<2>(at, {t.x, 1.0F - t.y}, digits_of(&UsdaDigits::texture_coordinates));
         });
         out.put(kVertexInterpolation);
     }
     if (is_complete(mesh, mesh.colours)) {
-        put_list(out, "color3f[] primvars:displayColor", vertices, [&](std::uint64_t i, char* at) {
-            const glm::vec3 c = palette_colour(mesh.colours[vertex(i)]);
-            return put_tuple<3>(at, {c.r, c.g, c.b});
-        });
-        out.put(kVertexInterpolation);
+        put_usda_colours(out, vertices, [&](std::uint64_t i) { return mesh.colours[vertex(i)]; });
+    }
+    if (surface.put_skin) {
+        surface.put_skin();
     }
     put_usda_subsets(out, surface);
     out.put("    }\n");

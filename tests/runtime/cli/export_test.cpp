@@ -33,8 +33,8 @@ std::size_t count_files(const ScratchFolder& folder) {
 
 TEST_CASE("the name of the file tells the format, or --format does") {
     const ScratchFolder folder;
-    for (const char* name :
-         {"a.obj", "a.PLY", "a.off", "a.off+", "a.stl", "a.gltf", "a.glb", "a.svg", "a.usda"}) {
+    for (const char* name : {"a.obj", "a.PLY", "a.off", "a.off+", "a.stl", "a.gltf", "a.glb",
+                             "a.svg", "a.usda", "a.usdz"}) {
         INFO(name);
         const LscRun run = run_lsc({"export", "-", "-o", folder / name}, kTree);
         CHECK(run.err.empty());
@@ -65,7 +65,7 @@ TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it o
     REQUIRE(
         run_lsc({"export", "-", "-o", frames / "a.obj", "--frames", "2", "--wind", "1,0,0"}, kTree)
             .status == 0);
-    CHECK(count_files(frames) == 5);
+    CHECK(count_files(frames) == 6); // two OBJ, two MTL, bark and its relief
     for (const char* name : {"a.0001.mtl", "a.0002.mtl"}) {
         CHECK(read_text(frames / name).find("map_Kd a.bark.png\n") != std::string::npos);
     }
@@ -186,7 +186,7 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     looped({"--wind", "1,0,0", "--frames", "9"}, "--wind 8,0,0,0.5");
     looped({"--gravity", "9.81", "--frames", "9"}, "--wind 8,0,0,0.5");
     looped({"--grow", "--frames", "9"}, "do not go together");
-    refused({"--wind", "1,0,0", "--bones", "9"}, "glb or gltf");
+    refused({"--wind", "1,0,0", "--bones", "9"}, "glb, gltf, usda or usdz");
     refused({"--wind", "1,0,0", "--frames", "9", "--bones", "1"}, "whole number from 2");
     const LscRun piped =
         run_lsc({"export", "-", "-o", "-", "--format", "ply", "--grow", "--frames", "2"}, kTree);

@@ -73,6 +73,7 @@ TEST_CASE("each preset sets what its options set one by one") {
                     CHECK(named.preset == preset.name);
                     CHECK(named.mesh == spelt.mesh);
                     CHECK(named.unit == spelt.unit);
+                    CHECK(named.surface.up == spelt.surface.up);
                     CHECK(named.pivot == spelt.pivot);
                     CHECK(named.compression == spelt.compression);
                     CHECK(named.collision == spelt.collision);
@@ -190,7 +191,7 @@ TEST_CASE("a file states its unit, and its lengths are in it") {
     CHECK(read_text(folder / "a.usda").find("metersPerUnit = 0.01\n") != std::string::npos);
     const LscRun refused = run_lsc({"export", "-", "-o", folder / "a.glb", "--unit", "cm"}, kTree);
     CHECK(refused.status == 2);
-    CHECK(refused.err.find("--unit is for obj, off, ply, stl and usda") != std::string::npos);
+    CHECK(refused.err.find("--unit is for obj, off, ply, stl, usda and usdz") != std::string::npos);
 }
 
 TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincident parts") {
@@ -200,7 +201,7 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     REQUIRE(run.status == 0);
     CHECK(run.err.empty()); // no separate pieces
     const std::string stl = read_text(path);
-    CHECK(stl.find("STL in millimetres") == 0);
+    CHECK(stl.find("STL in millimetres, +Z up") == 0);
     std::uint32_t count = 0;
     std::memcpy(&count, stl.data() + 80, sizeof count);
     REQUIRE(stl.size() == 84 + 50 * std::size_t{count});
@@ -226,10 +227,7 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
         bad += times == 1 && back != edges.end() && back->second == 1 ? 0U : 1U;
     }
     CHECK(bad == 0);
-    float tallest = 0.0F;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        tallest = std::max(tallest, high[axis]);
-    }
+    const float tallest = high[2]; // +Z up
     // Round ends of branches of 1 mm stand out by half of it.
     CHECK(tallest >= 149.9F);
     CHECK(tallest <= 151.5F);

@@ -22,9 +22,9 @@ ExportInfo info() {
             .picture_prefix = ""};
 }
 
-std::string exported(const Mesh& mesh, ExportFormat format) {
+std::string exported(const Mesh& mesh, ExportFormat format, const ExportInfo& with = info()) {
     std::string bytes;
-    REQUIRE(export_mesh(mesh, {}, format, info(), [&bytes](std::string_view piece) {
+    REQUIRE(export_mesh(mesh, {}, format, with, [&bytes](std::string_view piece) {
                 bytes += piece;
                 return true;
             }).ok());
@@ -68,6 +68,63 @@ TEST_CASE("an OBJ with texture coordinates, whose v goes upwards") {
     CHECK(text.find("f 1/1/1 2/2/2 3/3/3\n") != std::string::npos);
 }
 
+TEST_CASE("an OBJ has the leaves from behind too if asked for") {
+    Mesh mesh = test::triangle_mesh();
+    mesh.positions.resize(6);
+    mesh.positions[3] = {1.0F, 1.0F, 0.0F};
+    mesh.positions[4] = {2.0F, 1.0F, 0.0F};
+    mesh.positions[5] = {1.0F, 2.0F, 0.0F};
+    mesh.normals.assign(6, glm::vec3(0.0F, 0.0F, 1.0F));
+    mesh.normals[4] = glm::vec3(0.6F, 0.0F, 0.8F);
+    mesh.indices = {0, 1, 2, 3, 4, 5};
+    mesh.materials.push_back(mesh.materials[0]);
+    mesh.materials[1].two_sided = true;
+    mesh.parts.push_back({1, 3, 3});
+    ExportInfo with = info();
+    const std::string once = exported(mesh, ExportFormat::Obj, with);
+    CHECK(once.ends_with("usemtl plain_red_2\nf 4//4 5//5 6//6\n"));
+    with.both_sides = true;
+    const std::string twice = exported(mesh, ExportFormat::Obj, with);
+    CHECK(twice.find("vn 0 0 1\nvn 0 0 -1\nvn -0.6 0 -0.8\nvn 0 0 -1\nusemtl") !=
+          std::string::npos);
+    CHECK(twice.ends_with("usemtl plain_red\nf 1//1 2//2 3//3\n"
+                          "usemtl plain_red_2\nf 4//4 5//5 6//6\nf 4//7 6//9 5//8\n"));
+    mesh.materials[1].two_sided = false;
+    CHECK(exported(mesh, ExportFormat::Obj, with) == once);
+}
+
+TEST_CASE("files have +Z up if asked for") {
+    Mesh mesh = test::triangle_mesh(); // (0, 0, 0), (2, 0, 0), (0, 0.5, 0), seen from +Z
+    mesh.positions[1].z = 3.0F;
+    ExportInfo with = info();
+    with.up = UpAxis::Z;
+    const auto has = [&](ExportFormat format, const char* part) {
+        return exported(mesh, format, with).find(part) != std::string::npos;
+    };
+    CHECK(has(ExportFormat::Obj, "# metres, +Z up\n"));
+    CHECK(has(ExportFormat::Obj, "v 0 0 0\nv 2 -3 0\nv 0 0 0.5\n"));
+    CHECK(has(ExportFormat::Obj, "vn 0 -1 0\n"));
+    CHECK(has(ExportFormat::Off, "\n0 0 0\n2 -3 0\n0 0 0.5\n"));
+    CHECK(has(ExportFormat::OffPlus, "\n0 0 0 0 0\n2 -3 0 0 0\n0 0 0.5 0 0\n"));
+    CHECK(has(ExportFormat::Usda, "    upAxis = \"Z\"\n"));
+    CHECK(has(ExportFormat::Usda, "{\n    double xformOp:rotateX = 90\n"
+                                  "    uniform token[] xformOpOrder = [\"xformOp:rotateX\"]\n"));
+    CHECK(has(ExportFormat::Usda, "points = [(0, 0, 0), (2, 0, 3), (0, 0.5, 0)]"));
+
+    const std::string ply = exported(mesh, ExportFormat::Ply, with);
+    CHECK(ply.find("comment metres, +Z up\n") != std::string::npos);
+    const std::size_t second = ply.find("end_header\n") + 11 + 24;
+    CHECK(read<float>(ply, second + 4) == -3.0F);
+    CHECK(read<float>(ply, second + 12 + 4) == -1.0F); // the normal
+    CHECK(read<float>(ply, second + 24 + 8) == 0.5F);
+
+    mesh.positions[1].z = 0.0F;
+    const std::string stl = exported(mesh, ExportFormat::Stl, with);
+    CHECK(stl.substr(0, 30) == "STL in metres, +Z up. lsc 1: a");
+    CHECK(read<float>(stl, 84 + 4) == -1.0F);          // the normal
+    CHECK(read<float>(stl, 84 + 12 + 24 + 8) == 0.5F); // z of the third corner
+}
+
 TEST_CASE("an MTL gives materials of one name different ones") {
     Mesh mesh = test::triangle_mesh();
     mesh.materials.push_back(mesh.materials[0]);
@@ -80,8 +137,9 @@ TEST_CASE("an MTL gives materials of one name different ones") {
     CHECK(text == "# lsc 1\n"
                   "# a b.lsys, seed 7, 3 generations\n"
                   "\nnewmtl plain_red\nKa 0 0 0\nKd 1.0000 0.0000 0.0000\nKs 0 0 0\nd 1\nillum 1\n"
+                  "Pr 0.7\n"
                   "\nnewmtl plain_red_2\nKa 0 0 0\nKd 0.0000 0.7354 1.0000\nKs 0 0 0\nd 0.25\n"
-                  "illum 1\n");
+                  "illum 1\nPr 0.7\n");
 }
 
 TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
@@ -99,7 +157,8 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
         return found;
     };
     CHECK(names(ExportFormat::Obj) ==
-          std::vector<std::string>{"p q.bark.png", "p q.leaf.png", "p q.leaf_opacity.png"});
+          std::vector<std::string>{"p q.bark.png", "p q.bark_normals.png", "p q.leaf.png",
+                                   "p q.leaf_opacity.png"});
     CHECK(names(ExportFormat::Usda) ==
           std::vector<std::string>{"p q.bark.png", "p q.bark_normals.png", "p q.leaf.png"});
     for (const ExportFormat format : {ExportFormat::Glb, ExportFormat::Ply, ExportFormat::Svg}) {
@@ -112,7 +171,8 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
     };
     REQUIRE(write_mtl(mesh, with, append).ok());
     CHECK(text.find("newmtl bark\nKa 0 0 0\nKd 1.0000 1.0000 1.0000\nKs 0 0 0\nd 1\nillum 1\n"
-                    "map_Kd p q.bark.png\n") != std::string::npos);
+                    "Pr 0.95\nmap_Kd p q.bark.png\nnorm p q.bark_normals.png\n"
+                    "map_Bump p q.bark_normals.png\n") != std::string::npos);
     CHECK(text.find("map_Kd p q.leaf.png\nmap_d p q.leaf_opacity.png\n") != std::string::npos);
 
     text.clear();
@@ -134,6 +194,7 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
         REQUIRE(write_mtl(mesh, with, append).ok());
         REQUIRE(export_mesh(mesh, {}, ExportFormat::Usda, with, append).ok());
         CHECK(text.find("map_") == std::string::npos);
+        CHECK(text.find("norm ") == std::string::npos);
         CHECK(text.find("asset") == std::string::npos);
     }
 }

@@ -1,10 +1,15 @@
 // Drawings of skeletons.
 #include "runtime/export/export.h"
+#include "runtime/export/impl/opacity_outline.h"
 #include "runtime/export/impl/outline.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
 
 using namespace lsys;
 
@@ -127,6 +132,80 @@ TEST_CASE("objects of mesh files are drawn if their meshes are known") {
     const std::string text = drawn(skeleton, &meshes);
     CHECK(text.find("points=\"0,0 4,0 0,-2\"") != std::string::npos);
     CHECK(text.find("viewBox=\"-0.08 -2.08 4.16 2.16\"") != std::string::npos);
+}
+
+TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
+    // A white square of 8 texels in 16, with a red hole of 2.
+    auto picture = std::make_shared<Texture>();
+    picture->width = 16;
+    picture->height = 16;
+    picture->texels.assign(std::size_t{4} * 16 * 16, 0);
+    for (std::size_t y = 4; y < 12; ++y) {
+        for (std::size_t x = 4; x < 12; ++x) {
+            const bool hole = x >= 7 && x < 9 && y >= 7 && y < 9;
+            const std::size_t at = 4 * (16 * y + x);
+            for (std::size_t channel = 0; channel < 4; ++channel) {
+                picture->texels[at + channel] = hole ? 0 : 255;
+            }
+        }
+    }
+    const std::vector<std::vector<glm::vec2>> loops =
+        opacity_outline(*picture, glm::vec2(0.0F), glm::vec2(1.0F));
+    REQUIRE(loops.size() == 2);
+    const auto area = [](const std::vector<glm::vec2>& loop) {
+        float twice = 0.0F;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const glm::vec2& b = loop[(i + 1) % loop.size()];
+            twice += loop[i].x * b.y - loop[i].y * b.x;
+        }
+        return 0.5F * std::abs(twice);
+    };
+    CHECK(area(loops[0]) == Approx(0.25F).margin(0.03));
+    CHECK(area(loops[1]) == Approx(4.0F / 256.0F).margin(0.01));
+    for (const glm::vec2& point : loops[0]) {
+        CHECK(std::max(std::abs(point.x - 0.5F), std::abs(point.y - 0.5F)) ==
+              Approx(0.25F).margin(0.04));
+    }
+    // What lies beyond the box does not count.
+    CHECK(area(opacity_outline(*picture, glm::vec2(0.0F), glm::vec2(1.0F, 0.375F)).at(0)) ==
+          Approx(0.5F * 0.125F).margin(0.02));
+
+    Skeleton skeleton;
+    skeleton.mesh_files = {"leaf.obj"};
+    skeleton.objects = {{.kind = TurtleOperation::MeshFile, .size = 2.0F}};
+    std::vector<UserMesh> meshes(1);
+    meshes[0].positions = {
+        {-0.5F, 0.0F, 0.0F}, {0.5F, 0.0F, 0.0F}, {0.5F, 1.0F, 0.0F}, {-0.5F, 1.0F, 0.0F}};
+    meshes[0].normals.assign(4, glm::vec3(0.0F, 0.0F, 1.0F));
+    meshes[0].texture_coordinates = {{0.0F, 1.0F}, {1.0F, 1.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}};
+    meshes[0].indices = {0, 1, 2, 0, 2, 3};
+    meshes[0].picture = picture;
+    std::string text = drawn(skeleton, &meshes);
+    CHECK(occurrences(text, "<path fill=\"#ffffff\" fill-rule=\"evenodd\" d=\"M") == 1);
+    CHECK(occurrences(text, "z") >= 2);
+    CHECK(occurrences(text, "<polygon") == 0);
+    // The square is 1 m wide, from 0.5 m to 1.5 m up; the drawing begins where the card hangs.
+    CHECK(text.find("viewBox=\"-0.53 -1.53 1.06 1.56\"") != std::string::npos);
+
+    // Bent: drawn whole, in the mean colour.
+    meshes[0].positions[2].z = 1.0F;
+    meshes[0].texture_coordinates[2] = {0.25F, 0.5F};
+    text = drawn(skeleton, &meshes);
+    CHECK(occurrences(text, "<path") == 0);
+    CHECK(occurrences(text, "<polygon fill=\"#ffffff\"") == 1);
+    // Without holes: drawn whole.
+    auto whole = std::make_shared<Texture>(*picture);
+    whole->texels.assign(whole->texels.size(), 255);
+    meshes[0].picture = whole;
+    text = drawn(skeleton, &meshes);
+    CHECK(occurrences(text, "<polygon fill=\"#ffffff\"") == 1);
+
+    // Polygons with a picture have its mean colour.
+    meshes[0].picture = picture;
+    skeleton.objects.clear();
+    skeleton.corners = {{0.0F, 0.0F, 0.0F}, {8.0F, 0.0F, 0.0F}, {0.0F, 4.0F, 0.0F}};
+    skeleton.polygons = {{.first_corner = 0, .corner_count = 3, .colour = 1, .picture = 0}};
+    CHECK(occurrences(drawn(skeleton, &meshes), "<polygon fill=\"#ffffff\"") == 1);
 }
 
 TEST_CASE("the hull of points") {

@@ -5,11 +5,13 @@
 #include "tests/support/plants.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -222,6 +224,51 @@ TEST_CASE("rotations of a joint are of unit length and do not change sides") {
     }
 }
 
+TEST_CASE("a USDA has the skin as a skeleton with a sample for each frame") {
+    const Skeleton plant = crooked(2);
+    const Mesh mesh = mesh_of(plant, {.sides = 3, .texture_coordinates = false, .tangents = false});
+    PlantAnimation poses = still(plant, 2);
+    poses.frames_per_second = 12.5F;
+    poses.places[3].base += glm::vec3(0.0F, 0.0F, 0.5F);
+    poses.places[3].frame = glm::quat(0.5F, 0.5F, -0.5F, 0.5F);
+    const ExportInfo info{.grammar = "g",
+                          .seed = 1,
+                          .generations = 1,
+                          .generator = "lsc",
+                          .mtl_name = "",
+                          .picture_prefix = "",
+                          .animation = &poses};
+    std::string text;
+    REQUIRE(export_mesh(mesh, plant, ExportFormat::Usda, info, [&text](std::string_view piece) {
+                text += piece;
+                return true;
+            }).ok());
+    const auto has = [&text](const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    CHECK(has("    startTimeCode = 0\n    endTimeCode = 1\n    timeCodesPerSecond = 12.5\n"
+              "    framesPerSecond = 12.5\n"));
+    CHECK(has("def SkelRoot \"Plant\" ("));
+    CHECK(
+        has("    def Mesh \"Mesh\" (\n        prepend apiSchemas = [\"SkelBindingAPI\"]\n    )\n"));
+    // Segment 0 stands still; the first ring hangs on it alone, the second on both.
+    CHECK(has("        int[] primvars:skel:jointIndices = [0, 0, "));
+    CHECK(has("        float[] primvars:skel:jointWeights = [1, 0, "));
+    CHECK(has("0, 1, 0, 1"));
+    CHECK(has("0.5, 0.5"));
+    CHECK(has("        rel skel:skeleton = </Plant/Skeleton>\n"));
+    CHECK(has("uniform token[] joints = [\"plant\", \"plant/segment_1\"]\n"));
+    const glm::vec3& rest = poses.places[1].base;
+    const glm::vec3& moved = poses.places[3].base;
+    CHECK(has(fmt::format("            float3[] translations.timeSamples = {{\n"
+                          "                0: [(0, 0, 0), ({}, {}, {})],\n"
+                          "                1: [(0, 0, 0), ({}, {}, {})],\n"
+                          "            }}\n",
+                          rest.x, rest.y, rest.z, moved.x, moved.y, moved.z)));
+    CHECK(has("                1: [(1, 0, 0, 0), (0.5, 0.5, -0.5, 0.5)],\n"));
+    CHECK(has(fmt::format("({}, {}, {}, 1))]\n", rest.x, rest.y, rest.z))); // of restTransforms
+}
+
 TEST_CASE("a skin has 65,535 joints that move, and no more") {
     for (const std::uint32_t count : {kMaxJoints, kMaxJoints + 1}) {
         Skeleton plant;
@@ -257,8 +304,8 @@ TEST_CASE("a skin has 65,535 joints that move, and no more") {
             const Diagnostic& diagnostic = outcome.messages().all().at(0).diagnostics.all()[0];
             CHECK(diagnostic.message == "the skin does not fit into 65,535 joints");
             CHECK(diagnostic.help.at(0) ==
-                  "ask for fewer generations with `-n`, or for a numbered series in another "
-                  "format, which is any but glTF: `-o tree.ply`");
+                  "ask for fewer generations with `-n`, or for a numbered series in a format "
+                  "without skins: `-o tree.ply`");
         }
         CHECK((bytes > 0) == fits);
     }

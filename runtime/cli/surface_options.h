@@ -1,0 +1,13 @@
+// Options of the file of a mesh that not all formats take.
+#pragma once
+
+#include "runtime/cli/options.h"
+
+#include <string>
+
+namespace lsys::lsc {
+
+/// A message about options that `format` does not take; empty if it takes all.
+[[nodiscard]] std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat format);
+
+} // namespace lsys::lsc

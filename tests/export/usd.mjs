@@ -1,0 +1,73 @@
+// Readers of USD by other people: three.js, with motion, and tinyusdz.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+/// three.js and a function that reads the bytes of a file. Pictures are not decoded.
+export async function usdLoader(module) {
+    globalThis.self = globalThis;
+    globalThis.ProgressEvent ??= class extends Event {};
+    globalThis.document ??= {
+        createElementNS: () => ({ addEventListener() {}, removeEventListener() {} }),
+    };
+    const three = await module('three/build/three.module.js');
+    const { USDLoader } = await module('three/examples/jsm/loaders/USDLoader.js');
+    return { three, load: bytes => new USDLoader().parse(bytes, '') };
+}
+
+/// Where three.js has each corner of the triangles of `group` at `time`.
+export function posedCorners(three, group, time) {
+    const mixer = new three.AnimationMixer(group);
+    const action = mixer.clipAction(group.animations[0]);
+    action.setLoop(three.LoopOnce);
+    action.clampWhenFinished = true; // the last key is not the first one again
+    action.play();
+    mixer.setTime(time);
+    group.updateMatrixWorld(true);
+    const corners = [];
+    group.traverse(object => {
+        if (!object.isSkinnedMesh) {
+            return;
+        }
+        const { position } = object.geometry.attributes;
+        const { index } = object.geometry;
+        for (let i = 0; i < (index?.count ?? position.count); ++i) {
+            const vertex = index?.getX(i) ?? i;
+            const at = new three.Vector3().fromBufferAttribute(position, vertex);
+            object.applyBoneTransform(vertex, at);
+            corners.push(at.applyMatrix4(object.matrixWorld).toArray());
+        }
+    });
+    return corners;
+}
+
+/// Vertex of each corner of the triangles of a binary PLY as lsc writes it.
+export function readPlyTriangles(bytes) {
+    const end = bytes.indexOf('end_header\n') + 'end_header\n'.length;
+    const header = bytes.subarray(0, end).toString('latin1');
+    const count = Number(/element face (\d+)/.exec(header)[1]);
+    const first = bytes.length - 13 * count;
+    const corners = [];
+    for (let i = 0; i < count; ++i) {
+        corners.push(...[1, 5, 9].map(at => bytes.readUInt32LE(first + 13 * i + at)));
+    }
+    return corners;
+}
+
+/// A function that reads the bytes of a file. tinyusdz is built for workers of browsers, and this
+/// looks like one.
+export async function tinyUsdz(module, modules) {
+    process.type = 'renderer';
+    globalThis.WorkerGlobalScope ??= class {};
+    globalThis.self ??= globalThis;
+    globalThis.location ??= { href: 'file:///' };
+    const { default: start } = await module('tinyusdz/tinyusdz.js');
+    const wasmBinary = readFileSync(join(modules, 'tinyusdz/tinyusdz.wasm'));
+    const { TinyUSDZLoaderNative } = await start({ wasmBinary });
+    return (file, bytes) => {
+        const loader = new TinyUSDZLoaderNative();
+        if (!loader.loadFromBinary(new Uint8Array(bytes), file)) {
+            throw new Error(`tinyusdz refuses it: ${loader.error()}`);
+        }
+        return loader;
+    };
+}

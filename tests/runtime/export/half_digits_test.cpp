@@ -1,0 +1,58 @@
+// Half floats as text.
+#include "runtime/export/impl/half_digits.h"
+
+#include <catch2/catch.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+using namespace lsys;
+
+namespace {
+
+std::string half_text(const HalfDigits& digits, float value) {
+    std::string text(HalfDigits::kMaxBytes, ' ');
+    text.resize(static_cast<std::size_t>(digits.put(text.data(), value) - text.data()));
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("half floats by the definition of binary16") {
+    CHECK(half_value(0) == 0.0F);
+    CHECK(half_value(1) == 0x1p-24F);
+    CHECK(half_value(0x0400) == 0x1p-14F);
+    CHECK(half_value(0x3555) == 0.333251953125F);
+    CHECK(half_value(0x3C00) == 1.0F);
+    CHECK(half_bits(1.0F / 3.0F) == 0x3555);
+    // Ties go to the even neighbour: steps of 2^-11 below 1, of 2^-24 near 0.
+    CHECK(half_bits(1.0F - 0x1p-12F) == 0x3C00);
+    CHECK(half_bits(1.0F - 3 * 0x1p-12F) == 0x3BFE);
+    CHECK(half_bits(0x1p-25F) == 0);
+    CHECK(half_bits(3 * 0x1p-25F) == 2);
+    CHECK(half_bits(std::nextafter(0x1p-14F, 0.0F)) == 0x0400);
+    float last = -1.0F;
+    for (std::uint16_t bits = 0; bits <= 0x3C00; ++bits) {
+        const float value = half_value(bits);
+        REQUIRE(value > last);
+        REQUIRE(half_bits(value) == bits);
+        last = value;
+    }
+}
+
+TEST_CASE("the digits of a half float read back as it, and none is idle") {
+    const HalfDigits digits;
+    CHECK(half_text(digits, 0.0F) == "0");
+    CHECK(half_text(digits, -0.0F) == "0");
+    CHECK(half_text(digits, -1.0F) == "-1");
+    CHECK(half_text(digits, 1.0000001F) == "1");
+    CHECK(half_text(digits, 0.70710678F) == "0.707");
+    CHECK(half_text(digits, -0x1p-24F) == "-6e-08");
+    for (std::uint16_t bits = 0; bits <= 0x3C00; ++bits) {
+        const std::string text = half_text(digits, half_value(bits));
+        float read = -1.0F;
+        std::from_chars(text.data(), text.data() + text.size(), read);
+        REQUIRE(half_bits(read) == bits);
+    }
+}
