@@ -8,6 +8,7 @@
 #include "runtime/cli/surface_options.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/animation.h"
 #include "runtime/pipeline/plant.h"
@@ -123,6 +124,9 @@ ExitStatus write_mesh(Export& run,
     const SteadyClock::time_point start = SteadyClock::now();
     ExportInfo info;
     info.grammar = std::filesystem::path(command.file).filename().string();
+    // Without the name of a file, nodes have that of any plant.
+    const std::string& named = command.output == "-" ? command.file : command.output;
+    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
@@ -136,14 +140,33 @@ ExitStatus write_mesh(Export& run,
     info.compression = command.compression.value_or(ExportCompression::None);
     info.up = command.surface.up;
     info.both_sides = command.surface.both_sides;
+    info.unit = command.unit;
+    info.collision = command.collision;
+    info.collision_names = command.collision_names;
+    const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
+    const PlantPlacement placement{pivot_of(rest, command.pivot), units_per_metre(command.unit)};
+    const bool stays = placement == PlantPlacement{};
+    Skeleton placed;
+    PlantAnimation placed_animation;
+    if (!stays) {
+        placed = skeleton;
+        place(placement, run.mesh);
+        place(placement, placed);
+        if (movement.animation != nullptr) {
+            placed_animation = *movement.animation;
+            place(placement, placed_animation);
+            info.animation = &placed_animation;
+        }
+    }
+    const Skeleton& written = stays ? skeleton : placed;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
-        status = add_side_files(run, skeleton, path, info, files);
+        status = add_side_files(run, written, path, info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
-            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+            return export_mesh(run.mesh, written, run.format, info, sink);
         });
     }
     if (status == ExitStatus::Ok) {
@@ -423,6 +446,27 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--wind-data is for shaders, and has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.wind_data; }));
+    }
+    if (command.unit != LengthUnit::Metres && !traits_of(format).units) {
+        return fmt::format("--unit is for {}; {}",
+                           format_names("and", [](const auto& each) { return each.units; }),
+                           traits_of(format).collision
+                               ? "glTF is in metres by definition, and importers scale it to the "
+                                 "unit of the engine"
+                               : "this format has a scale of its own");
+    }
+    if (command.collision != CollisionKind::None && !traits_of(format).collision) {
+        return fmt::format(
+            "--collision has a place in {}",
+            format_names("and", [](const FormatTraits& each) { return each.collision; }));
+    }
+    if (command.grow && command.pivot != PlantPivot::Origin) {
+        return "--grow and --pivot do not go together, because base and middle of a plant change "
+               "as "
+               "it grows";
+    }
+    if (command.grow && command.collision != CollisionKind::None) {
+        return "--grow and --collision do not go together, because branches come and go";
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";

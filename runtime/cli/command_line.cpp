@@ -2,6 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/cli/presets.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
@@ -153,6 +154,50 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --stage heroes --heroes 2 tree.lsys");
 }
 
+void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Preset& preset : presets()) {
+        if (command == PresetCommand::Export || !preset.forests.empty()) {
+            names.emplace_back(preset.name, preset.name);
+        }
+    }
+    add_choice<std::string>(app, "--preset", target, std::move(names),
+                            "Options for the program that the file is for, listed below; an option "
+                            "that is given too wins");
+}
+
+/// Options of the file of a plant.
+void add_placement(CLI::App& app, ExportCommand& command) {
+    const std::string unit =
+        fmt::format("Unit of lengths in {} (default m)",
+                    format_names("and", [](const FormatTraits& format) { return format.units; }));
+    add_choice<LengthUnit>(app, "--unit", command.unit,
+                           {{"m", LengthUnit::Metres},
+                            {"cm", LengthUnit::Centimetres},
+                            {"mm", LengthUnit::Millimetres}},
+                           unit.c_str());
+    add_choice<PlantPivot>(
+        app, "--pivot", command.pivot,
+        {{"origin", PlantPivot::Origin},
+         {"base", PlantPivot::Base},
+         {"centre", PlantPivot::Centre}},
+        "Point that becomes the origin of the file: the start of the turtle, the base of the trunk "
+        "or the middle of the plant (default origin)");
+    add_choice<CollisionKind>(app, "--collision", command.collision,
+                              {{"none", CollisionKind::None},
+                               {"capsules", CollisionKind::Capsules},
+                               {"hulls", CollisionKind::Hulls}},
+                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
+                              "glTF (default none)");
+    add_choice<CollisionNames>(
+        app, "--collision-names", command.collision_names,
+        {{"unreal", CollisionNames::Unreal},
+         {"godot", CollisionNames::Godot},
+         {"unity", CollisionNames::Unity}},
+        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
+        "(default unreal)");
+}
+
 void add_compression(CLI::App& app, std::optional<ExportCompression>& compression) {
     add_choice<std::optional<ExportCompression>>(
         app, "--compress", compression,
@@ -187,6 +232,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
     }
     add_choice(app, "--format", command.format, std::move(formats),
                "Format (default: by the extension of the output)");
+    add_preset(app, PresetCommand::Export, command.preset);
+    add_placement(app, command);
     add_compression(app, command.compression);
     add_choice<std::optional<BufferPlace>>(
         app, "--buffers", command.buffers,
@@ -250,8 +297,10 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Units are metres, +Y is up unless --up says otherwise. The output is complete or "
-               "absent. OBJ writes a .mtl "
+    app.footer("Presets:\n" + preset_table(PresetCommand::Export) +
+               "A flag of a preset is taken back by `--wind-data=false`.\n\n"
+               "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
+               "complete or absent. OBJ writes a .mtl "
                "file beside it, OBJ\n"
                "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
                "output. SVG is\n"
@@ -276,6 +325,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
                                                 return format.uses_mesh && !has_instances(format);
                                             })))
         ->type_name("FILE");
+    add_preset(app, PresetCommand::Forest, command.preset);
     app.add_flag("--check", command.check, "Check the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
@@ -310,7 +360,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
-        "Options override the scene; -n, -D, --set and the options of instances apply to every "
+        "Presets:\n" + preset_table(PresetCommand::Forest) +
+        "\nOptions override the scene; -n, -D, --set and the options of instances apply to every "
         "species.\n"
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
@@ -439,9 +490,42 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-} // namespace
+/// The format of a command's output, as the command itself finds it; null: the name tells none.
+const FormatTraits* format_of(const ExportCommand& command) {
+    const std::optional<ExportFormat> format =
+        command.format ? command.format : format_of_path(command.output);
+    return format ? &traits_of(*format) : nullptr;
+}
+const FormatTraits* format_of(const ForestCommand& command) {
+    const std::optional<ExportFormat> format = format_of_path(command.output);
+    return format ? &traits_of(*format) : nullptr;
+}
 
-CommandLine parse_command_line(std::span<const std::string> arguments) {
+/// The options of the command's preset that are not given, or that the preset has no such files.
+/// Nothing without a preset, and where the command itself will not find its format.
+template <typename Command>
+Result<std::vector<std::string>> find_preset_arguments(const Command& command,
+                                                       const CLI::App& app) {
+    constexpr PresetCommand kCommand =
+        std::is_same_v<Command, ExportCommand> ? PresetCommand::Export : PresetCommand::Forest;
+    const FormatTraits* const format = format_of(command);
+    for (const Preset& preset : presets()) {
+        if (preset.name != command.preset || format == nullptr) {
+            continue;
+        }
+        if (!suits(preset, kCommand, *format)) {
+            return Error{unsuitable_text(preset, kCommand, format->name)};
+        }
+        return preset_arguments(preset, kCommand, *format, [&app](std::string_view option) {
+            return app.get_option(std::string(option))->count() > 0;
+        });
+    }
+    return std::vector<std::string>{};
+}
+
+/// Parses the arguments as they are. `implied` becomes the options of their preset.
+CommandLine parse_arguments(std::span<const std::string> arguments,
+                            std::vector<std::string>& implied) {
     CLI::App app("Compiles, derives and exports L-systems, the grammars of plants and curves.",
                  "lsc");
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
@@ -495,7 +579,37 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
             }
         },
         parsed);
-    return mistake ? CommandLine(*mistake) : parsed;
+    if (mistake) {
+        return *mistake;
+    }
+    const Result<std::vector<std::string>> options = std::visit(
+        [&]<typename Command>(const Command& given) -> Result<std::vector<std::string>> {
+            if constexpr (requires { given.preset; }) {
+                return find_preset_arguments(given, *command);
+            } else {
+                return std::vector<std::string>{};
+            }
+        },
+        parsed);
+    if (!options) {
+        return UsageError{options.error().message,
+                          fmt::format("`lsc {} --help` lists the presets", command->get_name())};
+    }
+    implied = options.value();
+    return parsed;
+}
+
+} // namespace
+
+CommandLine parse_command_line(std::span<const std::string> arguments) {
+    std::vector<std::string> options;
+    CommandLine parsed = parse_arguments(arguments, options);
+    if (options.empty()) {
+        return parsed;
+    }
+    std::vector<std::string> whole(arguments.begin(), arguments.end());
+    whole.insert(whole.begin() + 1, options.begin(), options.end());
+    return parse_arguments(whole, options);
 }
 
 } // namespace lsys::lsc

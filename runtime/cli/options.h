@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/grammar.h"
@@ -94,6 +95,11 @@ struct ExportCommand {
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
     SurfaceOptions surface;
+    std::string preset; // of presets.def; empty: none
+    LengthUnit unit = LengthUnit::Metres;
+    PlantPivot pivot = PlantPivot::Origin;
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
@@ -117,6 +123,7 @@ struct ForestCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or grammars
     std::string output;             // empty: none
+    std::string preset;             // of presets.def; empty: none
     SceneOverrides overrides;
     RunOptions run;
     std::optional<ExportCompression> compression; // default: none

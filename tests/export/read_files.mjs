@@ -8,13 +8,8 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-<<<<<<< HEAD
 import { distance, posedVertices, readPlyPositions, shownCorners } from './motion.mjs';
-import { extentOf, greatestDifference, primitivesOf, sameTriangles } from './compressed.mjs';
-=======
-import { distance, posedVertices, readPlyPositions } from './motion.mjs';
 import { comparePrimitives, extentOf, primitivesOf } from './compressed.mjs';
->>>>>>> k/words
 import { instancedForest, readAccessors } from './forest.mjs';
 import { readOffPlus, readUsda, readUsdaForest, readUsdz } from './own_readers.mjs';
 import { posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';

@@ -246,7 +246,8 @@ void order_triangles(std::span<const std::uint32_t> triangles,
 }
 
 GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
-                                    const std::optional<GltfVertexUse>& compressed) {
+                                    const std::optional<GltfVertexUse>& compressed,
+                                    const MeshFilm* film) {
     GltfPrimitives primitives;
     if (film == nullptr) {
         primitives.list = group_parts(mesh, 0, static_cast<std::uint32_t>(mesh.parts.size()));

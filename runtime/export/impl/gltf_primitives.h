@@ -68,21 +68,17 @@ struct GltfVertexUse {
 };
 
 /// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
-<<<<<<< HEAD
-/// only become one primitive from kMinMergedMaterials on. `film`: the parts are those of its
-/// shapes, each of which has primitives of its own; may be null.
-[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film = nullptr);
-=======
 /// only become one primitive from kMinMergedMaterials on. With `compressed`, triangles are in an
 /// order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that are near
-/// one another become one.
+/// one another become one. `film`: the parts are those of its shapes, each of which has primitives
+/// of its own; may be null.
 [[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
-                                                  const std::optional<GltfVertexUse>& compressed);
+                                                  const std::optional<GltfVertexUse>& compressed,
+                                                  const MeshFilm* film = nullptr);
 /// Orders triangles so that most share an edge with the one before, which takes a byte: the two of
 /// a quad change places where that joins them to the last one, and every other ring of a tube is
 /// gone round backwards. Time is linear.
 void order_triangles(std::span<const std::uint32_t> triangles, LargeVector<std::uint32_t>& ordered);
->>>>>>> k/words
 
 /// The material of a primitive, which gives all but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);

@@ -272,16 +272,12 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
                               const ExportInfo& info) {
     const Mesh& mesh = plant.mesh;
     GltfStreams streams;
-<<<<<<< HEAD
-    streams.primitives = plan_gltf_primitives(mesh, plant.film);
-=======
     std::optional<GltfVertexUse> compressed;
     if (info.compression == ExportCompression::Meshopt) {
         compressed.emplace(
             GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr});
     }
-    streams.primitives = plan_gltf_primitives(mesh, compressed);
->>>>>>> k/words
+    streams.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
     streams.images = std::move(images);
     streams.forms.assign(streams.primitives.list.size(),
                          form_of(info.compression, streams.primitives.bounds()));
