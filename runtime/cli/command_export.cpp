@@ -43,6 +43,7 @@ struct Export {
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                      // of the last file
+    DetailLevels levels;            // of the plant; empty until a coarser level is asked for
     std::set<std::string> pictures; // names of the written ones, shared by all frames
 };
 
@@ -83,6 +84,47 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
+/// Plans levels of detail up to `last`, once for all poses of the plant.
+ExitStatus plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t last) {
+    const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
+                         skeleton.objects.size() == run.plant.skeleton.objects.size() &&
+                         skeleton.polygons.size() == run.plant.skeleton.polygons.size();
+    if (!run.levels.levels.empty() && is_pose) {
+        return ExitStatus::Ok;
+    }
+    MeshOptions finest = run.command.mesh;
+    finest.level = 0;
+    return run.console.take(plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton,
+                                              finest, last, run.project),
+                            run.levels);
+}
+
+/// Meshes the wanted level of `skeleton`, or the coarsest.
+ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOptions& options) {
+    const std::uint32_t wanted = run.command.mesh.level;
+    if (wanted == 0) {
+        return run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
+    }
+    const ExitStatus status = plan_levels(run, skeleton, wanted);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t number = std::min<std::size_t>(wanted, run.levels.levels.size() - 1);
+    return run.console.take(
+        mesh_plant_level(run.plant, skeleton, run.levels, number, options, run.project), run.mesh);
+}
+
+ExportInfo export_info(const Export& run) {
+    ExportInfo info;
+    info.grammar = std::filesystem::path(run.command.file).filename().string();
+    info.seed = run.plant.seed;
+    info.generations = run.plant.generations;
+    info.generator = "lsc " LSC_VERSION;
+    info.user_meshes = &run.plant.user_meshes;
+    info.threads = run.command.run.threads;
+    return info;
+}
+
 /// Meshes `skeleton` and writes the mesh to `path`; with `animation` as a skin, whose first pose is
 /// `skeleton`.
 ExitStatus write_plant(Export& run,
@@ -95,22 +137,15 @@ ExitStatus write_plant(Export& run,
         MeshOptions options = command.mesh;
         options.segments = animation != nullptr;
         run.mesh = {};
-        const ExitStatus status =
-            run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
+        const ExitStatus status = mesh_wanted_level(run, skeleton, options);
         if (status != ExitStatus::Ok) {
             return status;
         }
     }
     run.timing.mesh_seconds += seconds_since(start);
     start = SteadyClock::now();
-    ExportInfo info;
-    info.grammar = std::filesystem::path(command.file).filename().string();
-    info.seed = run.plant.seed;
-    info.generations = run.plant.generations;
-    info.generator = "lsc " LSC_VERSION;
-    info.user_meshes = &run.plant.user_meshes;
+    ExportInfo info = export_info(run);
     info.animation = animation;
-    info.threads = command.run.threads;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -277,7 +312,7 @@ ExitStatus export_growth(const ExportCommand& command,
         return status_of(begun.stop());
     }
     PlantGrowth& growth = begun.value();
-    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}};
+    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}};
     Skeleton grown;
     const ExitStatus status = write_growth(run, growth, grown);
     if (status != ExitStatus::Ok || !command.stats) {
@@ -323,7 +358,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    Export run{command, *format, grammar, console, project, plant, {}, {}, {}};
+    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}};
     const SteadyClock::time_point start = SteadyClock::now();
     status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
     if (status != ExitStatus::Ok || !command.stats) {

@@ -123,6 +123,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                  "Print the origin of each module or part of the skeleton: production or axiom, "
                  "place, generation");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
     add_seed(app, command.seed);
@@ -165,6 +166,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     app.add_flag("--stats", command.stats,
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")

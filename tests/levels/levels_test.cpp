@@ -1,0 +1,343 @@
+// Levels of detail of samples: fewer and fewer triangles that look like the plant from as far as
+// they are made for. Pictures are drawn here, with opacity and without light.
+#include "runtime/meshing/detail_levels.h"
+#include "runtime/meshing/impl/thinning.h"
+#include "runtime/meshing/texture.h"
+#include "runtime/pipeline/plant.h"
+#include "tests/support/plants.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+constexpr int kViews = 4;
+constexpr int kSamples = 3; // of a pixel, along each side
+constexpr int kMaxPixels = 256;
+
+Project sample_project() {
+    Project project;
+    project.threads = 1;
+    project.host.read_file = [](const std::string& path, const ReadLimit&) -> Result<std::string> {
+        std::ifstream file(path, std::ios::binary);
+        if (!file) {
+            return Error{"no such file or directory"};
+        }
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    project.host.read_named_file = project.host.read_file;
+    project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
+    return project;
+}
+
+Plant grown(const std::string& name) {
+    const Project project = sample_project();
+    PlantOptions options;
+    options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
+    Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
+    REQUIRE(grammar);
+    Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
+    REQUIRE(plant);
+    return std::move(plant.value());
+}
+
+/// A picture as coverage and colour of each pixel.
+struct Picture {
+    std::vector<float> coverage;
+    glm::dvec3 colour{0.0}; // mean over the silhouette
+    double area = 0.0;      // pixels
+};
+
+float linear(std::uint8_t byte) {
+    const float c = static_cast<float>(byte) / 255.0F;
+    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+/// Texels of a material as linear colours with opacity.
+struct Texels {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<glm::vec4> colours;
+
+    explicit Texels(const Material& material) {
+        Texture texture;
+        if (material.textured && material.picture != nullptr) {
+            texture = *material.picture;
+        } else if (material.textured && has_texture(material.kind)) {
+            texture = material_texture(material.kind);
+        }
+        width = texture.width;
+        height = texture.height;
+        for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
+            colours.emplace_back(linear(texture.texels[i]), linear(texture.texels[i + 1]),
+                                 linear(texture.texels[i + 2]),
+                                 static_cast<float>(texture.texels[i + 3]) / 255.0F);
+        }
+    }
+    [[nodiscard]] glm::vec4 at(const glm::vec2& place) const {
+        if (colours.empty()) {
+            return glm::vec4(1.0F);
+        }
+        const auto index = [](float value, std::uint32_t size) {
+            const float part = value - std::floor(value);
+            return std::min(static_cast<std::uint32_t>(part * static_cast<float>(size)), size - 1);
+        };
+        return colours[std::size_t{index(place.y, height)} * width + index(place.x, width)];
+    }
+};
+
+/// Draws `mesh` into the square around `frame`, `pixels` wide, seen along -Z after a turn.
+Picture draw(const Mesh& mesh, const Bounds& frame, int pixels, float turn) {
+    const int size = pixels * kSamples;
+    const glm::vec3 middle = 0.5F * (frame.low + frame.high);
+    const glm::vec3 half = frame.high - middle;
+    const float reach = std::max(half.y, std::hypot(half.x, half.z));
+    const float scale = 0.5F * static_cast<float>(size) / reach;
+    const auto place = [&](std::uint32_t vertex) {
+        const glm::vec3 p = mesh.positions[vertex] - middle;
+        return scale * glm::vec3(std::cos(turn) * p.x + std::sin(turn) * p.z + reach, p.y + reach,
+                                 std::cos(turn) * p.z - std::sin(turn) * p.x);
+    };
+    const std::size_t count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    std::vector<float> depth(count, -std::numeric_limits<float>::infinity());
+    std::vector<glm::vec3> colours(count);
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        const Material& material = mesh.materials[part.material];
+        const Texels texels(material);
+        for (std::uint64_t t = part.first_index; t + 2 < part.first_index + part.index_count;
+             t += 3) {
+            const std::array<std::uint32_t, 3> v{indices[t], indices[t + 1], indices[t + 2]};
+            const std::array<glm::vec3, 3> p{place(v[0]), place(v[1]), place(v[2])};
+            const auto cross = [](const glm::vec3& a, const glm::vec3& b, float x, float y) {
+                return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+            };
+            const float whole = cross(p[0], p[1], p[2].x, p[2].y);
+            if (whole == 0.0F) {
+                continue;
+            }
+            const auto first = [](float low) { return std::max(0, static_cast<int>(low)); };
+            const auto last = [&](float high) {
+                return std::min(size - 1, static_cast<int>(high));
+            };
+            const int end_x = last(std::max({p[0].x, p[1].x, p[2].x}));
+            const int end_y = last(std::max({p[0].y, p[1].y, p[2].y}));
+            for (int y = first(std::min({p[0].y, p[1].y, p[2].y})); y <= end_y; ++y) {
+                for (int x = first(std::min({p[0].x, p[1].x, p[2].x})); x <= end_x; ++x) {
+                    const float px = static_cast<float>(x) + 0.5F;
+                    const float py = static_cast<float>(y) + 0.5F;
+                    const float a = cross(p[1], p[2], px, py) / whole;
+                    const float b = cross(p[2], p[0], px, py) / whole;
+                    const float c = 1.0F - a - b;
+                    const std::size_t at =
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                        static_cast<std::size_t>(x);
+                    const float z = a * p[0].z + b * p[1].z + c * p[2].z;
+                    if (a < 0.0F || b < 0.0F || c < 0.0F || z <= depth[at]) {
+                        continue;
+                    }
+                    glm::vec4 texel(1.0F);
+                    if (!mesh.texture_coordinates.empty()) {
+                        texel = texels.at(a * mesh.texture_coordinates[v[0]] +
+                                          b * mesh.texture_coordinates[v[1]] +
+                                          c * mesh.texture_coordinates[v[2]]);
+                    }
+                    if (material.cut_out && texel.a < 0.5F) {
+                        continue;
+                    }
+                    depth[at] = z;
+                    colours[at] = glm::vec3(material.colour) * glm::vec3(texel);
+                }
+            }
+        }
+    }
+    Picture picture;
+    picture.coverage.assign(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels),
+                            0.0F);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (depth[i] > -std::numeric_limits<float>::infinity()) {
+            const std::size_t x = i % static_cast<std::size_t>(size) / kSamples;
+            const std::size_t y = i / static_cast<std::size_t>(size) / kSamples;
+            picture.coverage[y * static_cast<std::size_t>(pixels) + x] +=
+                1.0F / static_cast<float>(kSamples * kSamples);
+            picture.area += 1.0 / static_cast<double>(kSamples * kSamples);
+            picture.colour += glm::dvec3(colours[i]);
+        }
+    }
+    picture.colour /= std::max(picture.area * kSamples * kSamples, 1.0);
+    return picture;
+}
+
+/// How a mesh differs from the finest one, over all views.
+struct Difference {
+    double silhouette = 0.0; // pixels covered by one of both alone, a part of those of the finest
+    double area = 0.0;       // ratio of the covered areas
+    double colour = 0.0;     // largest difference of a channel, a part of the brightest one
+};
+
+Difference compare(const Mesh& fine, const Mesh& coarse, const Bounds& frame, int pixels) {
+    Difference result;
+    double fine_area = 0.0;
+    double coarse_area = 0.0;
+    glm::dvec3 fine_colour(0.0);
+    glm::dvec3 coarse_colour(0.0);
+    for (int view = 0; view < kViews; ++view) {
+        const float turn = 0.79F * static_cast<float>(view);
+        const Picture a = draw(fine, frame, pixels, turn);
+        const Picture b = draw(coarse, frame, pixels, turn);
+        for (std::size_t i = 0; i < a.coverage.size(); ++i) {
+            result.silhouette += static_cast<double>(std::abs(a.coverage[i] - b.coverage[i]));
+        }
+        fine_area += a.area;
+        coarse_area += b.area;
+        fine_colour += a.area * a.colour;
+        coarse_colour += b.area * b.colour;
+    }
+    fine_colour /= std::max(fine_area, 1e-9);
+    coarse_colour /= std::max(coarse_area, 1e-9);
+    const glm::dvec3 off = glm::abs(fine_colour - coarse_colour);
+    result.silhouette /= std::max(fine_area, 1e-9);
+    result.area = coarse_area / std::max(fine_area, 1e-9);
+    result.colour = std::max({off.x, off.y, off.z}) /
+                    std::max({fine_colour.x, fine_colour.y, fine_colour.z, 1e-9});
+    return result;
+}
+
+std::uint64_t triangles_of(const Mesh& mesh) {
+    return mesh.indices.size() / 3;
+}
+
+Bounds bounds_of(const Mesh& mesh) {
+    Bounds bounds;
+    for (const glm::vec3& position : mesh.positions) {
+        bounds.add(position);
+    }
+    return bounds;
+}
+
+DetailLevels planned(const Plant& plant, const MeshOptions& options) {
+    DetailLevels levels;
+    REQUIRE(plan_detail_levels(plant.skeleton, plant.user_meshes, options, kMaxDetailLevel,
+                               levels) == std::nullopt);
+    return levels;
+}
+
+Mesh level_mesh(const Plant& plant, const DetailLevels& levels, std::size_t number) {
+    Mesh mesh;
+    REQUIRE(make_detail_mesh(plant.skeleton, plant.user_meshes, levels, number, {.threads = 1},
+                             mesh) == std::nullopt);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[levels]") {
+    const std::string name = GENERATE("carey-type-0", "carey-type-1", "carey-type-2", "carey-3-2-2",
+                                      "abop-1-24f", "abop-2-6-monopodial", "abop-2-8a",
+                                      "abop-1-25-bush", "abop-lychnis", "crankshaw-7-3");
+    const Plant plant = grown(name);
+    const DetailLevels levels = planned(plant, {.threads = 1});
+    const Mesh finest = level_mesh(plant, levels, 0);
+    const Bounds frame = bounds_of(finest);
+    CHECK(levels.levels.front().triangles == triangles_of(finest));
+    for (std::size_t k = 1; k < levels.levels.size(); ++k) {
+        const Mesh mesh = level_mesh(plant, levels, k);
+        const auto before = static_cast<double>(levels.levels[k - 1].triangles);
+        const double factor = before / static_cast<double>(triangles_of(mesh));
+        const int pixels = std::clamp(static_cast<int>(levels.levels[k].pixels), 8, kMaxPixels);
+        const Difference difference = compare(finest, mesh, frame, pixels);
+        WARN(name << " level " << k << ": " << triangles_of(mesh) << " triangles, factor " << factor
+                  << ", " << pixels << " pixels, silhouette " << difference.silhouette << ", area "
+                  << difference.area << ", colour " << difference.colour);
+        CAPTURE(name, k, triangles_of(mesh), factor, pixels, difference.silhouette, difference.area,
+                difference.colour);
+        CHECK(levels.levels[k].triangles == triangles_of(mesh));
+        CHECK(difference.colour <= 0.02);
+    }
+    CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
+}
+
+TEST_CASE("what a level keeps, all finer levels keep", "[levels]") {
+    const Plant plant = grown("carey-3-2-2");
+    const DetailLevels levels = planned(plant, {.threads = 1});
+    const ThinningOrder order = thinning_order(plant.skeleton);
+    // Paths come after their parents.
+    for (std::size_t i = 0; i < plant.skeleton.segments.size(); ++i) {
+        const std::uint32_t parent = plant.skeleton.segments[i].parent;
+        if (parent < i) {
+            CHECK(order.path_ranks[parent] <= order.path_ranks[i]);
+        }
+    }
+    for (std::size_t k = 1; k < levels.levels.size(); ++k) {
+        CHECK(levels.levels[k].paths <= levels.levels[k - 1].paths);
+        CHECK(levels.levels[k].foliage <= levels.levels[k - 1].foliage);
+    }
+    CHECK(std::set(order.foliage.begin(), order.foliage.end()).size() ==
+          plant.skeleton.objects.size() + plant.skeleton.polygons.size());
+}
+
+TEST_CASE("leaves that stay have the area of all leaves", "[levels]") {
+    Skeleton skeleton;
+    test::Numbers numbers(7);
+    double area = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        PlacedObject leaf;
+        leaf.kind = TurtleOperation::Leaf;
+        leaf.position = 10.0F * numbers.direction();
+        leaf.size = numbers.uniform(0.5F, 1.5F);
+        leaf.colour = static_cast<std::uint16_t>(2 + i % 3);
+        area += static_cast<double>(leaf.size) * static_cast<double>(leaf.size);
+        skeleton.objects.push_back(leaf);
+    }
+    const ThinningOrder order = thinning_order(skeleton);
+    const std::vector<FoliageShape> shapes = foliage_shapes(order, {}, 0);
+    for (const std::uint64_t kept : {1000U, 300U, 30U, 3U, 1U}) {
+        Skeleton thin;
+        LargeVector<std::uint32_t> segments;
+        thin_skeleton(skeleton, order, {.foliage = kept}, shapes, shapes, thin, segments);
+        REQUIRE(thin.objects.size() == kept);
+        double left = 0.0;
+        std::map<std::uint16_t, double> by_colour;
+        for (const PlacedObject& leaf : thin.objects) {
+            const double own = static_cast<double>(leaf.size) * static_cast<double>(leaf.size);
+            left += own;
+            by_colour[leaf.colour] += own;
+        }
+        CHECK(left == Approx(area).epsilon(1e-4));
+        if (kept >= 3) { // each colour keeps its part
+            CHECK(by_colour.size() == 3);
+            for (const auto& [colour, part] : by_colour) {
+                CHECK(part == Approx(area / 3.0).epsilon(0.05));
+            }
+        }
+    }
+}
+
+TEST_CASE("levels do not depend on threads", "[levels]") {
+    const Plant plant = grown("carey-3-2-2");
+    const DetailLevels one = planned(plant, {.threads = 1});
+    const DetailLevels four = planned(plant, {.threads = 4});
+    REQUIRE(one.levels.size() == four.levels.size());
+    for (std::size_t k = 0; k < one.levels.size(); ++k) {
+        CHECK(one.levels[k].triangles == four.levels[k].triangles);
+        CHECK(one.levels[k].paths == four.levels[k].paths);
+        CHECK(one.levels[k].foliage == four.levels[k].foliage);
+        CHECK(one.levels[k].error == four.levels[k].error);
+    }
+}
+
+} // namespace lsys
