@@ -18,7 +18,7 @@ namespace lsys {
 
 struct CompileOutcome {
     std::optional<Program> program;               // if there are no errors
-    std::optional<Bytecode> bytecode;             // if there are no errors
+    std::optional<Bytecode> bytecode;             // if CompileOptions::lower, without errors
     std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
 };
 

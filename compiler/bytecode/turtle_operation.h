@@ -35,7 +35,7 @@ struct TurtleInfo {
     enum Trait : std::uint16_t {
         Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
         ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
-        SecondHeading = 4,     // moves along the second heading, not turned with the first
+        SecondHeading = 4,     // moves along the second heading of Fractint, with its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
         AddsCorners = 32,      // its ends are corners of a polygon without vertices

@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    /// A power of two, at most 128 KiB of elements: small trees stay cheap.
+    /// Elements per block: a power of two, at most 128 KiB; so a small Ast takes little memory.
     static constexpr std::size_t kBlock =
         std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
     std::vector<std::unique_ptr<T[]>> blocks_;

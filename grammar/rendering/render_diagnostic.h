@@ -29,7 +29,8 @@ void render(const Diagnostic& diagnostic,
             const RenderOptions& options,
             std::string& out);
 
-/// Appends the first max_shown diagnostics, which should be sorted, and the number of the others.
+/// Appends at most max_shown diagnostics in their order, which should be sorted, and the number of
+/// the others. Errors are chosen before warnings, and warnings before notes.
 void render_all(const Diagnostics& diagnostics,
                 const SourceMap& sources,
                 const RenderOptions& options,

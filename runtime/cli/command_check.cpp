@@ -65,14 +65,14 @@ Result<void> write_fixed(const std::string& path,
         return written;
     };
     for (const auto& [changed_path, text] : fixed.changed) {
-        if (path == "-" && changed_path == root) {
+        if (is_standard_input(path) && changed_path == root) {
             continue;
         }
         if (Result<void> written = put(changed_path, text); !written) {
             return written;
         }
     }
-    if (path == "-") { // standard output comes last: it cannot be undone
+    if (is_standard_input(path)) { // standard output comes last: it cannot be undone
         const auto found = fixed.changed.find(root);
         if (Result<void> written = put("-", found != fixed.changed.end() ? found->second : bytes);
             !written) {

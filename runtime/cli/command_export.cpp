@@ -1,3 +1,4 @@
+#include "grammar/base/counted_text.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
@@ -135,7 +136,7 @@ ExitStatus write_plant(Export& run,
     SteadyClock::time_point start = SteadyClock::now();
     if (traits_of(run.format).uses_mesh) {
         MeshOptions options = command.mesh;
-        options.segments = animation != nullptr;
+        options.segments = animation != nullptr || command.wind_data;
         run.mesh = {};
         const ExitStatus status = mesh_wanted_level(run, skeleton, options);
         if (status != ExitStatus::Ok) {
@@ -146,6 +147,10 @@ ExitStatus write_plant(Export& run,
     start = SteadyClock::now();
     ExportInfo info = export_info(run);
     info.animation = animation;
+    info.wind_data = command.wind_data;
+    constexpr std::uint32_t kDefaultJoints = 128;
+    info.max_joints = command.bones.value_or(kDefaultJoints);
+    info.threads = command.run.threads;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -164,17 +169,53 @@ ExitStatus write_plant(Export& run,
     return status;
 }
 
+/// Stops if `bytes` of an animation are more than the limit.
+ExitStatus check_animation(const Export& run, std::uint64_t bytes) {
+    const std::uint64_t limit = run.command.run.limits.max_bytes;
+    return bytes <= limit ? ExitStatus::Ok
+                          : show_diagnostic(plant_limit_diagnostic(
+                                                "the animation", byte_size_text(limit),
+                                                "ask for fewer frames with `--frames`, for fewer "
+                                                "generations with `-n`, or raise the limit with "
+                                                "`--max-memory`"),
+                                            ExitStatus::Limit, run.grammar, run.console);
+}
+
+/// Writes the motion as a loop: to one file, or to numbered files.
+ExitStatus write_loop(Export& run, PlantPhysics& physics) {
+    const ExportCommand& command = run.command;
+    const std::uint64_t segments = run.plant.skeleton.segments.size();
+    if (const ExitStatus fits = check_animation(run, loop_bytes(segments, command.frames));
+        fits != ExitStatus::Ok) {
+        return fits;
+    }
+    const PlantLoop loop = record_loop(physics, command.frames, command.frames_per_second);
+    run.console.detail(fmt::format("the loop ends within {:.3g} % of the plant's size of where it "
+                                   "begins, after {} before it",
+                                   100.0 * loop.mismatch, counted(loop.run_in, "loop")));
+    Skeleton pose;
+    pose_at(physics.rest(), loop.animation.frame(0), pose);
+    if (traits_of(run.format).motion) {
+        return write_plant(run, pose, command.output, &loop.animation);
+    }
+    for (std::uint32_t frame = 1; frame <= command.frames; ++frame) {
+        pose_at(physics.rest(), loop.animation.frame(frame - 1), pose);
+        const ExitStatus status = write_plant(run, pose, numbered_path(command.output, frame));
+        if (status != ExitStatus::Ok) {
+            report_complete_frames(command.output, frame - 1, command.frames, run.console);
+            return status;
+        }
+    }
+    return ExitStatus::Ok;
+}
+
 /// Writes all frames to one file.
 ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     const ExportCommand& command = run.command;
-    if (animation_bytes(run.plant.skeleton.segments.size(), command.frames) >
-        command.run.limits.max_bytes) {
-        return show_diagnostic(
-            plant_limit_diagnostic("the animation", byte_size_text(command.run.limits.max_bytes),
-                                   "ask for fewer frames with `--frames`, for fewer "
-                                   "generations with `-n`, or raise the limit with "
-                                   "`--max-memory`"),
-            ExitStatus::Limit, run.grammar, run.console);
+    const std::uint64_t segments = run.plant.skeleton.segments.size();
+    if (const ExitStatus fits = check_animation(run, animation_bytes(segments, command.frames));
+        fits != ExitStatus::Ok) {
+        return fits;
     }
     Skeleton first;
     physics.pose(first);
@@ -210,6 +251,9 @@ ExitStatus write_bent(Export& run) {
         return weight;
     }
     PlantPhysics physics(run.plant.skeleton, options);
+    if (command.loop) {
+        return write_loop(run, physics);
+    }
     if ((command.settle || command.frames == 0) && !physics.settle(kRestAngle, kMaxSettleRounds)) {
         run.console.info("the plant has not quite come to rest");
     }
@@ -281,6 +325,27 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     if (command.grow && command.stream) {
         return "--grow and --stream do not go together, because a generation is drawn between "
                "stored words";
+    }
+    constexpr std::uint32_t kMinLoopFrames = 3;
+    if (command.loop && command.frames < kMinLoopFrames) {
+        return fmt::format("--loop needs --frames N of at least {}: the last is the first again",
+                           kMinLoopFrames);
+    }
+    if (command.bones && (command.frames == 0 || !traits_of(format).motion)) {
+        return fmt::format(
+            "--bones are joints of an animation: --frames N and {}",
+            format_names("or", [](const FormatTraits& each) { return each.motion; }));
+    }
+    if (command.wind_data && !traits_of(format).motion) {
+        return fmt::format(
+            "--wind-data is for shaders, and has a place in {}",
+            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+    }
+    if (command.loop && command.grow) {
+        return "--loop and --grow do not go together, because a plant that has grown is another";
+    }
+    if (command.loop && (!command.wind || !(command.wind->gust > 0.0F))) {
+        return "--loop needs gusts, without which a plant comes to rest: --wind 8,0,0,0.5";
     }
     if (command.settle && !bends) {
         return "--settle needs a force: --gravity or --wind";

@@ -78,6 +78,13 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "--expand is for " +
                format_names("and", [](const auto& each) { return each.expands_forest; });
     }
+    if (command.instances == ForestInstances::Trees &&
+        command.overrides.rho.value_or(0.0F) > 0.0F) {
+        return "--instances trees shows heroes as they are, so --rho does not go with it";
+    }
+    if (command.mesh.method == MeshMethod::Solid) {
+        return "--method solid is for a single plant: the branches of a forest are instances";
+    }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
         return "--frames writes a numbered series, so it needs -o FILE";
     }
@@ -141,7 +148,9 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     ForestExportInfo info;
     info.name = std::filesystem::path(path).stem().string();
     info.generator = "lsc " LSC_VERSION;
-    info.cell = run.command.cell;
+    constexpr float kCell = 100.0F;
+    const bool whole_trees = run.command.instances == ForestInstances::Trees;
+    info.cell = run.command.cell.value_or(whole_trees ? 0.0F : kCell);
     info.threads = run.command.run.threads;
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
     OutputSet outputs(run.console); // pictures before the file that names them
@@ -376,9 +385,14 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
         return report_error(Error{conflict}, console);
     }
     const Project project = make_project(console, command.run);
+    SceneOverrides overrides = command.overrides;
+    if (command.instances == ForestInstances::Trees) {
+        overrides.rho =
+            0.0F; // heroes take no branch from others, so each is an instance as a whole
+    }
     LoadedScene loaded;
     if (const ExitStatus status =
-            console.take(load_scene(command.files, command.overrides, project), loaded);
+            console.take(load_scene(command.files, overrides, project), loaded);
         status != ExitStatus::Ok) {
         return status;
     }

@@ -16,7 +16,9 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace lsys::lsc {
@@ -36,6 +38,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
         "--fix", command.fix,
         "Apply all certain repairs to FILE and to files included from its folder or below");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("A repair is certain if no other is plausible and its statement is correct "
@@ -55,6 +58,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
         ->required()
         ->type_name("FILE");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
@@ -126,6 +130,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     describe_detail_levels(app);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -187,6 +192,23 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
         ->type_name("N")
         ->group("Physics");
+    const auto bones = [](const std::string& text) -> Result<std::uint64_t> {
+        constexpr std::uint64_t kMinJoints = 2;
+        return text == "all" || text == "0" ? Result<std::uint64_t>(0)
+                                            : parse_integer(text, kMinJoints, kMaxJoints);
+    };
+    add_parsed(app, "--bones", command.bones, bones,
+               "Max number of joints of an animation's skin; all: one for each segment that moves "
+               "(default 128)")
+        ->type_name("N|all")
+        ->group("Physics");
+    app.add_flag("--wind-data", command.wind_data,
+                 "Pivot, distance, phase and stiffness in TEXCOORD_1 and TEXCOORD_2 of glTF, for "
+                 "the shaders in scripts/wind")
+        ->group("Physics");
+    app.add_flag("--loop", command.loop,
+                 "With gusts: the last frame equals the first, and the motion goes on through it")
+        ->group("Physics");
     app.add_flag("--grow", command.grow,
                  "The frames show the plant from its axiom to its last generation: numbered files, "
                  "with parts of generations between whole ones");
@@ -195,6 +217,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         ->type_name("F")
         ->group("Physics");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -206,7 +229,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
                "output. SVG is\n"
                "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
                "Examples: lsc export tree.lsys -o tree.glb\n"
-               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 48 --fps 24\n"
+               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
                "          lsc export tree.lsys -o tree.glb --grow --frames 100");
 }
 
@@ -229,12 +252,18 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
     app.add_flag("--expand", command.expand,
-                 "glTF without EXT_mesh_gpu_instancing: one node per branch");
+                 "glTF without EXT_mesh_gpu_instancing: one node per instance");
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
+    add_choice<ForestInstances>(
+        app, "--instances", command.instances,
+        {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
+        "branches: every tree is different; trees: whole heroes, few draw calls and as many "
+        "different trees as --heroes (default branches)");
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
-        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100)")
+        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
+        "with --instances trees 0)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
@@ -256,6 +285,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
         "          lsc forest oak.lsys birch.lsys --count 10000 --size 500 -o wood.glb\n"
+        "          lsc forest wood.toml --instances trees --heroes 5 -o wood.glb\n"
         "          lsc forest wood.toml --stats\n"
         "          lsc forest pine.lsys --placement jittered --spacing 4 --tile 0,1,100 -o "
         "tile.glb");
@@ -272,6 +302,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                  "Replace existing files of the output folder; otherwise they stay and the exit "
                  "status is 2");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
@@ -286,7 +317,10 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Draw the plant too, and tell whether it bears its weight (9.81 on Earth)")
         ->type_name("G");
+    app.add_flag("--parameters", command.parameters,
+                 "List the values that -D can change, with their bounds, instead of sizes");
     add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
@@ -294,7 +328,8 @@ void add_stats(CLI::App& app, StatsCommand& command) {
                "derived and\n"
                "counted. A plant of at most a million modules is drawn too, and its height "
                "printed. With\n--message-format json the table is JSON.\n"
-               "Example: lsc stats -n 12 tree.lsys");
+               "Examples: lsc stats -n 12 tree.lsys\n"
+               "          lsc stats --parameters tree.lsys");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {
@@ -391,7 +426,21 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
         return to_usage_error(error, command == nullptr ? app : *command,
                               command == nullptr ? "lsc" : "lsc " + command->get_name());
     }
-    return parsed;
+    const std::optional<UsageError> mistake = std::visit(
+        []<typename Command>(Command& given) -> std::optional<UsageError> {
+            if constexpr (std::is_same_v<Command, CheckCommand>) {
+                return apply_base(given.run, given.files);
+            } else if constexpr (requires {
+                                     given.file;
+                                     given.run;
+                                 }) {
+                return apply_base(given.run, {&given.file, 1});
+            } else {
+                return std::nullopt;
+            }
+        },
+        parsed);
+    return mistake ? CommandLine(*mistake) : parsed;
 }
 
 } // namespace lsys::lsc

@@ -218,6 +218,72 @@ make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> 
     return text;
 }
 
+/// The shortest decimal text that reads back as `value`.
+std::string shortest(float value) {
+    return fmt::format("{}", value);
+}
+
+/// One row for each #param and #define in source order; a random constant has no single value.
+std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
+    std::vector<Row> rows{{"name", "kind", "value", "min", "max"}};
+    for (const Constant& constant : grammar.program->constants) {
+        const bool bounded = constant.is_param;
+        rows.push_back(
+            {std::string(grammar.names.text(constant.name)), bounded ? "#param" : "#define",
+             constant.is_random ? "random" : shortest(constant.value),
+             bounded ? shortest(constant.minimum) : "", bounded ? shortest(constant.maximum) : ""});
+    }
+    std::string text = rows.size() > 1 ? lay_out(rows) : std::string("no #param or #define\n");
+    text += fmt::format("generations {}, seed {}\n", generations, grammar.bytecode.settings.seed);
+    return text;
+}
+
+/// One JSON object: `generations`, `seed`, and `parameters` with name, kind, value, min and max.
+std::string parameter_json(const Grammar& grammar, std::uint32_t generations) {
+    // A float written as a double would show digits that the grammar does not have.
+    const auto number = [](float value) { return nlohmann::ordered_json::parse(shortest(value)); };
+    nlohmann::ordered_json object;
+    object["generations"] = generations;
+    object["seed"] = grammar.bytecode.settings.seed;
+    object["parameters"] = nlohmann::ordered_json::array();
+    if (grammar.program) {
+        for (const Constant& constant : grammar.program->constants) {
+            nlohmann::ordered_json entry;
+            entry["name"] = std::string(grammar.names.text(constant.name));
+            entry["kind"] = constant.is_param ? "param" : "define";
+            if (constant.is_random) {
+                entry["random"] = true;
+            } else {
+                entry["value"] = number(constant.value);
+            }
+            if (constant.is_param) {
+                entry["min"] = number(constant.minimum);
+                entry["max"] = number(constant.maximum);
+            }
+            object["parameters"].push_back(std::move(entry));
+        }
+    }
+    return object.dump() + '\n';
+}
+
+/// Lists the constants; a .lsb file has none that -D could change.
+ExitStatus
+list_parameters(const StatsCommand& command, const Grammar& grammar, const Console& console) {
+    const std::uint32_t generations =
+        command.grammar.generations.value_or(grammar.bytecode.generations.value_or(0));
+    std::string text;
+    if (command.messages.format == MessageFormat::Json) {
+        text = parameter_json(grammar, generations);
+    } else if (grammar.program) {
+        text = parameter_table(grammar, generations);
+    } else {
+        text = fmt::format("a compiled grammar takes no -D\ngenerations {}, seed {}\n", generations,
+                           grammar.bytecode.settings.seed);
+    }
+    const Result<void> written = write_file("-", text, console);
+    return written ? ExitStatus::Ok : report_error(written.error(), console);
+}
+
 /// Grows the plant and reports how it bears its weight.
 ExitStatus report_weight(const StatsCommand& command,
                          const Project& project,
@@ -248,12 +314,19 @@ ExitStatus report_weight(const StatsCommand& command,
 } // namespace
 
 ExitStatus run_command(const StatsCommand& command, const Console& console) {
+    if (command.parameters && command.gravity) {
+        return report_error(Error{"--parameters draws nothing, so --gravity does not go with it"},
+                            console);
+    }
     Grammar grammar;
     const Project project = make_project(console, command.run);
     const ExitStatus status =
         console.take(load_grammar(command.file, command.grammar, project), grammar);
     if (status != ExitStatus::Ok) {
         return status;
+    }
+    if (command.parameters) {
+        return list_parameters(command, grammar, console);
     }
     const std::uint32_t wanted =
         command.grammar.generations.value_or(grammar.bytecode.generations.value_or(0));

@@ -127,19 +127,8 @@ private:
 
     const Bytecode& bytecode_;
     WordPrinter printer_;
-    std::string open_; // the end of each open bracket
+    std::string open_; // by open bracket: the character to print after its `]`, or kPlain
 };
-
-DeriveOptions
-derive_options(const DumpCommand& command, const Bytecode& bytecode, const Console& console) {
-    DeriveOptions derive;
-    derive.generations = command.grammar.generations.value_or(bytecode.generations.value_or(0));
-    derive.seed = command.seed.value_or(0);
-    derive.threads = command.run.threads;
-    derive.limits = command.run.limits;
-    derive.cancelled = console.io().interrupted;
-    return derive;
-}
 
 /// Removes the notes that all plants are equal, which are expected of a single hero.
 void drop_notes_on_variety(Diagnostics& diagnostics) {
@@ -252,7 +241,10 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
     grammar.program.reset();
     grammar.bytecode = std::move(system->bytecode);
     const Bytecode& bytecode = grammar.bytecode;
-    DeriveOptions derive = derive_options(command, bytecode, console);
+    PlantOptions options;
+    options.generations = command.grammar.generations;
+    options.seed = command.seed.value_or(0); // as the heroes of a forest
+    DeriveOptions derive = derive_options(options, bytecode, make_project(console, command.run));
     const std::uint64_t seed = derive.seed;
     const auto derive_hero = [&](std::uint32_t hero, std::optional<Derivation>& derivation) {
         derive.seed = seed + hero;
@@ -296,7 +288,9 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
 ExitStatus dump_cache(const DumpCommand& command, const Console& console) {
     Project project = make_project(console, command.run);
     const auto exists = project.host.file_exists;
-    project.host.file_exists = [&](const std::string& path) { return path == "-" || exists(path); };
+    project.host.file_exists = [&](const std::string& path) {
+        return is_standard_input(path) || exists(path);
+    };
     SceneOverrides overrides;
     overrides.grammar = command.grammar;
     overrides.seed = command.seed;

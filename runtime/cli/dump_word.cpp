@@ -82,15 +82,12 @@ Result<void> plan_from_state(const DumpCommand& command,
 
 Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const Console& console) {
     const Bytecode& bytecode = grammar.bytecode;
+    PlantOptions options;
+    options.generations = command.grammar.generations;
+    options.seed = command.seed;
+    options.origins = command.origins;
     Plan plan;
-    plan.derive.generations =
-        command.grammar.generations.value_or(bytecode.generations.value_or(0));
-    plan.derive.seed =
-        command.seed.value_or(bytecode.settings.has_seed ? bytecode.settings.seed : 0);
-    plan.derive.threads = command.run.threads;
-    plan.derive.origins = command.origins;
-    plan.derive.limits = command.run.limits;
-    plan.derive.cancelled = console.io().interrupted;
+    plan.derive = derive_options(options, bytecode, make_project(console, command.run));
     if (!command.from.empty()) {
         if (const Result<void> taken = plan_from_state(command, bytecode, console, plan); !taken) {
             return taken.error();

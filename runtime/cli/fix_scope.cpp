@@ -20,8 +20,7 @@ std::filesystem::path real_path(const std::filesystem::path& path) {
 
 FixScope::FixScope(const std::string& path, std::span<const std::string> named)
     : root_(shown_path(path)) {
-    const std::filesystem::path folder =
-        path == "-" ? std::filesystem::path() : std::filesystem::path(path).parent_path();
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     folder_ = real_path(folder.empty() ? "." : folder);
     for (const std::string& each : named) {
         named_.insert(real_path(each));

@@ -10,7 +10,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum attempts, each with fewer fixes than the one before; the last one applies none.
+/// Maximum attempts that apply fixes, each fewer than the one before; one more applies none.
 constexpr int kMaxAttempts = 20;
 
 /// Repeats the repair until all applied fixes are certain; calls `finish` with the last attempt.

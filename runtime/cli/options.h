@@ -84,12 +84,19 @@ struct ExportCommand {
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
     std::optional<Wind> wind;
     bool settle = false;
+    /// Max joints of a skin, 0: one for each segment that moves; default 128.
+    std::optional<std::uint32_t> bones;
+    bool wind_data = false;   // in vertices, for shaders
+    bool loop = false;        // the last frame is the first
     bool grow = false;        // the frames show the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
     bool stats = false;
 };
+
+/// Parts of a forest that its file repeats.
+enum class ForestInstances : std::uint8_t { Branches, Trees };
 
 struct ForestCommand {
     MessageOptions messages;
@@ -99,7 +106,9 @@ struct ForestCommand {
     RunOptions run;
     bool expand = false;
     bool bake = false;
-    float cell = 100.0F; // m, side of the ground cells with one node each; 0: one cell
+    ForestInstances instances = ForestInstances::Branches;
+    /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
+    std::optional<float> cell;
     std::uint32_t frames = 0;
     bool check = false;
     bool stats = false;
@@ -113,6 +122,7 @@ struct StatsCommand {
     std::optional<float> height; // m, of the plant
     std::string file;
     std::optional<float> gravity; // m/s^2; weighs the plant too
+    bool parameters = false;      // list the constants instead
 };
 
 struct ImportCommand {

@@ -130,8 +130,8 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (version != kStateFileVersion) {
         return other_version("its format", version, kStateFileVersion);
     }
-    // The digest covers the bytecode, so it differs both for another program and for another
-    // version of bytecode.
+    // Compared before the digest, which may differ between versions too: its message speaks of
+    // another program.
     if (bytecode_version != kModuleFileVersion) {
         return other_version("its bytecode", bytecode_version, kModuleFileVersion);
     }

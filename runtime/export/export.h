@@ -90,6 +90,12 @@ struct ExportInfo {
     /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
     /// and Mesh::segments is complete.
     const PlantAnimation* animation = nullptr;
+    /// Max count of joints of the skin, 2 to kMaxJoints: a light skeleton with smooth weights. 0: a
+    /// joint for each segment that moves.
+    std::uint32_t max_joints = 0;
+    /// Numbers for shaders that move the plant in wind (impl/wind_data.h), in glTF. Mesh::segments
+    /// is complete.
+    bool wind_data = false;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

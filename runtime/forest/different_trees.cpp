@@ -11,17 +11,18 @@ namespace lsys {
 
 namespace {
 
-/// Moments of the segments of an instance, seen from its entry, weighted by length. The sum over
-/// the instances of a tree depends on its segments alone.
+/// Moments of the drawing of an instance, seen from its entry: of the ends of segments, weighted by
+/// half the length, of objects, by size, and of corners of polygons, by 1. The sum over the
+/// instances of a tree does not depend on how the tree is divided into them.
 struct Moments {
-    std::uint64_t segments = 0;
-    double length = 0.0;
+    std::uint64_t items = 0; // segments, objects and corners
+    double total_weight = 0.0;
     glm::dvec3 first{0.0};
     std::array<double, 6> second{}; // xx, yy, zz, xy, yz, zx
-    double thickness = 0.0;         // of radii, by length
+    double thickness = 0.0;         // sum of length times radius of segments
 
     void add(const glm::dvec3& at, double weight) {
-        length += weight;
+        total_weight += weight;
         first += weight * at;
         const std::array<double, 6> squares{at.x * at.x, at.y * at.y, at.z * at.z,
                                             at.x * at.y, at.y * at.z, at.z * at.x};
@@ -39,7 +40,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
         for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
             const Segment& segment = cache.skeleton.segments[i];
             const auto length = static_cast<double>(segment.length);
-            ++moments.segments;
+            ++moments.items;
             for (const glm::vec3& end : {segment.base, tip(segment)}) {
                 moments.add(back * (glm::dvec3(end) - instance.position), 0.5 * length);
             }
@@ -47,7 +48,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
         }
         for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
             const PlacedObject& object = cache.skeleton.objects[i];
-            ++moments.segments;
+            ++moments.items;
             moments.add(back * (glm::dvec3(object.position) - instance.position),
                         static_cast<double>(std::abs(object.size)));
         }
@@ -55,7 +56,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
             const Polygon& polygon = cache.skeleton.polygons[i];
             for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
                 const glm::vec3& corner = cache.skeleton.corners[polygon.first_corner + c];
-                ++moments.segments;
+                ++moments.items;
                 moments.add(back * (glm::dvec3(corner) - instance.position), 1.0);
             }
         }
@@ -72,16 +73,16 @@ void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
                               glm::dmat3(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]) *
                               glm::transpose(turn);
     const glm::dvec3 first = turn * own.first;
-    tree.segments += own.segments;
-    tree.length += own.length;
+    tree.items += own.items;
+    tree.total_weight += own.total_weight;
     tree.thickness += own.thickness;
-    tree.first += first + own.length * at;
+    tree.first += first + own.total_weight * at;
     constexpr std::array<std::array<int, 2>, 6> kAxes{
         {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
     for (std::size_t i = 0; i < kAxes.size(); ++i) {
         const auto [a, b] = kAxes[i];
         tree.second[i] +=
-            second[b][a] + first[a] * at[b] + at[a] * first[b] + own.length * at[a] * at[b];
+            second[b][a] + first[a] * at[b] + at[a] * first[b] + own.total_weight * at[a] * at[b];
     }
 }
 
@@ -91,12 +92,12 @@ bool alike(const Moments& a, const Moments& b) {
     const auto near = [](double x, double y, double size) {
         return std::abs(x - y) <= kPart * size;
     };
-    if (a.segments != b.segments || !near(a.length, b.length, a.length) ||
+    if (a.items != b.items || !near(a.total_weight, b.total_weight, a.total_weight) ||
         !near(a.thickness, b.thickness, a.thickness)) {
         return false;
     }
     const double square = a.second[0] + a.second[1] + a.second[2];
-    const double size = std::sqrt(square * a.length);
+    const double size = std::sqrt(square * a.total_weight);
     for (int i = 0; i < 3; ++i) {
         if (!near(a.first[i], b.first[i], size)) {
             return false;
@@ -117,8 +118,8 @@ struct TreeLook {
 
 std::uint64_t count_different(std::vector<TreeLook>& looks) {
     const auto before = [](const TreeLook& a, const TreeLook& b) {
-        return std::tuple(a.species, a.moments.segments, a.moments.second[0]) <
-               std::tuple(b.species, b.moments.segments, b.moments.second[0]);
+        return std::tuple(a.species, a.moments.items, a.moments.second[0]) <
+               std::tuple(b.species, b.moments.items, b.moments.second[0]);
     };
     std::sort(looks.begin(), looks.end(), before);
     std::uint64_t count = 0;
@@ -129,7 +130,7 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
         const double reach = 2e-6 * (s[0] + s[1] + s[2]);
         std::erase_if(near, [&](std::size_t other) {
             return looks[other].species != look.species ||
-                   looks[other].moments.segments != look.moments.segments ||
+                   looks[other].moments.items != look.moments.items ||
                    looks[other].moments.second[0] < s[0] - reach;
         });
         const bool known = std::any_of(near.begin(), near.end(), [&](std::size_t other) {

@@ -71,8 +71,7 @@ void for_each_piece(const Forest& forest,
                     const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);
 [[nodiscard]] std::uint64_t piece_count(const Forest& forest);
 
-/// Counts by expanding every tree. Time is linear in the branches; memory does not grow with the
-/// trees.
+/// Counts by expanding every tree. Time is linear in the branches, which are not stored.
 [[nodiscard]] ForestCounts count_forest(const Forest& forest, std::uint32_t threads);
 
 } // namespace lsys

@@ -8,6 +8,7 @@
 #include "runtime/meshing/impl/objects.h"
 #include "runtime/meshing/impl/polygons.h"
 #include "runtime/meshing/impl/ring_segments.h"
+#include "runtime/meshing/impl/solid.h"
 #include "runtime/meshing/impl/tubes.h"
 
 #include <utility>
@@ -16,17 +17,53 @@ namespace lsys {
 
 namespace {
 
+std::vector<FilePictures> pictures_of(const std::vector<UserMesh>& user_meshes) {
+    std::vector<FilePictures> pictures;
+    for (const UserMesh& user_mesh : user_meshes) {
+        pictures.push_back({user_mesh.picture, user_mesh.relief});
+    }
+    return pictures;
+}
+
+std::optional<Stop> build_solid(const Skeleton& skeleton,
+                                const std::vector<UserMesh>& user_meshes,
+                                const MeshOptions& options,
+                                Mesh& mesh) {
+    MeshOptions plain = options; // of leaves and polygons, without thickness
+    plain.texture_coordinates = false;
+    plain.tangents = false;
+    plain.colours = true;
+    plain.segments = true;
+    Mesh flat;
+    MeshBuilder flat_builder(plain, flat);
+    flat_builder.set_pictures(pictures_of(user_meshes));
+    append_polygons(skeleton, user_meshes, plain, flat_builder);
+    append_objects(skeleton, user_meshes, plain, flat_builder);
+    std::optional<Stop> stop = flat_builder.finish();
+    MeshBuilder builder(options, mesh);
+    if (!stop) {
+        stop = append_solid(skeleton, flat, options, builder, mesh.shells);
+    }
+    if (!stop) {
+        stop = builder.finish();
+    }
+    if (stop) {
+        mesh = {};
+    }
+    return stop;
+}
+
 std::optional<Stop> build(const Skeleton& skeleton,
                           const std::vector<UserMesh>& user_meshes,
                           const MeshOptions& wanted,
                           Mesh& mesh) {
     const MeshOptions options = resolved(wanted, skeleton);
-    MeshBuilder builder(options, mesh);
-    std::vector<FilePictures> pictures;
-    for (const UserMesh& user_mesh : user_meshes) {
-        pictures.push_back({user_mesh.picture, user_mesh.relief});
+    mesh.shells = 0;
+    if (options.method == MeshMethod::Solid) {
+        return build_solid(skeleton, user_meshes, options, mesh);
     }
-    builder.set_pictures(std::move(pictures));
+    MeshBuilder builder(options, mesh);
+    builder.set_pictures(pictures_of(user_meshes));
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // other objects
@@ -45,6 +82,8 @@ std::optional<Stop> build(const Skeleton& skeleton,
         break;
     case MeshMethod::Boxes:
         append_boxes(skeleton, options, builder);
+        break;
+    case MeshMethod::Solid: // build_solid()
         break;
     }
     append_polygons(skeleton, user_meshes, options, builder);

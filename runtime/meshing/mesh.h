@@ -56,6 +56,7 @@ struct Mesh {
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
+    std::uint64_t shells = 0; // separate closed pieces; of MeshMethod::Solid only
 
     [[nodiscard]] std::uint64_t byte_count() const {
         return positions.size() * sizeof(glm::vec3) + normals.size() * sizeof(glm::vec3) +
@@ -70,6 +71,7 @@ enum class MeshMethod : std::uint8_t {
     Tubes,     // linked tubes along axes, joints shared
     Cylinders, // one closed cylinder per segment (Crankshaw 2019)
     Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (report of the .sys forest)
+    Solid,     // one closed surface around the union of all parts, for printing
 };
 
 inline constexpr std::uint32_t kSubdivisions = 2;
@@ -107,6 +109,9 @@ struct MeshOptions {
     /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for
     /// Skeleton::box_segments and kSubdivisions for others.
     std::optional<std::uint32_t> subdivisions = std::nullopt;
+    /// Solid: width in metres of the thinnest branch, and of leaves and polygons. 0: 1/150 of the
+    /// largest extent of the plant.
+    float min_width = 0.0F;
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint32_t threads = 0; // 0: as many as the machine has
 

@@ -1,42 +1,236 @@
 #include "runtime/physics/animation.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lsys {
 
-PlantAnimation record(PlantPhysics& physics, std::uint32_t frames, float frames_per_second) {
+namespace {
+
+constexpr double kRestAngle = 1e-6; // rad
+constexpr std::uint32_t kMaxRestRounds = 10'000;
+constexpr double kMismatch = 1e-3; // of the plant's size, at which the motion counts as periodic
+constexpr double kMaxRunIn = 30.0; // s
+constexpr std::uint32_t kMinRunInLoops = 4;
+
+float usable_rate(float frames_per_second) {
     const bool is_valid = frames_per_second >= 0.1F && frames_per_second <= 1e4F;
+    return is_valid ? frames_per_second : 24.0F;
+}
+
+/// Sets a time step that divides the time between two frames; restores the options at the end.
+class FrameSteps {
+public:
+    FrameSteps(PlantPhysics& physics, float frames_per_second, float gust_period)
+        : physics_(physics), before_(physics.options()) {
+        // A rounding error above a whole number of steps gives no further step.
+        const float steps = 1.0F / (frames_per_second * before_.time_step) - 1e-3F;
+        count_ = steps > 1.0F ? std::ceil(std::min(steps, 1e6F)) : 1.0F;
+        PhysicsOptions between = before_;
+        between.time_step = 1.0F / (frames_per_second * count_);
+        between.gust_period = gust_period;
+        changed_ = between.time_step != before_.time_step || gust_period != before_.gust_period;
+        if (changed_) {
+            physics_.set(between);
+        }
+    }
+    FrameSteps(const FrameSteps&) = delete;
+    FrameSteps& operator=(const FrameSteps&) = delete;
+    ~FrameSteps() {
+        if (changed_) {
+            physics_.set(before_);
+        }
+    }
+
+    void next_frame() {
+        for (float step = 0.0F; step < count_; step += 1.0F) {
+            physics_.step();
+        }
+    }
+
+private:
+    PlantPhysics& physics_;
+    PhysicsOptions before_;
+    float count_ = 1.0F;
+    bool changed_ = false;
+};
+
+PlantAnimation
+empty_animation(const PlantPhysics& physics, std::uint32_t frames, float frames_per_second) {
     PlantAnimation animation;
-    animation.frames_per_second = is_valid ? frames_per_second : 24.0F;
+    animation.frames_per_second = frames_per_second;
     animation.frame_count = frames;
     animation.segment_count = static_cast<std::uint32_t>(physics.rest().segments.size());
     animation.places.resize(std::size_t{frames} * animation.segment_count);
+    return animation;
+}
 
-    const PhysicsOptions before = physics.options();
-    // A rounding error above a whole number of steps gives no further step.
-    const float steps = 1.0F / (animation.frames_per_second * before.time_step) - 1e-3F;
-    const float count = steps > 1.0F ? std::ceil(std::min(steps, 1e6F)) : 1.0F;
-    PhysicsOptions between = before;
-    between.time_step = 1.0F / (animation.frames_per_second * count);
-    if (frames > 1 && between.time_step != before.time_step) {
-        physics.set(between);
-    }
+/// Records all frames; the plant is at the first one already.
+void record_frames(PlantPhysics& physics, FrameSteps& steps, PlantAnimation& animation) {
     Skeleton pose;
     SegmentPlace* place = animation.places.data();
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-        for (float step = 0.0F; frame > 0 && step < count; step += 1.0F) {
-            physics.step();
+    for (std::uint32_t frame = 0; frame < animation.frame_count; ++frame) {
+        if (frame > 0) {
+            steps.next_frame();
         }
         physics.pose(pose);
         for (const Segment& segment : pose.segments) {
             *place++ = {segment.base, segment.frame};
         }
     }
-    if (frames > 1 && between.time_step != before.time_step) {
-        physics.set(before);
+}
+
+glm::dvec3 end_of(const Segment& segment, const SegmentPlace& place) {
+    return glm::dvec3(place.base + segment.length * heading(place.frame));
+}
+
+/// Size of the box of all ends of segments.
+double size_of(const Skeleton& plant) {
+    glm::vec3 low(0.0F);
+    glm::vec3 high(0.0F);
+    for (const Segment& segment : plant.segments) {
+        const glm::vec3 end = segment.base + segment.length * heading(segment.frame);
+        low = glm::min(low, glm::min(segment.base, end));
+        high = glm::max(high, glm::max(segment.base, end));
+    }
+    const glm::vec3 size = high - low;
+    return static_cast<double>(std::max({size.x, size.y, size.z}));
+}
+
+double max_distance(const Skeleton& plant,
+                    std::span<const SegmentPlace> a,
+                    std::span<const SegmentPlace> b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Segment& segment = plant.segments[i];
+        most = std::max(most, glm::length(end_of(segment, a[i]) - end_of(segment, b[i])));
+    }
+    return most;
+}
+
+glm::dquat frame_of(const SegmentPlace& place) {
+    return glm::normalize(glm::dquat(place.frame));
+}
+
+/// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are
+/// interpolated, so that segments stay joined.
+void blend(const Skeleton& plant,
+           std::span<const SegmentPlace> other,
+           double share,
+           std::span<SegmentPlace> places) {
+    std::vector<SegmentPlace> old(places.begin(), places.end());
+    const auto mixed = [share](const glm::dquat& from, glm::dquat to) {
+        to = glm::dot(from, to) < 0.0 ? -to : to;
+        return glm::normalize((1.0 - share) * from + share * to);
+    };
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        const std::uint32_t parent = plant.segments[i].parent;
+        if (parent >= i) { // a root, whose base stands still
+            places[i].frame = glm::quat(mixed(frame_of(old[i]), frame_of(other[i])));
+            continue;
+        }
+        const glm::dquat back = glm::conjugate(frame_of(old[parent]));
+        const glm::dquat other_back = glm::conjugate(frame_of(other[parent]));
+        const glm::dquat turn = mixed(back * frame_of(old[i]), other_back * frame_of(other[i]));
+        const glm::dvec3 arm = back * glm::dvec3(old[i].base - old[parent].base);
+        const glm::dvec3 other_arm = other_back * glm::dvec3(other[i].base - other[parent].base);
+        const glm::dquat frame = frame_of(places[parent]);
+        places[i].base = glm::vec3(glm::dvec3(places[parent].base) +
+                                   frame * ((1.0 - share) * arm + share * other_arm));
+        places[i].frame = glm::quat(glm::normalize(frame * turn));
+    }
+}
+
+} // namespace
+
+PlantAnimation record(PlantPhysics& physics, std::uint32_t frames, float frames_per_second) {
+    PlantAnimation animation = empty_animation(physics, frames, usable_rate(frames_per_second));
+    if (frames > 1) {
+        FrameSteps steps(physics, animation.frames_per_second, physics.options().gust_period);
+        record_frames(physics, steps, animation);
+    } else if (frames == 1) {
+        Skeleton pose;
+        physics.pose(pose);
+        std::transform(pose.segments.begin(), pose.segments.end(), animation.places.begin(),
+                       [](const Segment& segment) {
+                           return SegmentPlace{segment.base, segment.frame};
+                       });
     }
     return animation;
+}
+
+PlantLoop record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_per_second) {
+    frames = std::max(frames, 3U);
+    const float rate = usable_rate(frames_per_second);
+    const float period = static_cast<float>(frames - 1) / rate;
+    PlantLoop loop;
+    loop.animation = empty_animation(physics, frames, rate);
+    const Skeleton& plant = physics.rest();
+    if (plant.segments.empty()) {
+        return loop;
+    }
+    const double size = std::max(size_of(plant), 1e-30);
+    physics.settle(kRestAngle, kMaxRestRounds);
+    FrameSteps steps(physics, rate, period);
+    const auto most_loops = std::max(
+        kMinRunInLoops, static_cast<std::uint32_t>(kMaxRunIn / static_cast<double>(period)));
+    PlantAnimation before = loop.animation;
+    record_frames(physics, steps, before);
+    for (loop.run_in = 1;; ++loop.run_in) {
+        record_frames(physics, steps, loop.animation);
+        loop.mismatch =
+            max_distance(plant, loop.animation.frame(0), loop.animation.frame(frames - 1)) / size;
+        if (loop.mismatch <= kMismatch || loop.run_in >= most_loops) {
+            break;
+        }
+        std::swap(before, loop.animation);
+    }
+    const std::span<SegmentPlace> places(loop.animation.places);
+    for (std::uint32_t frame = 1; frame + 1 < frames; ++frame) {
+        const double part = static_cast<double>(frame) / static_cast<double>(frames - 1);
+        blend(plant, before.frame(frame), part * part * (3.0 - 2.0 * part),
+              places.subspan(std::size_t{frame} * plant.segments.size(), plant.segments.size()));
+    }
+    const std::span<const SegmentPlace> first = loop.animation.frame(0);
+    std::copy(first.begin(), first.end(), places.end() - static_cast<std::ptrdiff_t>(first.size()));
+    return loop;
+}
+
+void pose_at(const Skeleton& rest, std::span<const SegmentPlace> places, Skeleton& out) {
+    out = rest;
+    const auto turn_of = [&](std::uint32_t segment) {
+        const glm::dquat frame = frame_of(places[segment]);
+        return frame * glm::conjugate(glm::normalize(glm::dquat(rest.segments[segment].frame)));
+    };
+    const auto moved = [&](std::uint32_t segment, const glm::vec3& point) {
+        const glm::dvec3 arm(point - rest.segments[segment].base);
+        return glm::vec3(glm::dvec3(places[segment].base) + turn_of(segment) * arm);
+    };
+    const auto turned = [&](std::uint32_t segment, const glm::quat& frame) {
+        return glm::quat(glm::normalize(turn_of(segment) * glm::dquat(frame)));
+    };
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        out.segments[i].base = places[i].base;
+        out.segments[i].frame = places[i].frame;
+    }
+    for (PlacedObject& object : out.objects) {
+        if (object.parent < places.size()) {
+            object.position = moved(object.parent, object.position);
+            object.frame = turned(object.parent, object.frame);
+        }
+    }
+    for (Polygon& polygon : out.polygons) {
+        if (polygon.parent < places.size()) {
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                glm::vec3& corner = out.corners[polygon.first_corner + c];
+                corner = moved(polygon.parent, corner);
+            }
+            polygon.frame = turned(polygon.parent, polygon.frame);
+        }
+    }
 }
 
 } // namespace lsys

@@ -35,6 +35,32 @@ struct PlantAnimation {
     return segments * frames * sizeof(SegmentPlace);
 }
 
+/// A clip that loops: a PlantAnimation whose last frame is its first.
+struct PlantLoop {
+    PlantAnimation animation;
+    /// Max way of a segment's end from the start to the end of a loop before the blend, as part of
+    /// the plant's size, and count of loops before the recorded one.
+    double mismatch = 0.0;
+    std::uint32_t run_in = 0;
+};
+
+/// Memory of record_loop().
+[[nodiscard]] constexpr std::uint64_t loop_bytes(std::uint64_t segments, std::uint64_t frames) {
+    return 2 * animation_bytes(segments, frames);
+}
+
+/// Records the motion in gusts as a loop: frame `frames` - 1 equals frame 0. The gusts repeat after
+/// the clip. From rest in the mean wind the plant moves until a loop ends where it began, for at
+/// most 30 s or four loops; the rest of the difference is spread over the clip by blending it into
+/// the loop before it, joint by joint, so that the motion is smooth at the seam too. Fewer than 3
+/// frames count as 3.
+[[nodiscard]] PlantLoop
+record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_per_second);
+
+/// The plant with its segments at `places`: objects and polygons move rigidly with their parent.
+/// `places` has one for each segment.
+void pose_at(const Skeleton& rest, std::span<const SegmentPlace> places, Skeleton& out);
+
 /// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at once.
 /// Between two frames there are equal steps, none longer than the plant's time step.
 /// `frames_per_second` outside 0.1 to 10,000 becomes 24.

@@ -107,6 +107,7 @@ PhysicsOptions usable(PhysicsOptions options) {
     glm::vec3& wind = options.wind.velocity;
     wind = {finite_or(wind.x, 0.0F), finite_or(wind.y, 0.0F), finite_or(wind.z, 0.0F)};
     options.wind.gust = not_negative(options.wind.gust);
+    options.gust_period = not_negative(options.gust_period);
     options.damping = not_negative(options.damping);
     options.time_step = std::clamp(finite_or(options.time_step, 1.0F / 60.0F), 1e-6F, 10.0F);
     options.air_density = not_negative(options.air_density);
@@ -145,10 +146,16 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
     return turn;
 }
 
-/// A smooth function of time from -1 to 1, 0 at time 0.
-double gust_at(double time) {
+/// `own`, or with a positive `period` the nearest whole part of it: s.
+double part_of(double period, double own) {
+    return period > 0.0 ? period / std::max(std::round(period / own), 1.0) : own;
+}
+/// A smooth function of time from -1 to 1, 0 at time 0. It repeats after `period`, if that is
+/// positive.
+double gust_at(double time, double period) {
     const double turns = 2.0 * std::numbers::pi * time;
-    return 0.6 * std::sin(turns / 3.1) + 0.4 * std::sin(turns / 1.3);
+    return 0.6 * std::sin(turns / part_of(period, 3.1)) +
+           0.4 * std::sin(turns / part_of(period, 1.3));
 }
 
 Forces forces_of(const PhysicsOptions& options) {
@@ -315,7 +322,8 @@ void PlantPhysics::step() {
     State& s = *state_;
     Forces now = s.forces;
     const auto gust = static_cast<double>(s.options.wind.gust);
-    now.wind *= std::max(1.0 + gust * gust_at(s.time), 0.0);
+    now.wind *=
+        std::max(1.0 + gust * gust_at(s.time, static_cast<double>(s.options.gust_period)), 0.0);
     s.advance(now, true);
     s.time += now.step;
 }

@@ -30,6 +30,9 @@ struct Wind {
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
+    /// s, after which gusts repeat: their own two periods become the nearest whole parts of it. Not
+    /// positive: their own periods.
+    float gust_period = 0.0F;
     float damping = 1.0F;           // N m s/rad, of every joint
     float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag

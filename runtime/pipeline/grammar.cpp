@@ -17,6 +17,7 @@ namespace lsys {
 namespace {
 
 constexpr std::string_view kModuleExtension = ".lsb";
+constexpr const char* kStandardInput = "<stdin>";
 
 /// `lsys, sys, ...`
 std::string dialect_names() {
@@ -60,7 +61,7 @@ Result<Dialect> dialect_of(const std::string& path,
     }
     const DetectedDialect detected = detect_dialect(path, bytes);
     if (!detected.dialect) {
-        return path == "-" ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
+        return is_standard_input(path) ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
     }
     if (*detected.dialect != Dialect::Lsys) {
         messages.add_detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),
@@ -130,7 +131,15 @@ Outcome<Grammar> load_module(std::string_view bytes,
 } // namespace
 
 std::string shown_path(const std::string& path) {
-    return path == "-" ? "<stdin>" : path;
+    return path == "-" ? std::string(kStandardInput) : path;
+}
+
+std::string standard_input_in(const std::string& folder) {
+    return folder.empty() ? "-" : folder + (folder.ends_with('/') ? "" : "/") + kStandardInput;
+}
+
+bool is_standard_input(const std::string& path) {
+    return path == "-" || path.ends_with(std::string("/") + kStandardInput);
 }
 
 FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {

@@ -65,6 +65,11 @@ struct CompiledText {
 
 /// `path` in messages; `-` is standard input.
 [[nodiscard]] std::string shown_path(const std::string& path);
+/// The path of standard input as a grammar of `folder`, `FOLDER/<stdin>`: paths in the grammar are
+/// relative to the folder. Empty folder: `-`.
+[[nodiscard]] std::string standard_input_in(const std::string& folder);
+/// Whether `path` is `-` or one of standard_input_in().
+[[nodiscard]] bool is_standard_input(const std::string& path);
 
 /// A reader of files for #include, at most `max_bytes` in all.
 [[nodiscard]] FileLoader make_loader(const Project& project, std::uint64_t max_bytes);

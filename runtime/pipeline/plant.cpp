@@ -87,6 +87,17 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
     return Stop::Failed;
 }
 
+/// The warning that a solid has `pieces` which do not touch.
+Diagnostic separate_pieces(std::uint64_t pieces) {
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::SeparatePieces, {},
+                        fmt::format("the solid consists of {} pieces that do not touch", pieces));
+    diagnostic.help.emplace_back(
+        "a printer needs parts that hang together: draw the gaps, or close them with a larger "
+        "`--min-width`");
+    return diagnostic;
+}
+
 } // namespace
 
 Diagnostic
@@ -203,6 +214,9 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
     Mesh mesh;
     const std::optional<Stop> stop =
         make_mesh(skeleton, plant.user_meshes, limited_options(options, project), mesh);
+    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
+        return step.end(Stop::Diagnosed);
+    }
     return finish_mesh(step, stop, std::move(mesh));
 }
 

@@ -1,5 +1,6 @@
 #include "runtime/program/host.h"
 
+#include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 
 #include <filesystem>
@@ -24,17 +25,19 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
     return host;
 }
 
-Host make_host(const Console& console) {
+Host make_host(const Console& console, const std::string& standard_input) {
     Host host = make_file_host(console.io().interrupted);
-    host.read_file = [&console, read = std::move(host.read_file)](const std::string& path,
-                                                                  const ReadLimit& limit) {
-        return path == "-" ? read_standard_input(limit, console) : read(path, limit);
+    host.read_file = [&console, standard_input, read = std::move(host.read_file)](
+                         const std::string& path, const ReadLimit& limit) {
+        return path == "-" || path == standard_input ? read_standard_input(limit, console)
+                                                     : read(path, limit);
     };
     return host;
 }
 
 Project make_project(const Console& console, const RunOptions& run) {
-    return {make_host(console), run.limits, run.threads, console.options().deny_warnings};
+    return {make_host(console, standard_input_in(run.base)), run.limits, run.threads,
+            console.options().deny_warnings};
 }
 
 } // namespace lsys

@@ -6,13 +6,15 @@
 #include "runtime/program/run_options.h"
 
 #include <atomic>
+#include <string>
 
 namespace lsys {
 
 /// A host that reads files on disk. `cancelled` may be null.
 [[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled);
-/// A host that reads files on disk and standard input for `-`. `console` outlives it.
-[[nodiscard]] Host make_host(const Console& console);
+/// A host that reads files on disk, and standard input for `-` and `standard_input`. `console`
+/// outlives it.
+[[nodiscard]] Host make_host(const Console& console, const std::string& standard_input);
 
 /// A project with make_host(), without progress.
 [[nodiscard]] Project make_project(const Console& console, const RunOptions& run);

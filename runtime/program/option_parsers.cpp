@@ -8,8 +8,10 @@
 #include "runtime/turtle/turtle.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string_view>
+#include <system_error>
 
 namespace lsys {
 
@@ -108,6 +110,32 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
         ->group("Limits");
 }
 
+void add_base(CLI::App& app, RunOptions& run) {
+    const auto folder = [](const std::string& text) -> Result<std::string> {
+        std::error_code ignored;
+        return std::filesystem::is_directory(text, ignored)
+                   ? Result<std::string>(text)
+                   : Error{fmt::format("`{}` is not a folder", text)};
+    };
+    add_parsed(app, "--base", run.base, folder,
+               "For a grammar from standard input: the folder of its #include and #object files "
+               "(default: the current one)")
+        ->type_name("FOLDER")
+        ->group("Grammar");
+}
+
+std::optional<UsageError> apply_base(const RunOptions& run, std::span<std::string> files) {
+    if (run.base.empty()) {
+        return std::nullopt;
+    }
+    if (std::find(files.begin(), files.end(), "-") == files.end()) {
+        return UsageError{"--base is the folder of a grammar from standard input",
+                          "name `-` as FILE, or leave --base out: a file has its own folder"};
+    }
+    std::replace(files.begin(), files.end(), std::string("-"), standard_input_in(run.base));
+    return std::nullopt;
+}
+
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed) {
     add_parsed(app, "-s,--seed", seed, integer(0, std::numeric_limits<std::uint64_t>::max()),
                "Random seed (default: `#set seed`, else 0)")
@@ -174,9 +202,11 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         app, "--method", mesh.method,
         {{"tubes", MeshMethod::Tubes},
          {"cylinders", MeshMethod::Cylinders},
-         {"boxes", MeshMethod::Boxes}},
-        "Branches as seamless tubes, one cylinder per segment, or boxes, smoothed or not (default "
-        "tubes; boxes for .sys plants)")
+         {"boxes", MeshMethod::Boxes},
+         {"solid", MeshMethod::Solid}},
+        "Branches as seamless tubes, one cylinder per segment, or boxes, smoothed or not; or one "
+        "closed surface around the whole plant, for printing (default tubes; boxes for .sys "
+        "plants)")
         ->group("Mesh");
     add_parsed(app, "--sides", mesh.sides, integer(kMinSides, kMaxSides),
                "Sides of each cross-section (default: the grammar's)")
@@ -197,6 +227,15 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
     add_parsed(app, "--subdivisions", mesh.subdivisions, integer(0, kMaxSubdivisions),
                "Smoothing rounds of boxes (default 2; 0 for .sys plants)")
         ->type_name("N")
+        ->group("Mesh");
+    constexpr float kMinWidth = 1e-6F;
+    constexpr float kMaxWidth = 1000.0F;
+    add_parsed(
+        app, "--min-width", mesh.min_width,
+        [](const std::string& text) { return parse_number(text, kMinWidth, kMaxWidth); },
+        "Width of the thinnest branches and of leaves of `--method solid` (default: 1/150 of the "
+        "largest extent)")
+        ->type_name("METRES")
         ->group("Mesh");
     add_parsed(app, "--bark-noise", mesh.bark_noise, fraction,
                "Bark displacement as a fraction of the radius, 0 to 1 (default 0)")
@@ -258,6 +297,8 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         if (const auto nearest = nearest_name(extra, candidates)) {
             usage.help = fmt::format("did you mean `{}`?", *nearest);
         }
+    } else if (has_code(CLI::ExitCodes::RequiredError) && !app.get_subcommands({}).empty()) {
+        usage.message = "no command is given";
     } else if (has_code(CLI::ExitCodes::RequiredError)) {
         usage.message =
             fmt::format("{} is missing", usage.message.substr(0, usage.message.find(' ')));

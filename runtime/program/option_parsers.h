@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,6 +86,12 @@ void add_messages(CLI::App& app, MessageOptions& options);
 void add_deny(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
+/// The folder of a grammar from standard input.
+void add_base(CLI::App& app, RunOptions& run);
+/// Puts standard input into the folder of --base: changes each `-` of `files` to
+/// standard_input_in(). A mistake: --base without a `-`.
+[[nodiscard]] std::optional<UsageError> apply_base(const RunOptions& run,
+                                                   std::span<std::string> files);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
 /// The height of the plant, in m.
 void add_height(CLI::App& app, std::optional<float>& height);

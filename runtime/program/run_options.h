@@ -4,12 +4,15 @@
 #include "runtime/base/limits.h"
 
 #include <cstdint>
+#include <string>
 
 namespace lsys {
 
 struct RunOptions {
     Limits limits;
     std::uint32_t threads = 0; // 0: as many as the machine has
+    /// Folder of a grammar from standard input; empty: the current one.
+    std::string base;
 };
 
 } // namespace lsys

@@ -38,15 +38,21 @@ export async function instancedForest(three, gltf) {
             if (instancing !== undefined && !(mesh.isInstancedMesh && mesh.count === count)) {
                 throw new Error(`node ${n} has no ${count} instances`);
             }
-            const { index, attributes } = mesh.geometry;
+            const { geometry } = mesh;
+            const { index, attributes } = geometry;
             triangles += index.count / 3 * count;
             const vertices = [...new Set(index.array)];
+            const own = new three.Box3().setFromPoints(vertices.map(
+                vertex => new three.Vector3().fromBufferAttribute(attributes.position, vertex)));
+            if (!own.equals(geometry.boundingBox)) { // of the accessor
+                throw new Error(`node ${n} has the bounds of more than its vertices`);
+            }
             for (let i = 0; i < count; ++i) {
                 matrix.copy(mesh.matrixWorld);
                 if (mesh.isInstancedMesh) {
-                    const own = new three.Matrix4();
-                    mesh.getMatrixAt(i, own);
-                    matrix.multiply(own);
+                    const placed = new three.Matrix4();
+                    mesh.getMatrixAt(i, placed);
+                    matrix.multiply(placed);
                 }
                 for (const vertex of vertices) {
                     at.fromBufferAttribute(attributes.position, vertex).applyMatrix4(matrix);

@@ -141,16 +141,20 @@ struct Whole {
     double area = 0.0;
     std::uint64_t triangles = 0;
 
+    void bound(const aiVector3D& at) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], static_cast<double>(at[axis]));
+            high[axis] = std::max(high[axis], static_cast<double>(at[axis]));
+        }
+    }
     void add(const std::array<aiVector3D, 3>& corners) {
         const aiVector3D cross = (corners[1] - corners[0]) ^ (corners[2] - corners[0]);
         area += 0.5 * static_cast<double>(cross.Length());
         ++triangles;
         for (const aiVector3D& corner : corners) {
+            bound(corner);
             for (unsigned axis = 0; axis < 3; ++axis) {
-                const double x = static_cast<double>(corner[axis]);
-                low[axis] = std::min(low[axis], x);
-                high[axis] = std::max(high[axis], x);
-                sum[axis] += x;
+                sum[axis] += static_cast<double>(corner[axis]);
             }
         }
     }
@@ -165,6 +169,10 @@ Whole whole_of(const aiScene& scene) {
         pending.pop_back();
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+            // Vertices without faces too: they are what readers bound and upload.
+            for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+                whole.bound(matrix * mesh.mVertices[v]);
+            }
             for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
                 const unsigned* const i = mesh.mFaces[f].mIndices;
                 whole.add({matrix * mesh.mVertices[i[0]], matrix * mesh.mVertices[i[1]],

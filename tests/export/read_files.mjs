@@ -2,7 +2,7 @@
 //   node read_files.mjs MODULES (validator | three | motion | obj | svg | off+ | usda |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
-// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS` for each that moves.
+// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each that moves.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
@@ -51,8 +51,8 @@ function counts() {
         .map(line => {
             const [name, ...numbers] = line.split(' ');
             const [vertices, triangles, parts] = numbers.map(Number);
-            const [frames, fps] = numbers.map(Number); // of those that move
-            return { name, vertices, triangles, parts, frames, fps };
+            const [frames, fps, metres] = numbers.map(Number); // of those that move
+            return { name, vertices, triangles, parts, frames, fps, metres };
         });
 }
 
@@ -180,20 +180,26 @@ const checks = {
             const frame = number => readPlyPositions(readFileSync(
                 join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`)));
             const first = frame(0);
+            const loops = ['looping', 'bones', 'bent'].includes(mesh.name);
             let moved = 0;
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const expected = frame(number);
                 const found = posedVertices(three, gltf, number / mesh.fps);
                 expect(file, `number of vertices in frame ${number}`, found.length, expected.length);
                 const off = expected.map((at, i) => distance(at, found[i].at));
-                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : 1e-2;
+                const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : mesh.metres || 1e-2;
                 expect(file, `frame ${number}: off by more than ${most}`,
                        off.filter(d => !(d <= most)).length, 0);
-                expect(file, `frame ${number}: a twentieth is off by a millimetre`,
-                       off.filter(d => !(d <= 1e-3)).length > off.length / 20, false);
+                const [part, near] = mesh.metres ? [0.5, mesh.metres / 4] : [0.05, 1e-3];
+                expect(file, `frame ${number}: ${part} of the vertices are off by ${near} m`,
+                       off.filter(d => !(d <= near)).length > part * off.length, false);
+                if (loops && number === mesh.frames - 1) {
+                    const seam = Math.max(...expected.map((at, i) => distance(at, first[i])));
+                    expect(file, 'the last frame is the first', seam < 1e-5, true);
+                }
                 moved = Math.max(moved, ...expected.map((at, i) => distance(at, first[i])));
             }
-            expect(file, 'it moves', moved > 0.1, true);
+            expect(file, 'it moves', moved > (loops ? 0.01 : 0.1), true);
             const turns = gltf.animations[0].tracks.filter(t => t.name.endsWith('.quaternion'));
             expect(file, 'number of rotations', turns.length > 2, true);
             for (const { name, values } of turns) {

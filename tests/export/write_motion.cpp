@@ -1,6 +1,7 @@
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
 // motion, and a PLY for every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME
-// FRAMES FPS` for each plant.
+// FRAMES FPS METRES` for each plant: how far a light skeleton may take a vertex from its place, 0 for
+// a skin of all segments.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 
@@ -31,6 +32,8 @@ struct Case {
     const char* name;
     const char* grammar;
     std::vector<std::string> options;
+    std::vector<std::string> gltf_options{"--bones", "all"};
+    const char* metres = "0";
 };
 
 const std::array kCases{
@@ -38,6 +41,13 @@ const std::array kCases{
     Case{"cylinders", kTree, {"--wind", "8,0,3", "--method", "cylinders"}},
     Case{"boxes", kTree, {"--wind", "3,0,3", "--method", "boxes", "--subdivisions", "1"}},
     Case{"settled", kTree, {"--gravity", "4", "--wind", "2.5,0,1,1", "--settle"}},
+    Case{"looping", kTree, {"--wind", "2.5,0,1,0.6", "--loop"}},
+    Case{"bones",
+         kTree,
+         {"--wind", "2.5,0,1,0.6", "--loop"},
+         {"--bones", "40", "--wind-data"},
+         "0.06"},
+    Case{"bent", kReed, {"--wind", "2.5,0,1,0.6", "--loop"}, {"--bones", "8"}, "0.06"},
     Case{"reed", kReed, {"--wind", "2.5,0,1", "--threads", "1"}},
 };
 constexpr const char* kFrames = "13";
@@ -53,13 +63,17 @@ bool write_case(const Case& motion, const fs::path& folder, std::ofstream& count
         std::vector<std::string> arguments{"export",   "-",     "-o",    (folder / file).string(),
                                            "--frames", kFrames, "--fps", kRate};
         arguments.insert(arguments.end(), motion.options.begin(), motion.options.end());
+        if (traits.motion) {
+            arguments.insert(arguments.end(), motion.gltf_options.begin(),
+                             motion.gltf_options.end());
+        }
         const LscRun run = run_lsc(arguments, motion.grammar);
         if (run.status != 0) {
             std::fprintf(stderr, "%s: status %d\n%s", file.c_str(), run.status, run.err.c_str());
             return false;
         }
     }
-    counts << motion.name << ' ' << kFrames << ' ' << kRate << '\n';
+    counts << motion.name << ' ' << kFrames << ' ' << kRate << ' ' << motion.metres << '\n';
     return true;
 }
 

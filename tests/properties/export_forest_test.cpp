@@ -120,6 +120,51 @@ std::uint64_t instances_in(const json& document) {
     return count;
 }
 
+/// The items of an accessor as they lie in the buffer; views with a stride are packed.
+std::string_view bytes_of(const Exported& file, std::size_t number, std::size_t item_bytes) {
+    const json& accessor = file.document["accessors"][number];
+    const json& view = file.document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    CHECK(view.value("byteStride", item_bytes) == item_bytes);
+    const std::size_t at = accessor.value("byteOffset", std::size_t{0});
+    const std::size_t size = accessor["count"].get<std::size_t>() * item_bytes;
+    REQUIRE(at + size <= view["byteLength"].get<std::size_t>());
+    return file.buffer().substr(view.value("byteOffset", std::size_t{0}) + at, size);
+}
+
+template <typename Item>
+std::vector<Item> items_of(const Exported& file, std::size_t number) {
+    const std::string_view bytes = bytes_of(file, number, sizeof(Item));
+    std::vector<Item> items(bytes.size() / sizeof(Item));
+    std::memcpy(items.data(), bytes.data(), bytes.size());
+    return items;
+}
+
+/// A primitive of a mesh, as its accessors have it.
+struct Primitive {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    bool wide = false;
+};
+
+Primitive read_primitive(const Exported& file, const json& primitive) {
+    Primitive read;
+    read.positions = items_of<glm::vec3>(file, primitive["attributes"]["POSITION"]);
+    const std::size_t indices = primitive["indices"];
+    read.wide = file.document["accessors"][indices]["componentType"] == 5125;
+    if (read.wide) {
+        read.indices = items_of<std::uint32_t>(file, indices);
+    } else {
+        CHECK(file.document["accessors"][indices]["componentType"] == 5123);
+        for (const std::uint16_t index : items_of<std::uint16_t>(file, indices)) {
+            read.indices.push_back(index);
+        }
+    }
+    for (const std::uint32_t index : read.indices) {
+        REQUIRE(index < read.positions.size());
+    }
+    return read;
+}
+
 /// Corners of all triangles, summed up, and their bounds: what does not depend on an order.
 struct Shape {
     glm::dvec3 sum{0.0};
@@ -151,9 +196,8 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
     CHECK(one.document["extensionsUsed"] == json::array({"EXT_mesh_gpu_instancing"}));
     CHECK(one.document["extensionsRequired"] == json::array({"EXT_mesh_gpu_instancing"}));
     std::uint64_t without = 0;
-    for (const auto& of_species : wood.meshes) {
-        // Indices and vertices: positions, normals, texture coordinates, tangents, colours.
-        without += of_species[0].mesh.indices.size() * 4;
+    for (const auto& of_species : wood.meshes) { // indices alone
+        without += of_species[0].mesh.indices.size() * 2;
     }
     CHECK(one.buffer().size() > without + 40 * branches);
     for (const float cell : {100.0F, 33.0F}) {
@@ -221,43 +265,27 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     const Shape wanted = shape_of(baked);
     const Exported file = exported(wood.scene(), ExportFormat::Glb, ForestForm::Instanced, 300.0F);
     const json& document = file.document;
-    const auto floats = [&](std::size_t accessor) {
-        const json& a = document["accessors"][accessor];
-        const json& view = document["bufferViews"][a["bufferView"].get<std::size_t>()];
-        const std::size_t width = a["type"] == "VEC4" ? 4 : 3;
-        std::vector<float> values(a["count"].get<std::size_t>() * width);
-        std::memcpy(values.data(),
-                    file.buffer().data() + view.value("byteOffset", std::size_t{0}) +
-                        a.value("byteOffset", std::size_t{0}),
-                    values.size() * sizeof(float));
-        return values;
-    };
-    const Mesh& mesh = wood.meshes[0][0].mesh;
     Shape found;
     for (const json& node : document["nodes"]) {
         if (!node.contains("extensions")) {
             continue;
         }
         const json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
-        const std::vector<float> t = floats(attributes["TRANSLATION"]);
-        const std::vector<float> r = floats(attributes["ROTATION"]);
-        const std::vector<float> s = floats(attributes["SCALE"]);
+        const auto t = items_of<glm::vec3>(file, attributes["TRANSLATION"]);
+        const auto r = items_of<glm::vec4>(file, attributes["ROTATION"]);
+        const auto s = items_of<glm::vec3>(file, attributes["SCALE"]);
         const json& primitives = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
-        for (std::size_t i = 0; i < t.size() / 3; ++i) {
-            const glm::dquat turn(static_cast<double>(r[4 * i + 3]), static_cast<double>(r[4 * i]),
-                                  static_cast<double>(r[4 * i + 1]),
-                                  static_cast<double>(r[4 * i + 2]));
-            CHECK(std::abs(glm::length(turn) - 1.0) < 1e-6);
-            for (const json& primitive : primitives) {
-                const json& a = document["accessors"][primitive["indices"].get<std::size_t>()];
-                const std::size_t first = a["byteOffset"].get<std::size_t>() / 4;
-                const auto count = a["count"].get<std::size_t>();
-                found.triangles += count / 3;
-                for (std::size_t k = first; k < first + count; ++k) {
-                    const glm::dvec3 at(mesh.positions[mesh.indices[k]]);
+        for (const json& each : primitives) {
+            const Primitive primitive = read_primitive(file, each);
+            for (std::size_t i = 0; i < t.size(); ++i) {
+                const glm::dvec4 q(r[i]);
+                const glm::dquat turn(q.w, q.x, q.y, q.z);
+                CHECK(std::abs(glm::length(turn) - 1.0) < 1e-6);
+                found.triangles += primitive.indices.size() / 3;
+                for (const std::uint32_t index : primitive.indices) {
                     const glm::dvec3 place =
-                        glm::dvec3(glm::vec3(t[3 * i], t[3 * i + 1], t[3 * i + 2])) +
-                        static_cast<double>(s[3 * i]) * (turn * at);
+                        glm::dvec3(t[i]) + static_cast<double>(s[i].x) *
+                                               (turn * glm::dvec3(primitive.positions[index]));
                     found.sum += place;
                     found.bounds.add(glm::vec3(place));
                 }
@@ -268,6 +296,69 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < 1e-3F);
     CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < 1e-3F);
     CHECK(glm::distance(found.sum, wanted.sum) < 1e-4 * 3.0 * static_cast<double>(found.triangles));
+}
+
+TEST_CASE("each primitive of a forest has vertices, bounds and indices of its own") {
+    Wood wood;
+    wood.add_species(kLeafyBush, 6);
+    wood.add_species("#set names letters; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : FA;",
+                     7);
+    wood.add_species("#set names letters; #w : F; #p : F : * : F+F;", 13, 0.0F); // has wide slices
+    wood.add_trees(900);
+    const Exported file = exported(wood.scene(), ExportFormat::Glb);
+    REQUIRE(!file.stop);
+    std::uint64_t vertices = 0; // of all primitives
+    std::uint64_t wide = 0;
+    std::uint64_t nested = 0;
+    for (const json& drawn : file.document["meshes"]) {
+        // "species S I": instance I
+        const std::string name = drawn["name"];
+        const std::size_t species = std::stoul(name.substr(8)) - 1;
+        const auto instance = static_cast<std::uint32_t>(std::stoul(name.substr(name.rfind(' '))));
+        const InstanceMeshes& meshes = wood.meshes[species][0];
+        const auto parts = meshes.parts_of(instance);
+        REQUIRE(drawn["primitives"].size() == parts.size());
+        const ForestStage& stage = wood.forest.species[species].stages[0];
+        nested += stage.cache.instances[instance].slot > 0 ? 1U : 0U;
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            const json& written = drawn["primitives"][p];
+            const Primitive primitive = read_primitive(file, written);
+            vertices += primitive.positions.size();
+            wide += primitive.wide ? 1U : 0U;
+            CHECK(primitive.wide == (primitive.positions.size() >= 65'536));
+            REQUIRE(primitive.indices.size() == parts[p].index_count);
+            Bounds used;
+            std::uint64_t elsewhere = 0;
+            for (std::size_t k = 0; k < primitive.indices.size(); ++k) {
+                const glm::vec3& at = primitive.positions[primitive.indices[k]];
+                const std::uint32_t vertex = meshes.mesh.indices[parts[p].first_index + k];
+                elsewhere += at == meshes.mesh.positions[vertex] ? 0U : 1U;
+                used.add(at);
+            }
+            CHECK(elsewhere == 0);
+            const json& accessor =
+                file.document["accessors"][written["attributes"]["POSITION"].get<std::size_t>()];
+            for (const glm::length_t axis : {0, 1, 2}) {
+                const auto at = static_cast<std::size_t>(axis);
+                CHECK(accessor["min"][at].get<float>() == used.low[axis]);
+                CHECK(accessor["max"][at].get<float>() == used.high[axis]);
+            }
+        }
+    }
+    CHECK(wide > 0);
+    CHECK(nested > 20);
+    // Nested instances share their vertices in the file: it has few more than the heroes.
+    std::uint64_t in_file = 0;
+    std::uint64_t of_heroes = 0;
+    for (const json& view : file.document["bufferViews"]) {
+        in_file +=
+            view.value("byteStride", 0) == 8 ? view["byteLength"].get<std::uint64_t>() / 8 : 0;
+    }
+    for (const auto& species : wood.meshes) {
+        of_heroes += species[0].mesh.positions.size();
+    }
+    CHECK(in_file < vertices);
+    CHECK(static_cast<double>(in_file) < 1.05 * static_cast<double>(of_heroes));
 }
 
 TEST_CASE("transforms of more instances than are held at once are all there") {

@@ -1,6 +1,7 @@
 // The default picture of a forest: trees are seen, and stand out, on grounds from 0.1 to 100 km.
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
+#include "viewer/scene/camera.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -154,4 +155,20 @@ TEST_CASE("air thins with --air, and by default with the size of the ground") {
     CHECK(difference_of(with_air("16.97056").picture, usual.picture).mean < 0.1);
     // A small ground has the air of 10 km.
     CHECK(shown({sample("abop-1-24a"), "--count", "4"}).stats["air_km"] == 10.0);
+}
+
+TEST_CASE("with a lens of its own the plant is in view as a whole, from the same side") {
+    const std::string bush = LSYS_SOURCE_DIR "/samples/abop-1-25-bush/abop-1-25-bush.lsys";
+    const auto distance_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {bush};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto line = shown(arguments).stats["camera"].get<std::string>();
+        const lsys::Result<lsys::view::Camera> camera = lsys::view::parse_camera(line, {});
+        CAPTURE(line);
+        REQUIRE(camera);
+        return static_cast<double>(glm::distance(camera.value().eye, camera.value().target));
+    };
+    const double usual = distance_with({}); // 40 degrees
+    CHECK(distance_with({"--camera", "fov 15"}) > 2.0 * usual);
+    CHECK(distance_with({"--camera", "fov 90"}) < 0.7 * usual);
 }

@@ -65,8 +65,7 @@ ForestView::ForestView(const ViewOptions& options,
                        Renderer& renderer,
                        std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_forest_settings(options)),
-      painting_(renderer), frame_next_(options.camera.empty()), plays_next_(options.grow),
-      loader_(make_forest, wake_),
+      painting_(renderer), plays_next_(options.grow), loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  files_changed(files, since);
@@ -227,7 +226,7 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     has_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
-        settings.camera = first_camera;
+        settings.camera = with_parts(options_.camera, first_camera);
     }
     if (const std::string note = painting_.set_document(document_); !note.empty()) {
         set_note(note);

@@ -148,7 +148,7 @@ private:
     std::shared_ptr<ForestDocument> document_;
     ForestPainting painting_;
     std::vector<std::string> files_;
-    bool frame_next_ = false; // the next swap fits the camera to the forest
+    bool frame_next_ = true;  // the next swap fits the camera to the forest
     bool plays_next_ = false; // from the next swap on
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
@@ -169,7 +169,7 @@ private:
     bool begins_stroke_ = false; // at the next point on the ground
     bool has_stroke_ = false;
     bool used_tool_ = false; // since the last picture
-    bool is_slow_ = false;   // last picture at full quality
+    bool is_slow_ = false;   // the last picture at full quality took long
     bool is_coarse_ = false;
     std::uint64_t max_coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;

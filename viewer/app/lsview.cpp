@@ -49,8 +49,7 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
     return ExitStatus::Ok;
 }
 
-ExitStatus
-run_forest_pictures(const ViewOptions& options, const Camera& camera, const Console& console) {
+ExitStatus run_forest_pictures(const ViewOptions& options, const Console& console) {
     std::shared_ptr<ForestDocument> made_document;
     ExitStatus status = console.take(
         make_forest_document(options, make_project(console, options.run)), made_document);
@@ -58,11 +57,9 @@ run_forest_pictures(const ViewOptions& options, const Camera& camera, const Cons
         return status;
     }
     ForestDocument& document = *made_document;
-    const Camera from = above_ground(
-        options.camera.empty() ? first_view(document, static_cast<float>(options.width) /
-                                                          static_cast<float>(options.height))
-                               : camera,
-        *document.grown.terrain);
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    const Camera from = above_ground(with_parts(options.camera, first_view(document, aspect)),
+                                     *document.grown.terrain);
     HiddenRenderer made;
     status = make_renderer(options, console, made);
     if (status != ExitStatus::Ok) {
@@ -105,7 +102,7 @@ ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
-    return options.is_forest ? run_forest_pictures(options, camera.value(), console)
+    return options.is_forest ? run_forest_pictures(options, console)
                              : run_plant_pictures(options, camera.value(), console);
 }
 

@@ -207,6 +207,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         ->required();
     add_picture(app, options);
     add_grammar(app, options.grammar, options.run);
+    add_base(app, options.run);
     add_seed(app, options.seed);
     add_height(app, options.plant_height);
     add_bending(app, options);
@@ -235,11 +236,17 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         return to_usage_error(error, app, "lsview");
     }
+    if (const auto mistake = apply_base(options.run, options.files)) {
+        return *mistake;
+    }
     options.file = options.files.front();
     options.is_forest =
         options.files.size() > 1 || is_scene(options.file) || options.overrides != SceneOverrides{};
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
+    }
+    if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
+        return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
     }
     if (!options.is_forest && options.air) {
         return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
@@ -284,7 +291,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return UsageError{"a series of pictures does not go to standard output",
                           "write `--screenshot FILE`"};
     }
-    if (options.file == "-" && options.screenshot.empty()) {
+    if (is_standard_input(options.file) && options.screenshot.empty()) {
         return UsageError{"a window reads its file again and again, so it cannot show "
                           "standard input",
                           "add `--screenshot FILE`, or write the grammar to a file"};

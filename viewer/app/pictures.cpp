@@ -197,15 +197,12 @@ ExitStatus take_pictures(const ViewOptions& options,
         }
         return status;
     };
-    Camera from = camera;
-    if (options.camera.empty()) {
-        if (const ExitStatus status = motion.moves() ? show_bent() : ExitStatus::Ok;
-            status != ExitStatus::Ok) {
-            return status;
-        }
-        from = first_view(camera, renderer.bounds(),
-                          static_cast<float>(options.width) / static_cast<float>(options.height));
+    if (const ExitStatus status = motion.moves() ? show_bent() : ExitStatus::Ok;
+        status != ExitStatus::Ok) {
+        return status;
     }
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    const Camera from = with_parts(options.camera, first_view(camera, renderer.bounds(), aspect));
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);

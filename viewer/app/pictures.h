@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// `camera`: that of ViewOptions::camera. Without this option its direction alone counts: the plant
-/// is in view as a whole, bent if it bends.
+/// `camera`: that of ViewOptions::camera. Where this option leaves parts out, the plant is in view as
+/// a whole, bent if it bends.
 [[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
                                        const Camera& camera,
                                        const PlantDocument& document,

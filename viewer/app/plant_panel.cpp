@@ -261,7 +261,7 @@ void draw_mesh(PlantViewSettings& settings, float own_droop) {
     }
     MeshOptions& mesh = settings.mesh;
     int method = static_cast<int>(mesh.method);
-    if (ImGui::Combo("Method", &method, "Default\0Tubes\0Cylinders\0Boxes\0")) {
+    if (ImGui::Combo("Method", &method, "Default\0Tubes\0Cylinders\0Boxes\0Solid\0")) {
         mesh.method = static_cast<MeshMethod>(method);
     }
     const auto slide = [](const char* name, std::uint32_t& value, std::uint32_t max,

@@ -55,7 +55,7 @@ PlantView::PlantView(const ViewOptions& options,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
-      frame_next_(options.camera.empty()), plays_next_(options.grow), loader_(wake_),
+      plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
                  const auto shaders =
@@ -178,7 +178,8 @@ void PlantView::swap(LoadOutcome outcome) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
-        settings.camera = first_view(settings.camera, renderer_->bounds(), aspect_);
+        settings.camera =
+            with_parts(options_.camera, first_view(settings.camera, renderer_->bounds(), aspect_));
     }
     settings.bending.forces.load = document_->grammar.bytecode.settings.load;
     if (std::exchange(is_new_file_, false)) {

@@ -119,7 +119,7 @@ private:
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
     std::vector<std::string> files_;
-    bool frame_next_ = false; // the next swap fits the camera to the plant
+    bool frame_next_ = true;  // the next swap fits the camera to the plant
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;

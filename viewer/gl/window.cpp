@@ -205,7 +205,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     if (glfwInit() == GLFW_FALSE) {
         return Error{fmt::format("there is no display for a window ({})", why_glfw_failed())};
     }
-    std::unique_ptr<Window> made(new Window()); // terminates GLFW
+    std::unique_ptr<Window> made(new Window()); // its destructor terminates GLFW
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

@@ -102,6 +102,11 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
     return camera;
 }
 
+Camera with_parts(std::string_view text, const Camera& first) {
+    const Result<Camera> camera = parse_camera(text, first);
+    return camera ? camera.value() : first;
+}
+
 glm::vec3 forward_of(const Camera& camera) {
     return glm::normalize(camera.target - camera.eye);
 }

@@ -176,7 +176,7 @@ public:
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
-    /// Bounding sphere of a tree with any branches.
+    /// Bounding sphere of a tree, whichever branches it has.
     [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const;
     /// Bounding sphere of its impostor.
     [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const;

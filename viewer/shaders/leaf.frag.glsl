@@ -10,7 +10,7 @@ in vec2 uv;
 in vec3 front; // radiance of a white leaf seen from its front
 in vec3 back;
 in vec3 fog_light;
-flat in uint kind; // bit 8: one colour
+flat in uint kind; // kind & 8: one colour
 #else
 in vec3 front; // tone-mapped
 in vec3 back;

@@ -1,4 +1,4 @@
-// Productions that put branches on two sides by `/` and `\\`, which roll: the branches of both point
+// Productions that put branches on two sides by `/` and `\`, which roll: the branches of both point
 // the same way. With the turtle of Crankshaw's thesis these modules pitch, as in its equation 2.11.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/program/message_words.h"
@@ -142,7 +142,7 @@ private:
 } // namespace
 
 void check_rolled_sides(const CheckInput& input, Diagnostics& diagnostics) {
-    // A turtle that the grammar names is meant.
+    // Not with another turtle profile: an author who chose one means its rolls.
     if (input.program.settings.turtle == Settings{}.turtle) {
         RolledSides(input, diagnostics).check();
     }

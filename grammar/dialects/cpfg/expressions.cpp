@@ -3,6 +3,8 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -83,9 +85,9 @@ CpfgTerm CpfgExpressions::element(const CpfgExpression& node) {
                                       ? part.text
                                       : "min(max(floor(" + part.text + "), 0), " +
                                             std::to_string(array.sizes[i] - 1) + ")";
-        index = i == 0 ? floor
-                       : in_cpfg_parentheses(index) + " * " + std::to_string(array.sizes[i]) +
-                             " + " + floor;
+        index =
+            i == 0 ? floor
+                   : fmt::format("{} * {} + {}", in_cpfg_parentheses(index), array.sizes[i], floor);
     }
     if (is_random) {
         return chosen_by_chance(node.span, "a random number as the index of an array");

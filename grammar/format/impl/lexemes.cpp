@@ -201,7 +201,7 @@ void LexemeReader::expression() {
         ++depth_;
         after_value_ = false;
     } else if (c == ')' || c == '}') {
-        // Parentheses of modules are at depth 0.
+        // At depth 1 of a list of modules, the `)` of the arguments of a module.
         const bool module = depth_ == 1 && (area_ == Area::Modules || area_ == Area::Object);
         take(module ? LexemeKind::Close : LexemeKind::Right, 1);
         depth_ -= depth_ > 0 ? 1U : 0U;

@@ -4,7 +4,40 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace lsys {
+
+namespace {
+
+struct Attribute {
+    const char* name;
+    std::uint64_t bytes; // per vertex
+    int component;
+    const char* type;
+};
+
+const Attribute& attribute_of(const GltfView& view) {
+    static constexpr std::array<Attribute, 5> kAttributes{{
+        {"POSITION", 12, kGltfFloat, "VEC3"},
+        {"NORMAL", 12, kGltfFloat, "VEC3"},
+        {"TEXCOORD_0", 8, kGltfFloat, "VEC2"},
+        {"TANGENT", 16, kGltfFloat, "VEC4"},
+        {"COLOR_0", 4, kGltfByte, "VEC4"},
+    }};
+    static_assert(kAttributes.size() == static_cast<std::size_t>(GltfArray::Joints));
+    return kAttributes[static_cast<std::size_t>(view.array)];
+}
+
+/// The view of an attribute of several slices, for which glTF asks for a stride.
+void put_attribute_view(JsonWriter& json, const GltfView& view) {
+    constexpr int kVertices = 34962;
+    json.object().member("buffer", 0).member("byteOffset", view.offset);
+    json.member("byteLength", view.bytes).member("byteStride", attribute_of(view).bytes);
+    json.member("target", kVertices).end();
+}
+
+} // namespace
 
 void ForestDocument::put_extras(JsonWriter& json) const {
     json.object("extras").member("scene", info_.name).member("key", scene_.forest.key);
@@ -22,7 +55,7 @@ void ForestDocument::put_extras(JsonWriter& json) const {
 
 /// Nodes: the forest, the ground, the cells, then the branches in them.
 void ForestDocument::put_nodes(JsonWriter& json) const {
-    const std::size_t ground = ground_block_ == kNoBlock ? 0 : 1;
+    const std::size_t ground = ground_surface_ == kNoSurface ? 0 : 1;
     const std::size_t cells = plan_.cells().size();
     json.member("scene", 0).array("scenes").object().member("nodes", {0}).end().end();
     json.array("nodes").object().member("name", "forest").array("children");
@@ -84,16 +117,18 @@ void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
 
 void ForestDocument::put_mesh(JsonWriter& json,
                               const std::string& name,
-                              const ForestBlock& block,
+                              const ForestSurface& surface,
                               std::span<const MeshPart> parts,
                               std::size_t& accessor) const {
     json.object().member("name", name).array("primitives");
     for (const MeshPart& part : parts) {
-        const bool coloured = block.coloured[part.material];
-        json.object();
-        put_attributes(json, block.data, block.first_accessor, coloured);
-        json.member("indices", accessor++);
-        const std::pair key((*block.materials)[part.material], coloured);
+        const ForestBlock& block = surface.blocks[part.material];
+        json.object().object("attributes");
+        for (const GltfView& view : block.attributes) {
+            json.member(attribute_of(view).name, accessor++);
+        }
+        json.end().member("indices", accessor++);
+        const std::pair key((*surface.materials)[part.material], block.coloured);
         json.member("material", material_numbers_.at(key)).end();
     }
     json.end().end();
@@ -102,11 +137,8 @@ void ForestDocument::put_mesh(JsonWriter& json,
 void ForestDocument::put_meshes(JsonWriter& json) const {
     json.array("meshes");
     std::size_t accessor = 0;
-    for (const ForestBlock& block : blocks_) {
-        accessor += block.attributes();
-    }
-    if (ground_block_ != kNoBlock) {
-        put_mesh(json, "ground", blocks_[ground_block_], scene_.ground->parts, accessor);
+    if (ground_surface_ != kNoSurface) {
+        put_mesh(json, "ground", surfaces_[ground_surface_], scene_.ground->parts, accessor);
     }
     for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
         const ForestKind& kind = plan_.kinds()[k];
@@ -117,7 +149,7 @@ void ForestDocument::put_meshes(JsonWriter& json) const {
                 : fmt::format("{} n{}", species.name, species.stages[kind.stage].generations);
         for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
             if (plan_.uses()[kind.first + i] > 0) {
-                put_mesh(json, fmt::format("{} {}", name, i), blocks_[block_of_kind_[k]],
+                put_mesh(json, fmt::format("{} {}", name, i), surfaces_[surface_of_kind_[k]],
                          kind.meshes->parts_of(i), accessor);
             }
         }
@@ -141,18 +173,46 @@ void ForestDocument::put_materials(JsonWriter& json) const {
     }
 }
 
+void ForestDocument::put_part_accessors(JsonWriter& json,
+                                        const ForestSurface& surface,
+                                        std::size_t part) {
+    const MeshPart& drawn = surface.mesh->parts[part];
+    const Slice& slice = surface.sliced.slices[part];
+    const ForestBlock& block = surface.blocks[drawn.material];
+    for (std::size_t i = 0; i < block.attributes.size(); ++i) {
+        const Attribute& attribute = attribute_of(block.attributes[i]);
+        begin_accessor(json, {block.first_view + i, attribute.bytes * slice.first_vertex,
+                              attribute.component, slice.vertex_count, attribute.type});
+        if (block.attributes[i].array == GltfArray::Positions) {
+            // Digits of doubles: readers parse the shortest text of a float as another double.
+            const glm::dvec3 low(slice.bounds.low);
+            const glm::dvec3 high(slice.bounds.high);
+            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
+        }
+        if (attribute.component == kGltfByte) {
+            json.member("normalized", true);
+        }
+        json.end();
+    }
+    const std::size_t wide_view = block.first_view + block.attributes.size();
+    const std::size_t narrow_view = wide_view + (block.wide_indices.bytes > 0 ? 1 : 0);
+    if (slice.is_wide()) {
+        begin_accessor(json, {wide_view, sizeof(std::uint32_t) * slice.first_index, kGltfInteger,
+                              drawn.index_count, "SCALAR"})
+            .end();
+    } else {
+        begin_accessor(json, {narrow_view, sizeof(std::uint16_t) * slice.first_index, kGltfShort,
+                              drawn.index_count, "SCALAR"})
+            .end();
+    }
+}
+
 void ForestDocument::put_accessors(JsonWriter& json) const {
     json.array("accessors");
-    for (const ForestBlock& block : blocks_) {
-        put_attribute_accessors(json, block.data, block.first_view, block.mesh->positions.size(),
-                                block.bounds);
-    }
-    for_each_mesh([&](const ForestBlock& block, std::span<const MeshPart> parts) {
-        for (const MeshPart& part : parts) {
-            begin_accessor(json, {block.first_view + block.attributes(),
-                                  part.first_index * sizeof(std::uint32_t), kGltfInteger,
-                                  part.index_count, "SCALAR"})
-                .end();
+    for_each_mesh([&](const ForestSurface& surface, std::span<const MeshPart> parts) {
+        const auto first = static_cast<std::size_t>(parts.data() - surface.mesh->parts.data());
+        for (std::size_t part = first; part < first + parts.size(); ++part) {
+            put_part_accessors(json, surface, part);
         }
     });
     if (instanced()) {
@@ -173,9 +233,16 @@ void ForestDocument::put_accessors(JsonWriter& json) const {
 
 void ForestDocument::put_views(JsonWriter& json) const {
     json.array("bufferViews");
-    for (const ForestBlock& block : blocks_) {
-        for (const GltfView& view : block.data.views) {
-            put_view(json, view, block.offset);
+    for (const ForestSurface& surface : surfaces_) {
+        for (const ForestBlock& block : surface.blocks) {
+            for (const GltfView& view : block.attributes) {
+                put_attribute_view(json, view);
+            }
+            for (const GltfView& view : {block.wide_indices, block.narrow_indices}) {
+                if (view.bytes > 0) {
+                    put_view(json, view, 0);
+                }
+            }
         }
     }
     GltfView view{.array = GltfArray::Image, .offset = transforms_offset_};

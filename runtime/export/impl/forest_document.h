@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/export/impl/forest_plan.h"
+#include "runtime/export/impl/forest_slices.h"
 #include "runtime/export/impl/gltf_data.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
@@ -18,20 +19,24 @@
 
 namespace lsys {
 
-/// Arrays of a kind of tree, or of the ground.
+/// Arrays of one material of a surface.
 struct ForestBlock {
+    std::vector<GltfView> attributes; // offsets in the buffer
+    GltfView wide_indices;            // 32 bits; no view if it has no bytes
+    GltfView narrow_indices;          // 16 bits, likewise
+    std::size_t first_view = 0;       // of the attributes; wide indices, narrow ones follow
+    bool coloured = false;            // vertices have colours of their own
+};
+
+/// Arrays of a kind of tree, or of the ground.
+struct ForestSurface {
     const Mesh* mesh = nullptr;
     const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
-    GltfData data;
-    std::vector<bool> coloured; // by materials of the mesh
-    Bounds bounds;
-    std::uint64_t offset = 0; // in the buffer
-    std::size_t first_view = 0;
-    std::size_t first_accessor = 0;
-
-    /// Number of views before the view of indices.
-    [[nodiscard]] std::size_t attributes() const { return data.views.size() - 1; }
+    SlicedMesh sliced;
+    std::vector<ForestBlock> blocks; // by material of the mesh
 };
+
+inline constexpr std::uint64_t kColourBytes = 4; // of a vertex: linear RGBA
 
 class ForestDocument {
 public:
@@ -47,24 +52,30 @@ public:
     void put_data(const GltfSink& write) const;
 
 private:
-    static constexpr std::size_t kNoBlock = ~std::size_t{0};
+    static constexpr std::size_t kNoSurface = ~std::size_t{0};
     [[nodiscard]] bool instanced() const { return form_ == ForestForm::Instanced; }
 
-    void add_block(const Mesh& mesh, const std::vector<std::uint32_t>& materials);
+    void add_surface(const Mesh& mesh,
+                     const std::vector<std::uint32_t>& materials,
+                     std::span<const PartList> lists);
+    /// Plans the views of a surface.
+    void add_views(ForestSurface& surface);
     void put_extras(JsonWriter& json) const;
     void put_nodes(JsonWriter& json) const;
     void put_instanced_nodes(JsonWriter& json) const;
     void put_expanded_nodes(JsonWriter& json) const;
     void put_mesh(JsonWriter& json,
                   const std::string& name,
-                  const ForestBlock& block,
+                  const ForestSurface& surface,
                   std::span<const MeshPart> parts,
                   std::size_t& accessor) const;
     void put_meshes(JsonWriter& json) const;
     void put_materials(JsonWriter& json) const;
     void put_accessors(JsonWriter& json) const;
+    static void
+    put_part_accessors(JsonWriter& json, const ForestSurface& surface, std::size_t part);
     void put_views(JsonWriter& json) const;
-    /// Calls visit(block, parts) for each mesh in the order of their numbers.
+    /// Calls visit(surface, parts) for each mesh in the order of their numbers.
     template <typename Visit>
     void for_each_mesh(const Visit& visit) const;
 
@@ -73,13 +84,14 @@ private:
     ForestForm form_;
     const ForestExportInfo& info_;
     ForestMaterials materials_;
-    std::vector<ForestBlock> blocks_;
-    std::vector<std::size_t> block_of_kind_;
-    std::size_t ground_block_ = kNoBlock;
+    std::vector<ForestSurface> surfaces_;
+    std::vector<std::size_t> surface_of_kind_;
+    std::size_t ground_surface_ = kNoSurface;
     std::vector<std::uint32_t> mesh_of_instance_;
     /// Number in the file of each pair (material of the scene, vertices have colours).
     std::map<std::pair<std::uint32_t, bool>, std::size_t> material_numbers_;
     Pictures pictures_;
+    std::size_t view_count_ = 0;
     std::vector<std::string> images_;
     std::size_t transforms_view_ = 0;
     std::size_t first_image_view_ = 0;
@@ -90,14 +102,14 @@ private:
 
 template <typename Visit>
 void ForestDocument::for_each_mesh(const Visit& visit) const {
-    if (ground_block_ != kNoBlock) {
-        visit(blocks_[ground_block_], std::span<const MeshPart>(scene_.ground->parts));
+    if (ground_surface_ != kNoSurface) {
+        visit(surfaces_[ground_surface_], std::span<const MeshPart>(scene_.ground->parts));
     }
     for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
         const ForestKind& kind = plan_.kinds()[k];
         for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
             if (plan_.uses()[kind.first + i] > 0) {
-                visit(blocks_[block_of_kind_[k]], kind.meshes->parts_of(i));
+                visit(surfaces_[surface_of_kind_[k]], kind.meshes->parts_of(i));
             }
         }
     }

@@ -1,6 +1,7 @@
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
-// species share arrays of vertices.
+// species share arrays, of which each primitive has a slice: many readers copy, upload and bound
+// whole accessors.
 #include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_document.h"
@@ -23,72 +24,180 @@ ForestDocument::ForestDocument(const ForestScene& scene,
     pictures_ = find_pictures(materials_.samples, ExportPictures::Inside, pictures);
     images_ = encode_pictures(pictures_.list, info.threads);
     if (scene.ground != nullptr && triangle_count(*scene.ground) > 0) {
-        ground_block_ = 0;
-        add_block(*scene.ground, materials_.of_ground);
+        ground_surface_ = 0;
+        const PartList all{0, scene.ground->parts.size(), 0};
+        add_surface(*scene.ground, materials_.of_ground, std::span(&all, 1));
     }
     for (std::size_t k = 0; k < plan.kinds().size(); ++k) {
         const ForestKind& kind = plan.kinds()[k];
         const auto uses = std::span(plan.uses()).subspan(kind.first, kind.cache->instances.size());
         const bool used = std::any_of(uses.begin(), uses.end(), [](auto n) { return n > 0; });
-        block_of_kind_.push_back(used ? blocks_.size() : kNoBlock);
+        surface_of_kind_.push_back(used ? surfaces_.size() : kNoSurface);
         if (used) {
-            add_block(kind.meshes->mesh, materials_.of_kinds[k]);
+            add_surface(kind.meshes->mesh, materials_.of_kinds[k], nested_lists(kind, plan));
         }
     }
-    std::uint32_t meshes = ground_block_ == kNoBlock ? 0 : 1;
+    std::uint32_t meshes = ground_surface_ == kNoSurface ? 0 : 1;
     for (const std::uint64_t uses : plan.uses()) {
         mesh_of_instance_.push_back(uses > 0 ? meshes++ : 0);
     }
-    std::size_t view = 0;
-    std::size_t accessor = 0;
-    for (ForestBlock& block : blocks_) {
-        block.offset = bytes_;
-        block.first_view = view;
-        block.first_accessor = accessor;
-        bytes_ += block.data.bytes;
-        view += block.data.views.size();
-        accessor += block.attributes();
+    for (ForestSurface& surface : surfaces_) {
+        add_views(surface);
     }
-    for_each_mesh([&](const ForestBlock& block, std::span<const MeshPart> parts) {
-        accessor += parts.size();
+    std::size_t accessor = 0;
+    for_each_mesh([&](const ForestSurface& surface, std::span<const MeshPart> parts) {
         for (const MeshPart& part : parts) {
-            const std::pair key((*block.materials)[part.material], block.coloured[part.material]);
+            const ForestBlock& block = surface.blocks[part.material];
+            accessor += block.attributes.size() + 1;
+            const std::pair key((*surface.materials)[part.material], block.coloured);
             material_numbers_.emplace(key, material_numbers_.size());
         }
     });
     first_group_accessor_ = accessor;
-    transforms_view_ = view;
+    transforms_view_ = view_count_;
     transforms_offset_ = bytes_;
     if (instanced() && plan.branches() > 0) {
-        ++view;
+        ++view_count_;
         bytes_ += kInstanceBytes * plan.branches();
     }
-    first_image_view_ = view;
+    first_image_view_ = view_count_;
     for (std::string& image : images_) {
         image.resize((image.size() + 3) / 4 * 4, '\0');
         bytes_ += image.size();
     }
 }
 
-void ForestDocument::add_block(const Mesh& mesh, const std::vector<std::uint32_t>& materials) {
-    ForestBlock& block = blocks_.emplace_back();
-    block.mesh = &mesh;
-    block.materials = &materials;
-    block.data = plan_gltf_data(mesh, nullptr, {});
-    block.coloured.resize(mesh.materials.size());
+void ForestDocument::add_surface(const Mesh& mesh,
+                                 const std::vector<std::uint32_t>& materials,
+                                 std::span<const PartList> lists) {
+    ForestSurface& surface = surfaces_.emplace_back();
+    surface.mesh = &mesh;
+    surface.materials = &materials;
+    surface.sliced = slice_mesh(mesh, lists);
+    surface.blocks.resize(mesh.materials.size());
+    const std::vector<bool> coloured = plan_gltf_data(mesh, nullptr, nullptr, {}).coloured; // by part
     for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-        const std::uint32_t material = mesh.parts[p].material;
-        block.coloured[material] = block.coloured[material] || block.data.coloured[p];
-    }
-    for (const glm::vec3& position : mesh.positions) {
-        block.bounds.add(position);
+        ForestBlock& block = surface.blocks[mesh.parts[p].material];
+        block.coloured = block.coloured || coloured[p];
     }
 }
 
+void ForestDocument::add_views(ForestSurface& surface) {
+    const Mesh& mesh = *surface.mesh;
+    const auto view_of = [this](GltfArray array, std::uint64_t bytes) {
+        const GltfView view{.array = array, .offset = bytes_, .bytes = bytes};
+        bytes_ += (bytes + 3) / 4 * 4;
+        view_count_ += bytes > 0 ? 1 : 0;
+        return view;
+    };
+    for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
+        const SliceBlock& from = surface.sliced.blocks[material];
+        ForestBlock& to = surface.blocks[material];
+        to.first_view = view_count_;
+        if (from.vertex_count == 0) {
+            continue;
+        }
+        const auto add = [&](GltfArray array, std::uint64_t bytes) {
+            to.attributes.push_back(view_of(array, bytes * from.vertex_count));
+        };
+        add(GltfArray::Positions, sizeof(glm::vec3));
+        add(GltfArray::Normals, sizeof(glm::vec3));
+        if (is_complete(mesh, mesh.texture_coordinates)) {
+            add(GltfArray::TextureCoordinates, sizeof(glm::vec2));
+        }
+        // Only normal maps need tangents.
+        if (is_complete(mesh, mesh.tangents) &&
+            pictures_.of_materials[(*surface.materials)[material]].relief) {
+            add(GltfArray::Tangents, sizeof(glm::vec4));
+        }
+        if (to.coloured) {
+            add(GltfArray::Colours, kColourBytes);
+        }
+        to.wide_indices = view_of(GltfArray::Indices, from.wide_indices * sizeof(std::uint32_t));
+        to.narrow_indices =
+            view_of(GltfArray::Indices, from.narrow_indices * sizeof(std::uint16_t));
+    }
+}
+
+namespace {
+
+constexpr std::size_t kChunk = 16384; // vertices or indices
+
+/// Writes one attribute of the vertices of a block.
+void write_attribute(const Mesh& mesh,
+                     std::span<const std::uint32_t> vertices,
+                     const GltfView& view,
+                     const GltfBytes& write) {
+    GltfData data;
+    data.views.push_back({.array = view.array});
+    Mesh chunk;
+    const auto gather = [](const auto& from, std::span<const std::uint32_t> numbers, auto& to) {
+        to.resize(numbers.size());
+        std::transform(numbers.begin(), numbers.end(), to.begin(),
+                       [&from](std::uint32_t vertex) { return from[vertex]; });
+    };
+    for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
+        const auto numbers = vertices.subspan(first, std::min(kChunk, vertices.size() - first));
+        switch (view.array) {
+        case GltfArray::Positions:
+            gather(mesh.positions, numbers, chunk.positions);
+            break;
+        case GltfArray::Normals:
+            gather(mesh.normals, numbers, chunk.normals);
+            break;
+        case GltfArray::TextureCoordinates:
+            gather(mesh.texture_coordinates, numbers, chunk.texture_coordinates);
+            break;
+        case GltfArray::Tangents:
+            gather(mesh.tangents, numbers, chunk.tangents);
+            break;
+        default:
+            gather(mesh.colours, numbers, chunk.colours);
+            break;
+        }
+        write_gltf_data(chunk, nullptr, nullptr, data, write);
+    }
+}
+
+/// Writes the indices of the parts of one material whose slices are wide, or of the others.
+template <typename Index>
+void write_indices(const ForestSurface& surface, std::size_t material, const GltfBytes& write) {
+    const bool wide = sizeof(Index) == sizeof(std::uint32_t);
+    std::vector<Index> chunk;
+    std::uint64_t count = 0;
+    for (const std::size_t p : surface.sliced.order) {
+        const MeshPart& part = surface.mesh->parts[p];
+        if (part.material != material || surface.sliced.slices[p].is_wide() != wide) {
+            continue;
+        }
+        const std::uint64_t end = part.first_index + part.index_count;
+        for (std::uint64_t first = part.first_index; first < end; first += kChunk) {
+            const auto from = surface.sliced.indices.begin();
+            chunk.assign(from + static_cast<std::ptrdiff_t>(first),
+                         from + static_cast<std::ptrdiff_t>(std::min(first + kChunk, end)));
+            write(std::as_bytes(std::span<const Index>(chunk)));
+        }
+        count += part.index_count;
+    }
+    chunk.assign(count * sizeof(Index) % 4 / sizeof(Index), 0);
+    write(std::as_bytes(std::span<const Index>(chunk)));
+}
+
+} // namespace
+
 void ForestDocument::put_data(const GltfSink& write) const {
-    for (const ForestBlock& block : blocks_) {
-        write_gltf_data(*block.mesh, nullptr, block.data,
-                        [&write](std::span<const std::byte> bytes) { write(bytes); });
+    const GltfBytes put = [&write](std::span<const std::byte> bytes) { write(bytes); };
+    for (const ForestSurface& surface : surfaces_) {
+        for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
+            const SliceBlock& block = surface.sliced.blocks[material];
+            const auto vertices =
+                std::span(surface.sliced.vertices).subspan(block.first_vertex, block.vertex_count);
+            for (const GltfView& view : surface.blocks[material].attributes) {
+                write_attribute(*surface.mesh, vertices, view, put);
+            }
+            write_indices<std::uint32_t>(surface, material, put);
+            write_indices<std::uint16_t>(surface, material, put);
+        }
     }
     if (instanced()) {
         write_transforms(plan_, info_, write);

@@ -138,7 +138,10 @@ private:
 Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     const ExportInfo& info = job.info;
     std::optional<GltfMotion> moving;
-    if (info.animation != nullptr) {
+    if (info.animation != nullptr && info.max_joints != 0) {
+        moving.emplace(GltfMotion{
+            {}, *info.animation, make_bones(job.skeleton, *info.animation, info.max_joints)});
+    } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
             return {Stop::Limit,
@@ -147,21 +150,26 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
                         "ask for fewer generations with `-n`, or for a numbered series in "
                         "another format, which is any but glTF: `-o tree.ply`"))};
         }
-        moving.emplace(GltfMotion{std::move(*skin), *info.animation});
+        moving.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
     const GltfMotion* const motion = moving ? &*moving : nullptr;
+    std::optional<WindData> wind;
+    if (info.wind_data) {
+        wind.emplace(job.skeleton);
+    }
     const Pictures pictures = find_pictures(job.mesh, ExportPictures::Inside, info);
-    const GltfData data =
-        plan_gltf_data(job.mesh, motion, encode_pictures(pictures.list, info.threads));
+    const GltfData data = plan_gltf_data(job.mesh, motion, wind ? &*wind : nullptr,
+                                         encode_pictures(pictures.list, info.threads));
     if (data.bytes > kMaxGltfBytes) {
         return too_large_for_format(info.subject);
     }
     // Formatted once for both passes of a GLB: the nodes of many joints are long.
     const std::string members = json_document(
         [&](JsonWriter& json) { Document(job, motion, data, pictures, json).write(); });
-    const GltfFile file{
-        binary, [&members](JsonWriter& to) { to.literal(members); }, data.bytes,
-        [&](const GltfSink& write) { write_gltf_data(job.mesh, motion, data, write); }};
+    const GltfFile file{binary, [&members](JsonWriter& to) { to.literal(members); }, data.bytes,
+                        [&](const GltfSink& write) {
+                            write_gltf_data(job.mesh, motion, wind ? &*wind : nullptr, data, write);
+                        }};
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(info.subject);
 }
 

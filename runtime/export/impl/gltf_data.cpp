@@ -107,6 +107,21 @@ void write_colours(const Mesh& mesh, const GltfBytes& write) {
     }
 }
 
+void write_wind(const Mesh& mesh,
+                const WindData& wind,
+                glm::vec2 WindVertex::*member,
+                const GltfBytes& write) {
+    std::vector<glm::vec2> chunk;
+    for (std::size_t first = 0; first < mesh.positions.size(); first += kChunk) {
+        chunk.clear();
+        const std::size_t end = std::min(first + kChunk, mesh.positions.size());
+        for (std::size_t i = first; i < end; ++i) {
+            chunk.push_back(wind.at(mesh.segments[i], mesh.positions[i]).*member);
+        }
+        write(std::as_bytes(std::span<const glm::vec2>(chunk)));
+    }
+}
+
 } // namespace
 
 std::size_t GltfData::first_view(GltfArray array) const {
@@ -115,8 +130,10 @@ std::size_t GltfData::first_view(GltfArray array) const {
     return static_cast<std::size_t>(found - views.begin());
 }
 
-GltfData
-plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images) {
+GltfData plan_gltf_data(const Mesh& mesh,
+                        const GltfMotion* motion,
+                        const WindData* wind,
+                        std::vector<std::string> images) {
     GltfData data;
     data.images = std::move(images);
     bool any_coloured = false;
@@ -144,15 +161,21 @@ plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::stri
         add(GltfArray::Joints, vertices * 4 * motion->joint_bytes(), 0);
         add(GltfArray::Weights, vertices * 4, 0);
     }
+    if (wind != nullptr) {
+        add(GltfArray::WindPivots, vertices * sizeof(glm::vec2), 0);
+        add(GltfArray::WindMotions, vertices * sizeof(glm::vec2), 0);
+    }
     add(GltfArray::Indices, mesh.indices.size() * sizeof(std::uint32_t), 0);
     if (motion != nullptr) {
-        const std::uint64_t keys =
-            std::uint64_t{motion->poses.frame_count} * motion->moving_joints();
-        add(GltfArray::InverseBinds, motion->skin.joint_count() * sizeof(glm::mat4), 0);
-        add(GltfArray::Times, motion->poses.frame_count * sizeof(float), 0);
-        if (keys > 0) {
-            add(GltfArray::Translations, keys * sizeof(glm::vec3), 0);
-            add(GltfArray::Rotations, keys * sizeof(glm::quat), 0);
+        add(GltfArray::InverseBinds, motion->joint_count() * sizeof(glm::mat4), 0);
+        if (motion->time_count() > 0) {
+            add(GltfArray::Times, motion->time_count() * sizeof(float), 0);
+        }
+        if (motion->translation_count() > 0) {
+            add(GltfArray::Translations, motion->translation_count() * sizeof(glm::vec3), 0);
+        }
+        if (motion->rotation_count() > 0) {
+            add(GltfArray::Rotations, motion->rotation_count() * sizeof(glm::quat), 0);
         }
     }
     for (std::size_t i = 0; i < data.images.size(); ++i) {
@@ -163,6 +186,7 @@ plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::stri
 
 void write_gltf_data(const Mesh& mesh,
                      const GltfMotion* motion,
+                     const WindData* wind,
                      const GltfData& data,
                      const GltfBytes& write) {
     for (const GltfView& view : data.views) {
@@ -187,6 +211,12 @@ void write_gltf_data(const Mesh& mesh,
             break;
         case GltfArray::Weights:
             write_vertex_weights(mesh, *motion, write);
+            break;
+        case GltfArray::WindPivots:
+            write_wind(mesh, *wind, &WindVertex::pivot, write);
+            break;
+        case GltfArray::WindMotions:
+            write_wind(mesh, *wind, &WindVertex::motion, write);
             break;
         case GltfArray::InverseBinds:
             write_inverse_binds(*motion, write);

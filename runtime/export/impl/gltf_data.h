@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/export/impl/gltf_motion.h"
+#include "runtime/export/impl/wind_data.h"
 #include "runtime/meshing/mesh.h"
 
 #include <cstddef>
@@ -20,6 +21,8 @@ enum class GltfArray : std::uint8_t {
     Colours,
     Joints,
     Weights,
+    WindPivots,
+    WindMotions,
     Indices,
     InverseBinds,
     Times,
@@ -46,14 +49,17 @@ struct GltfData {
     [[nodiscard]] std::size_t first_view(GltfArray array) const;
 };
 
-/// Plans the buffer, images last. Without `motion` there is no skin.
-[[nodiscard]] GltfData
-plan_gltf_data(const Mesh& mesh, const GltfMotion* motion, std::vector<std::string> images);
+/// Plans the buffer, images last. Without `motion` there is no skin, without `wind` no wind data.
+[[nodiscard]] GltfData plan_gltf_data(const Mesh& mesh,
+                                      const GltfMotion* motion,
+                                      const WindData* wind,
+                                      std::vector<std::string> images);
 
 /// Hands over the buffer in order. Normals and tangents that are not of unit length, which glTF
 /// does not allow, are replaced on the way.
 void write_gltf_data(const Mesh& mesh,
                      const GltfMotion* motion,
+                     const WindData* wind,
                      const GltfData& data,
                      const GltfBytes& write);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 namespace lsys {
@@ -27,15 +28,47 @@ Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     return first == second ? Influence{{first}, {255}} : Influence{{first, second}, {128, 127}};
 }
 
+/// Weights as bytes that add up to 255: each rounded down, the rest to those that lost most.
+Influence influence_of(const BoneWeights& weights) {
+    Influence influence;
+    std::array<float, 4> lost{};
+    int left = 255;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const float wanted = 255.0F * weights.weights[i];
+        const int whole = std::min(static_cast<int>(wanted), left);
+        influence.weights[i] = static_cast<std::uint8_t>(whole);
+        lost[i] = weights.weights[i] > 0.0F ? wanted - static_cast<float>(whole) : -1.0F;
+        left -= whole;
+    }
+    for (; left > 0; --left) {
+        const auto most = std::max_element(lost.begin(), lost.end());
+        ++influence.weights[static_cast<std::size_t>(most - lost.begin())];
+        *most -= 1.0F;
+    }
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        influence.joints[i] = influence.weights[i] > 0 ? weights.joints[i] : std::uint16_t{0};
+    }
+    return influence;
+}
+
+/// Joints and weights of a vertex.
+Influence influence_at(const Mesh& mesh, const GltfMotion& motion, std::size_t vertex) {
+    return motion.bones ? influence_of(motion.bones->weights_of(mesh.segments[vertex],
+                                                                mesh.positions[vertex]))
+                        : influence_of(mesh.segments[vertex], motion.skin);
+}
+
 template <typename Item, typename ItemOf>
-void write_vertices(const Mesh& mesh, const GltfBytes& write, const ItemOf& item_of) {
+void write_vertices(const Mesh& mesh,
+                    const GltfMotion& motion,
+                    const GltfBytes& write,
+                    const ItemOf& item_of) {
     std::vector<std::array<Item, 4>> chunk;
-    const std::span<const VertexSegments> all(mesh.segments);
-    for (std::size_t first = 0; first < all.size(); first += kChunk) {
+    for (std::size_t first = 0; first < mesh.segments.size(); first += kChunk) {
         chunk.clear();
-        for (const VertexSegments& segments :
-             all.subspan(first, std::min(kChunk, all.size() - first))) {
-            chunk.push_back(item_of(segments));
+        const std::size_t end = std::min(first + kChunk, mesh.segments.size());
+        for (std::size_t vertex = first; vertex < end; ++vertex) {
+            chunk.push_back(item_of(influence_at(mesh, motion, vertex)));
         }
         write(std::as_bytes(std::span<const std::array<Item, 4>>(chunk)));
     }
@@ -48,16 +81,31 @@ float time_of(const PlantAnimation& poses, std::uint32_t frame) {
 
 } // namespace
 
+std::uint64_t GltfMotion::time_count() const {
+    return bones ? rotation_count() : poses.frame_count;
+}
+std::uint64_t GltfMotion::translation_count() const {
+    return bones ? 0 : std::uint64_t{poses.frame_count} * moving_joints();
+}
+std::uint64_t GltfMotion::rotation_count() const {
+    if (!bones) {
+        return std::uint64_t{poses.frame_count} * moving_joints();
+    }
+    std::uint64_t count = 0;
+    for (const Bone& bone : bones->joints) {
+        count += bone.keys.size();
+    }
+    return count;
+}
+
 void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
     if (motion.joint_bytes() == 2) {
-        write_vertices<std::uint16_t>(mesh, write, [&](const VertexSegments& segments) {
-            return influence_of(segments, motion.skin).joints;
-        });
+        write_vertices<std::uint16_t>(mesh, motion, write,
+                                      [](const Influence& influence) { return influence.joints; });
         return;
     }
-    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
+    write_vertices<std::uint8_t>(mesh, motion, write, [](const Influence& influence) {
         std::array<std::uint8_t, 4> bytes{};
-        const Influence influence = influence_of(segments, motion.skin);
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             bytes[i] = static_cast<std::uint8_t>(influence.joints[i]);
         }
@@ -66,26 +114,43 @@ void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfB
 }
 
 void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
-    write_vertices<std::uint8_t>(mesh, write, [&](const VertexSegments& segments) {
-        return influence_of(segments, motion.skin).weights;
-    });
+    write_vertices<std::uint8_t>(mesh, motion, write,
+                                 [](const Influence& influence) { return influence.weights; });
 }
 
 void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write) {
     const glm::mat4 identity(1.0F);
     write(std::as_bytes(std::span(&identity, 1)));
-    for (const std::uint32_t segment : motion.skin.segments) {
-        const SegmentPlace& place = motion.poses.frame(0)[segment];
-        const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(place.frame)));
+    const auto put = [&write](const glm::dvec3& base, const glm::dquat& frame) {
+        const glm::dquat back = glm::conjugate(glm::normalize(frame));
         glm::dmat4 inverse = glm::mat4_cast(back);
-        inverse[3] = glm::dvec4(back * -glm::dvec3(place.base), 1.0);
+        inverse[3] = glm::dvec4(back * -base, 1.0);
         const glm::mat4 matrix(inverse);
         write(std::as_bytes(std::span(&matrix, 1)));
+    };
+    if (motion.bones) {
+        for (const Bone& bone : std::span(motion.bones->joints).subspan(1)) {
+            put(bone.place, bone.frame);
+        }
+        return;
+    }
+    for (const std::uint32_t segment : motion.skin.segments) {
+        const SegmentPlace& place = motion.poses.frame(0)[segment];
+        put(glm::dvec3(place.base), glm::dquat(place.frame));
     }
 }
 
 void write_times(const GltfMotion& motion, const GltfBytes& write) {
     std::vector<float> times;
+    if (motion.bones) {
+        for (const Bone& bone : motion.bones->joints) {
+            for (const std::uint32_t key : bone.keys) {
+                times.push_back(time_of(motion.poses, key));
+            }
+        }
+        write(std::as_bytes(std::span<const float>(times)));
+        return;
+    }
     for (std::uint32_t i = 0; i < motion.poses.frame_count; ++i) {
         times.push_back(time_of(motion.poses, i));
     }
@@ -106,6 +171,16 @@ void write_translations(const GltfMotion& motion, const GltfBytes& write) {
 void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
     std::vector<glm::quat> rotations;
     std::vector<std::array<float, 4>> ordered;
+    if (motion.bones) {
+        for (const Bone& bone : motion.bones->joints) {
+            for (const std::uint32_t key : bone.keys) {
+                const glm::quat& q = bone.rotations[key];
+                ordered.push_back({q.x, q.y, q.z, q.w});
+            }
+        }
+        write(std::as_bytes(std::span<const std::array<float, 4>>(ordered)));
+        return;
+    }
     for (const std::uint32_t segment : motion.skin.segments) {
         joint_rotations(motion.poses, segment, rotations);
         ordered.clear();
@@ -116,7 +191,86 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
     }
 }
 
+namespace {
+
+/// Nodes of a light skeleton: each joint is a child of the one that its piece grows from.
+void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
+    std::vector<std::vector<std::size_t>> children(bones.joints.size());
+    for (std::size_t i = 1; i < bones.joints.size(); ++i) {
+        children[bones.joints[i].parent].push_back(first + i);
+    }
+    for (std::size_t i = 0; i < bones.joints.size(); ++i) {
+        const Bone& bone = bones.joints[i];
+        json.object().member("name", i == 0 ? std::string("joints")
+                                            : fmt::format("segment {}", bone.segment));
+        if (i > 0) {
+            const glm::vec3& at = bone.translation;
+            const glm::quat& q = bone.rotations.front();
+            json.member("translation", {at.x, at.y, at.z});
+            json.member("rotation", {q.x, q.y, q.z, q.w});
+        }
+        if (!children[i].empty()) {
+            json.array("children");
+            for (const std::size_t child : children[i]) {
+                json.value(child);
+            }
+            json.end();
+        }
+        json.end();
+    }
+}
+
+void put_bone_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
+    std::size_t key = 0;
+    for (const Bone& bone : motion.bones->joints) {
+        if (bone.keys.empty()) {
+            continue;
+        }
+        const std::size_t count = bone.keys.size();
+        begin_accessor(json, {data.first_view(GltfArray::Times), key * sizeof(float), kGltfFloat,
+                              count, "SCALAR"})
+            .member("min", {static_cast<double>(time_of(motion.poses, bone.keys.front()))})
+            .member("max", {static_cast<double>(time_of(motion.poses, bone.keys.back()))})
+            .end();
+        begin_accessor(json, {data.first_view(GltfArray::Rotations), key * sizeof(glm::quat),
+                              kGltfFloat, count, "VEC4"})
+            .end();
+        key += count;
+    }
+}
+
+/// Channels and samplers of a light skeleton. `accessor`: of the first times.
+void put_bone_animation(JsonWriter& json,
+                        const Bones& bones,
+                        std::size_t first_node,
+                        std::size_t accessor) {
+    if (std::all_of(bones.joints.begin(), bones.joints.end(),
+                    [](const Bone& bone) { return bone.keys.empty(); })) {
+        return; // an animation has at least one channel
+    }
+    json.array("animations").object().member("name", "motion").array("channels");
+    std::size_t sampler = 0;
+    for (std::size_t i = 0; i < bones.joints.size(); ++i) {
+        if (!bones.joints[i].keys.empty()) {
+            json.object().member("sampler", sampler++).object("target");
+            json.member("node", first_node + i).member("path", "rotation").end().end();
+        }
+    }
+    json.end().array("samplers");
+    for (std::size_t i = 0; i < sampler; ++i) {
+        json.object().member("input", accessor + 2 * i);
+        json.member("output", accessor + 2 * i + 1).end();
+    }
+    json.end().end().end();
+}
+
+} // namespace
+
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first) {
+    if (motion.bones) {
+        put_bone_nodes(json, *motion.bones, first);
+        return;
+    }
     json.object().member("name", "joints");
     if (motion.moving_joints() > 0) {
         json.array("children");
@@ -140,7 +294,11 @@ void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t fir
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
     const std::uint32_t frames = motion.poses.frame_count;
     const std::size_t binds = data.first_view(GltfArray::InverseBinds);
-    begin_accessor(json, {binds, {}, kGltfFloat, motion.skin.joint_count(), "MAT4"}).end();
+    begin_accessor(json, {binds, {}, kGltfFloat, motion.joint_count(), "MAT4"}).end();
+    if (motion.bones) {
+        put_bone_accessors(json, motion, data);
+        return;
+    }
     begin_accessor(json, {data.first_view(GltfArray::Times), {}, kGltfFloat, frames, "SCALAR"})
         .member("min", {0})
         .member("max", {static_cast<double>(time_of(motion.poses, frames - 1))})
@@ -161,10 +319,14 @@ void put_skin_and_animation(JsonWriter& json,
                             std::size_t accessor) {
     json.array("skins").object().member("name", "plant");
     json.member("inverseBindMatrices", accessor).member("skeleton", first_node).array("joints");
-    for (std::size_t i = 0; i < motion.skin.joint_count(); ++i) {
+    for (std::size_t i = 0; i < motion.joint_count(); ++i) {
         json.value(first_node + i);
     }
     json.end().end().end();
+    if (motion.bones) {
+        put_bone_animation(json, *motion.bones, first_node, accessor + 1);
+        return;
+    }
     const std::size_t moving = motion.moving_joints();
     if (moving == 0) { // an animation has at least one channel
         return;

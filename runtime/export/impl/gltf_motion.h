@@ -2,11 +2,14 @@
 // that turns and shifts each of them (glTF 2.0, sections 3.7.3 and 3.11).
 #pragma once
 
+#include "runtime/export/impl/bones.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/skin.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace lsys {
@@ -14,12 +17,20 @@ namespace lsys {
 struct GltfData;
 
 struct GltfMotion {
-    Skin skin;
+    Skin skin;                   // without `bones`
     const PlantAnimation& poses; // at least one frame
+    std::optional<Bones> bones;  // a light skeleton instead of `skin`
 
+    [[nodiscard]] std::size_t joint_count() const {
+        return bones ? bones->joints.size() : skin.joint_count();
+    }
     [[nodiscard]] std::size_t moving_joints() const { return skin.segments.size(); }
     /// Bytes of the number of a joint.
-    [[nodiscard]] std::size_t joint_bytes() const { return skin.joint_count() <= 256 ? 1 : 2; }
+    [[nodiscard]] std::size_t joint_bytes() const { return joint_count() <= 256 ? 1 : 2; }
+    /// Counts of items in the arrays of the animation.
+    [[nodiscard]] std::uint64_t time_count() const;
+    [[nodiscard]] std::uint64_t translation_count() const;
+    [[nodiscard]] std::uint64_t rotation_count() const;
 };
 
 using GltfBytes = std::function<void(std::span<const std::byte>)>;
@@ -34,7 +45,8 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
 /// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
-/// Accessors: inverse binds, times, then two for each joint that moves.
+/// Accessors: inverse binds, times, then two for each joint that moves. With bones: inverse binds,
+/// then times and rotations of each joint with keys.
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data);
 /// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,

@@ -18,7 +18,7 @@ struct Attribute {
     bool normalized = false;
 };
 /// Indexed by GltfArray.
-constexpr std::array<Attribute, 7> kAttributes{{
+constexpr std::array<Attribute, 9> kAttributes{{
     {"POSITION", kGltfFloat, "VEC3"},
     {"NORMAL", kGltfFloat, "VEC3"},
     {"TEXCOORD_0", kGltfFloat, "VEC2"},
@@ -26,6 +26,8 @@ constexpr std::array<Attribute, 7> kAttributes{{
     {"COLOR_0", kGltfByte, "VEC4", true},
     {"JOINTS_0", kGltfByte, "VEC4"},
     {"WEIGHTS_0", kGltfByte, "VEC4", true},
+    {"TEXCOORD_1", kGltfFloat, "VEC2"},
+    {"TEXCOORD_2", kGltfFloat, "VEC2"},
 }};
 static_assert(kAttributes.size() == static_cast<std::size_t>(GltfArray::Indices));
 

@@ -31,7 +31,7 @@ public:
 private:
     std::uint32_t count_;
     BarkNoise wander_;
-    float begin_; // of wander_, at arc 0
+    float begin_; // value of wander_ at arc 0
 };
 
 } // namespace lsys

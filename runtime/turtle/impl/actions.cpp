@@ -62,7 +62,7 @@ bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
-    // Turns of the first heading also move the second one, if any module follows it.
+    // A turn also changes the angle to the second heading, which quick actions do not.
     const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
                                    !any_has(bytecode, TurtleInfo::ChangesAngle);
     std::vector<Action> symbol_actions;

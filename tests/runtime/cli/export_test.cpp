@@ -177,6 +177,17 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     refused({"--grow", "--frames", "2", "--wind", "1,0,0"}, "do not go together");
     refused({"--grow", "--frames", "2", "--stream"}, "do not go together");
     refused({"--frames", "2"}, "--gravity, --wind or --grow");
+    const auto looped = [&](std::vector<std::string> more, const std::string& part) {
+        more.insert(more.end(), {"--loop"});
+        refused(more, part);
+    };
+    looped({"--wind", "1,0,0,1"}, "--frames N of at least 3");
+    looped({"--wind", "1,0,0,1", "--frames", "2"}, "--frames N of at least 3");
+    looped({"--wind", "1,0,0", "--frames", "9"}, "--wind 8,0,0,0.5");
+    looped({"--gravity", "9.81", "--frames", "9"}, "--wind 8,0,0,0.5");
+    looped({"--grow", "--frames", "9"}, "do not go together");
+    refused({"--wind", "1,0,0", "--bones", "9"}, "glb or gltf");
+    refused({"--wind", "1,0,0", "--frames", "9", "--bones", "1"}, "whole number from 2");
     const LscRun piped =
         run_lsc({"export", "-", "-o", "-", "--format", "glb", "--grow", "--frames", "2"}, kTree);
     CHECK(piped.status == 2);
@@ -207,6 +218,17 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
         REQUIRE(run.status == 0);
         CHECK(run.out == read_text(folder / "tree.glb"));
     }
+    // Joints of the light skeleton turn; each of those of all segments shifts too.
+    const auto has_shifts = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"export", "-", "-o", "-", "--format", "gltf"});
+        const LscRun run = with(more);
+        REQUIRE(run.status == 0);
+        return run.out.find("\"path\":\"translation\"") != std::string::npos;
+    };
+    CHECK(!has_shifts({}));
+    CHECK(!has_shifts({"--bones", "3"}));
+    CHECK(has_shifts({"--bones", "all"}));
+    CHECK(has_shifts({"--bones", "0"}));
     // Without frames there is no skin.
     const LscRun rest = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
     CHECK(rest.out.find("skins") == std::string::npos);
@@ -222,7 +244,7 @@ TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {
     CHECK(memory.err.find("`--frames`") != std::string::npos);
     const LscRun joints =
         run_lsc({"export", "-", "-o", folder / "a.glb", "--frames", "4", "--wind", "40,0,0",
-                 "--sides", "3"},
+                 "--sides", "3", "--bones", "all"},
                 "#n = 11; #set angle 20; #w : !(0.1) X(2);"
                 "#p : X(l) : * : F(l, 0.01) [ + X(l*0.8) ] [ & X(l*0.8) ] [ - /(90) X(l*0.8) ];");
     CHECK(joints.status == 3);
@@ -338,4 +360,32 @@ TEST_CASE("a mesh file of #object lies beside its grammar") {
     const LscRun drawn = run_lsc({"dump", "--stage", "skeleton", folder / "plant.lsys"}, "");
     CHECK(drawn.out.find("object 1 \"leaf.obj\" parent 0 order 0 at (0, 7, 0)") !=
           std::string::npos);
+}
+
+TEST_CASE("a loop in numbered files ends with its first file, and begins at no rest") {
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--frames", "7", "--fps",
+                                "6", "--wind", "8,0,0,0.5", "--loop", "-v"},
+                               kTree);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.find("the loop ends within") != std::string::npos);
+    CHECK(count_files(folder) == 7);
+    CHECK(read_text(folder / "tree.0001.stl") == read_text(folder / "tree.0007.stl"));
+    CHECK(read_text(folder / "tree.0001.stl") != read_text(folder / "tree.0004.stl"));
+}
+
+TEST_CASE("wind data are attributes of glTF, which other formats do not have") {
+    const ScratchFolder folder;
+    const LscRun plain = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
+    CHECK(plain.out.find("TEXCOORD_1") == std::string::npos);
+    const LscRun wind =
+        run_lsc({"export", "-", "-o", "-", "--format", "gltf", "--wind-data"}, kTree);
+    REQUIRE(wind.status == 0);
+    CHECK(wind.out.find("\"TEXCOORD_1\":") != std::string::npos);
+    CHECK(wind.out.find("\"TEXCOORD_2\":") != std::string::npos);
+    CHECK(wind.out.find("skins") == std::string::npos);
+    const LscRun refusal = run_lsc({"export", "-", "-o", folder / "a.ply", "--wind-data"}, kTree);
+    CHECK(refusal.status == 2);
+    CHECK(refusal.err.find("glb and gltf") != std::string::npos);
+    CHECK(count_files(folder) == 0);
 }

@@ -2,6 +2,7 @@
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -63,6 +64,55 @@ TEST_CASE("the same key gives the same forest on any number of threads") {
     CHECK(one.trees == 20'000);
     CHECK(one.digest == two.digest);
     CHECK(one.digest != other.digest);
+}
+
+TEST_CASE("a forest of whole trees has a mesh for each hero and a node for each tree") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    const auto document_of = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"forest", folder / "bush.lsys", "--count", "500", "--instances",
+                                   "trees", "-o", folder / "wood.gltf"});
+        const LscRun run = run_lsc(more, "");
+        INFO(run.err);
+        REQUIRE(run.status == 0);
+        return nlohmann::json::parse(read_text(folder / "wood.gltf"));
+    };
+    for (const std::size_t heroes : {1U, 4U, 10U}) {
+        const nlohmann::json document = document_of({"--heroes", std::to_string(heroes)});
+        CHECK(document["meshes"].size() == heroes + 1); // and the ground
+        std::size_t groups = 0;
+        std::uint64_t trees = 0;
+        for (const nlohmann::json& node : document["nodes"]) {
+            if (node.contains("extensions")) {
+                const std::size_t translations =
+                    node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"];
+                trees += document["accessors"][translations]["count"].get<std::uint64_t>();
+                ++groups;
+            }
+        }
+        CHECK(groups == heroes); // in one cell
+        CHECK(trees == 500);
+        CHECK(document["nodes"][0]["extras"]["branches"] == 500);
+    }
+    CHECK(document_of({"--cell", "25"})["meshes"].size() == 11);
+    const nlohmann::json expanded = document_of({"--expand"});
+    std::size_t trees = 0;
+    for (const nlohmann::json& node : expanded["nodes"]) {
+        trees += node.contains("rotation") ? 1U : 0U;
+    }
+    CHECK(trees == 500);
+    CHECK_FALSE(expanded.contains("extensionsUsed"));
+
+    const Forest one = grow({folder / "bush.lsys", "--instances", "trees", "--threads", "1"});
+    const Forest two = grow({folder / "bush.lsys", "--instances", "trees", "--threads", "2"});
+    CHECK(one.digest == two.digest);
+    const LscRun refused = run_lsc({"forest", folder / "bush.lsys", "--instances", "trees", "--rho",
+                                    "0.5", "-o", folder / "no.glb"},
+                                   "");
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find("--instances trees shows heroes as they are, so --rho does not go with "
+                           "it") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "no.glb"));
 }
 
 TEST_CASE("tiles of a forest together are the whole, tree by tree") {

@@ -2,6 +2,9 @@
 #include "tests/runtime/plants.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 
 using namespace lsys;
 using namespace lsys::test;
@@ -53,4 +56,97 @@ TEST_CASE("between frames no step is longer than the plant's, which stays as it 
     CHECK(record(physics, 2, 0.0F).frames_per_second == 24.0F);
     PlantPhysics nothing(Skeleton{}, {});
     CHECK(record(nothing, 3, 24.0F).places.empty());
+}
+
+TEST_CASE("a loop ends where it begins, and goes on as it begins") {
+    const Skeleton plant = tree(1, 3);
+    PhysicsOptions options;
+    options.threads = 1;
+    options.wind = {{4.0F, 0.0F, 1.0F}, 0.5F};
+    for (const std::uint32_t frames : {25U, 62U}) {
+        PlantPhysics physics(plant, options);
+        const PlantLoop loop = record_loop(physics, frames, 20.0F);
+        const PlantAnimation& clip = loop.animation;
+        REQUIRE(clip.frame_count == frames);
+        CHECK(physics.options().gust_period == 0.0F);
+        CHECK(physics.options().time_step == options.time_step);
+        const auto base = [&](std::uint32_t frame, std::size_t segment) {
+            return glm::dvec3(clip.frame(frame)[segment].base);
+        };
+        double most = 0.0; // m, way within the loop
+        double step = 0.0; // m/frame, change of the velocity
+        double seam = 0.0; // the same at the seam
+        for (std::size_t i = 0; i < plant.segments.size(); ++i) {
+            REQUIRE(clip.frame(0)[i].base == clip.frame(frames - 1)[i].base);
+            REQUIRE(clip.frame(0)[i].frame == clip.frame(frames - 1)[i].frame);
+            for (std::uint32_t frame = 1; frame + 1 < frames; ++frame) {
+                most = std::max(most, glm::length(base(frame, i) - base(0, i)));
+                step = std::max(step, glm::length(base(frame + 1, i) - 2.0 * base(frame, i) +
+                                                  base(frame - 1, i)));
+            }
+            seam = std::max(seam, glm::length(base(1, i) - 2.0 * base(0, i) + base(frames - 2, i)));
+            const std::uint32_t parent = plant.segments[i].parent;
+            if (parent < i) { // segments stay joined
+                const SegmentPlace& at = clip.frame(frames / 2)[parent];
+                const glm::vec3 end = at.base + plant.segments[parent].length * heading(at.frame);
+                REQUIRE(glm::length(end - clip.frame(frames / 2)[i].base) < 1e-4F);
+            }
+        }
+        CHECK(most > 0.0);
+        CHECK(seam <= 3.0 * step + 1e-6);
+        CHECK(loop.mismatch < 0.05);
+    }
+}
+
+TEST_CASE("gusts repeat after their period") {
+    const Skeleton plant = tree(0, 1);
+    PhysicsOptions options;
+    options.threads = 1;
+    options.time_step = 0.05F;
+    options.wind = {{3.0F, 0.0F, 0.0F}, 0.8F};
+    options.gust_period = 2.0F;
+    PlantPhysics physics(plant, options);
+    const auto move_on = [&] {
+        for (int step = 0; step < 40; ++step) {
+            physics.step();
+        }
+        Skeleton pose;
+        physics.pose(pose);
+        return tip(pose.segments.back());
+    };
+    for (int i = 0; i < 100; ++i) {
+        move_on();
+    }
+    const glm::vec3 before = move_on();
+    CHECK(glm::length(move_on() - before) < 1e-4F);
+    options.gust_period = 0.0F;
+    physics.set(options);
+    CHECK(move_on() != before);
+}
+
+TEST_CASE("a plant at the places of its pose is its pose") {
+    Skeleton plant = tree(1, 3);
+    PlacedObject leaf;
+    leaf.kind = TurtleOperation::Leaf;
+    leaf.parent = 2;
+    leaf.position = tip(plant.segments[2]);
+    plant.objects.push_back(leaf);
+    plant.corners = {{0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
+    plant.polygons.push_back({.first_corner = 0, .corner_count = 3, .parent = 1});
+    PhysicsOptions options;
+    options.threads = 1;
+    options.ground = false;
+    options.wind.velocity = {6.0F, 0.0F, 2.0F};
+    PlantPhysics physics(plant, options);
+    const PlantAnimation clip = record(physics, 5, 20.0F);
+    Skeleton expected;
+    physics.pose(expected);
+    Skeleton posed;
+    pose_at(plant, clip.frame(4), posed);
+    CHECK(glm::length(posed.objects[0].position - expected.objects[0].position) < 1e-5F);
+    CHECK(glm::length(posed.objects[0].frame - expected.objects[0].frame) < 1e-5F);
+    CHECK(glm::length(posed.segments[5].base - expected.segments[5].base) < 1e-5F);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(glm::length(posed.corners[i] - expected.corners[i]) < 1e-5F);
+    }
 }

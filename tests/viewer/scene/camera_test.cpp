@@ -40,6 +40,13 @@ TEST_CASE("parts of a camera may be left out") {
     CHECK(read.value().eye == otherwise.eye);
     CHECK(read.value().field_of_view == 20.0F);
     CHECK(parse_camera("", otherwise).value() == otherwise);
+
+    Camera first;
+    first.eye = {1.0F, 2.0F, 30.0F};
+    const Camera narrow = with_parts("fov 20", first);
+    CHECK(narrow.eye == first.eye);
+    CHECK(narrow.field_of_view == 20.0F);
+    CHECK(with_parts("target 1,2,30", first) == first); // eye and target at one place
 }
 
 TEST_CASE("what is no camera is refused in words") {

@@ -160,7 +160,7 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) const {
     while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // In front of the eye, or at the point it looks at from above.
+    // Centre of the shadow map: ahead of the eye, not beyond the point of the ground it looks at.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);

@@ -1,0 +1,58 @@
+// Bones: a light skeleton that moves a mesh nearly as all its segments do. The tree of segments is
+// cut into connected pieces, and each piece has one joint at its base, a child of the joint that the
+// piece grows from. Joints turn and do not shift, so that pieces stay joined and an animator can
+// pose them. Weights change linearly between the middles of pieces (linear blend skinning with
+// smooth weights).
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "runtime/physics/animation.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Joints of a place and their weights, the greatest first; the weights add up to 1. Unused ones
+/// have weight 0 and joint 0.
+struct BoneWeights {
+    std::array<std::uint16_t, 4> joints{};
+    std::array<float, 4> weights{};
+};
+
+/// A joint. Joint 0 stands still at the origin, in the axes of the world.
+struct Bone {
+    std::uint32_t segment = kNoSegment; // at whose base the joint is; kNoSegment: joint 0
+    std::uint32_t parent = 0;           // a joint before this one
+    glm::dvec3 place{0.0};              // in the first frame, in the world
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0};
+    glm::vec3 translation{0.0F}; // relative to the parent
+    /// Relative to the parent, in all frames; consecutive ones have a positive dot product.
+    std::vector<glm::quat> rotations;
+    /// Frames with a key, rising; the rotations between two follow from them. Empty: the rotation
+    /// never changes.
+    std::vector<std::uint32_t> keys;
+};
+
+struct Bones {
+    std::vector<Bone> joints;
+    /// Weights at the base and at the tip of each segment.
+    std::vector<std::array<BoneWeights, 2>> segments;
+    const Skeleton* plant = nullptr; // in the first frame
+
+    /// Weights of a vertex at `position` in the first frame that hangs on `bound`.
+    [[nodiscard]] BoneWeights weights_of(const VertexSegments& bound,
+                                         const glm::vec3& position) const;
+};
+
+/// At most `max_joints` joints, at least 2: each cut goes where the greatest distance of a segment
+/// from its place is. `plant` is the first frame of `animation`, and outlives the result.
+[[nodiscard]] Bones
+make_bones(const Skeleton& plant, const PlantAnimation& animation, std::uint32_t max_joints);
+
+} // namespace lsys

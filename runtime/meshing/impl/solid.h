@@ -1,0 +1,23 @@
+// One closed surface around the whole plant: MeshMethod::Solid.
+#pragma once
+
+#include "runtime/meshing/impl/mesh_builder.h"
+#include "runtime/meshing/mesh.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace lsys {
+
+/// Appends the surface of the union of all segments, as cones with round ends, and of the triangles
+/// of `flat`, each at least MeshOptions::min_width wide. `flat` has colours and segments; nothing
+/// may be in `builder` before. The surface is closed, turned outwards and does not cross itself; no
+/// part of it encloses a hollow. `shells`: number of its separate pieces. Returns a Stop if the
+/// surface needs more memory than the options allow; the builder's status tells of the rest.
+[[nodiscard]] std::optional<Stop> append_solid(const Skeleton& skeleton,
+                                               const Mesh& flat,
+                                               const MeshOptions& options,
+                                               MeshBuilder& builder,
+                                               std::uint64_t& shells);
+
+} // namespace lsys

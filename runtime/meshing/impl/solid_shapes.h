@@ -1,0 +1,46 @@
+// The parts of MeshMethod::Solid: cones with round ends, and triangles with a thickness. Lengths in
+// metres.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// All balls about the axis from a corner to the next, with radii between those of the ends; or all
+/// balls of `base_radius` about a triangle.
+struct SolidShape {
+    std::array<glm::dvec3, 3> corners{}; // of a cone: the ends of its axis
+    double base_radius = 0.0;
+    double tip_radius = 0.0;
+    bool is_triangle = false;
+    std::uint16_t palette = 0;
+    std::uint32_t segment = kNoSegment; // that carries the shape
+    // Of a cone:
+    glm::dvec3 axis{};       // unit length
+    double length = 0.0;     // of the axis; 0: a ball
+    double taper = 0.0;      // loss of radius per length
+    double foot = 0.0;       // distance from a point to its nearest ball along the axis, per radius
+    double min_radius = 0.0; // radius at the thin end
+};
+
+/// `distance`: from the surface of the shape, negative within; changes by at most 1 per metre.
+/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper.
+struct ShapeProbe {
+    double distance = 0.0;
+    double radius = 0.0;
+};
+inline constexpr double kMaxTaper = 0.06;
+
+[[nodiscard]] SolidShape
+make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& tip, double tip_radius);
+[[nodiscard]] SolidShape make_plate(const std::array<glm::dvec3, 3>& corners, double radius);
+
+[[nodiscard]] ShapeProbe probe(const SolidShape& shape, const glm::dvec3& point);
+
+} // namespace lsys

@@ -1,0 +1,472 @@
+#include "runtime/meshing/impl/tetrahedra.h"
+
+#include "runtime/base/workers.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using Node = glm::ivec3; // in units of the grid
+
+// Three bisections halve the edges of a tetrahedron.
+constexpr int kHalvings = 18;
+constexpr int kUnits = 1 << kHalvings; // along the root cube
+constexpr int kMaxGeneration = 3 * kHalvings;
+constexpr int kPieceGeneration = 6; // of tetrahedra that are worked on in parallel
+/// Growth of the cells per metre from the surface. Neighbours divide their common edge alike if the
+/// wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206, the
+/// middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart, and that is
+/// less than 1.79 times its step.
+constexpr double kGrowth = 0.1;
+constexpr double kMaxGrowth = 0.16;
+/// Size of cells at the edge of the base, of that elsewhere: keeps the edge sharp.
+constexpr double kBaseCells = 0.25;
+/// The triangles between vertices on a curve lie within it. Cones are wider by this part of the
+/// square of their cells, per radius.
+constexpr double kChord = 0.031;
+/// Bound of the change of a distance per metre.
+constexpr double kSlope = 1.02;
+constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
+/// Distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
+constexpr double kEdgeMargin = 0.02;
+
+struct Tetrahedron {
+    std::array<Node, 4> nodes{};
+    std::array<double, 4> distances{}; // from the surface
+    int tag = 3;                       // the edge to bisect is that from nodes[0] to nodes[tag]
+    int generation = 0;
+};
+
+struct Grid {
+    glm::dvec3 origin{};
+    double side = 1.0; // of the root cube
+
+    /// The middle between two nodes.
+    [[nodiscard]] glm::dvec3 middle(const Node& a, const Node& b) const {
+        return origin + glm::dvec3(a + b) * (0.5 * side / kUnits);
+    }
+    [[nodiscard]] glm::dvec3 position(const Node& node) const { return middle(node, node); }
+    [[nodiscard]] double step(int generation) const {
+        return side / static_cast<double>(1 << (generation / 3)) *
+               kSteps[static_cast<std::size_t>(generation % 3)];
+    }
+};
+
+/// The bounds of all shapes, with room around them. The ground, or the lowest point, is at a third
+/// of the height, and therefore between the nodes of every generation.
+Grid make_grid(const Solid& solid) {
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high = -low;
+    double thinnest = std::numeric_limits<double>::max(); // radius
+    for (const SolidShape& shape : solid.shapes) {
+        thinnest = std::min({thinnest, shape.base_radius, shape.tip_radius});
+        const double radius = std::max(shape.base_radius, shape.tip_radius);
+        for (const glm::dvec3& corner : shape.corners) {
+            low = glm::min(low, corner - radius);
+            high = glm::max(high, corner + radius);
+        }
+    }
+    constexpr double kRoom = 1.6;
+    const glm::dvec3 extent = high - low;
+    Grid grid;
+    const double least = kRoom * std::max({extent.x, extent.y, extent.z});
+    // Put the step of the thinnest shapes, which are the most, halfway between two generations.
+    constexpr double kPhase = 0.9;
+    grid.side = kPhase * solid.cell * thinnest;
+    while (grid.side < least) {
+        grid.side *= 2.0;
+    }
+    const double smaller = grid.side * (grid.side * kSteps[2] >= least ? kSteps[2] : kSteps[1]);
+    grid.side = smaller >= least ? smaller : grid.side;
+    grid.origin = 0.5 * (low + high) - 0.49 * grid.side;
+    grid.origin.y = solid.ground.value_or(low.y) - grid.side / 3.0;
+    return grid;
+}
+
+struct Probe {
+    double distance = std::numeric_limits<double>::max();
+    std::uint32_t shape = 0;
+    bool on_ground = false;
+};
+
+std::uint64_t key_of(const Node& a, const Node& b) {
+    const Node sum = a + b; // names an edge: edges have different middles
+    constexpr unsigned kBits = 21;
+    return (static_cast<std::uint64_t>(sum.x) << (2 * kBits)) |
+           (static_cast<std::uint64_t>(sum.y) << kBits) | static_cast<std::uint64_t>(sum.z);
+}
+
+/// Whether the corners b, c, d are counter-clockwise seen from a, from the other side.
+bool is_positive(const std::array<Node, 4>& nodes) {
+    const glm::i64vec3 a(nodes[0]);
+    const glm::i64vec3 b = glm::i64vec3(nodes[1]) - a;
+    const glm::i64vec3 c = glm::i64vec3(nodes[2]) - a;
+    const glm::i64vec3 d = glm::i64vec3(nodes[3]) - a;
+    return b.x * (c.y * d.z - c.z * d.y) + b.y * (c.z * d.x - c.x * d.z) +
+               b.z * (c.x * d.y - c.y * d.x) >
+           0;
+}
+
+/// The surface within one tetrahedron and its descendants.
+class Cutter {
+public:
+    Cutter(const Solid& solid, const Grid& grid, std::atomic<std::uint64_t>& bytes_left)
+        : solid_(solid), grid_(grid), bytes_left_(bytes_left) {}
+
+    using Visit = std::function<void(const Tetrahedron&, std::span<const std::uint32_t>)>;
+
+    /// Visits the tetrahedra that the surface may pass through: those of generation `end`, and
+    /// earlier ones that are small enough. `near`: the shapes that determine distance and size of
+    /// cells within.
+    void visit_leaves(const Tetrahedron& tetrahedron,
+                      std::span<const std::uint32_t> near,
+                      int end,
+                      const Visit& visit) {
+        near_.assign(near.begin(), near.end());
+        descend(tetrahedron, 0, end, visit);
+    }
+    void cut_leaves(const Tetrahedron& tetrahedron, std::span<const std::uint32_t> near) {
+        visit_leaves(tetrahedron, near, kMaxGeneration + 1,
+                     [this](const Tetrahedron& leaf, std::span<const std::uint32_t> shapes) {
+                         cut(leaf, shapes);
+                     });
+    }
+
+    [[nodiscard]] Probe probe(const glm::dvec3& point, std::span<const std::uint32_t> near) const {
+        Probe best;
+        for (const std::uint32_t number : near) {
+            const double distance = measure(solid_.shapes[number], point).distance;
+            if (distance < best.distance) {
+                best = {distance, number, false};
+            }
+        }
+        const double whole = above_ground(best.distance, point);
+        best.on_ground = whole > best.distance;
+        best.distance = whole;
+        return best;
+    }
+
+    [[nodiscard]] SolidSurface take_surface() { return std::move(surface_); }
+    [[nodiscard]] std::vector<std::uint64_t> take_keys() { return std::move(keys_); }
+    [[nodiscard]] bool overflow() const { return overflow_; }
+
+private:
+    struct Size {
+        double distance = 0.0;
+        double size = 0.0; // of cells
+    };
+
+    [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
+        const ShapeProbe at = lsys::probe(shape, point);
+        double cell = solid_.cell * at.radius;
+        double away = 0.0; // from the base
+        if (solid_.ground) {
+            const double height = std::abs(point.y - *solid_.ground);
+            const double at_base = kBaseCells * cell + kGrowth * height;
+            away = at_base < cell ? height : 0.0;
+            cell = std::min(cell, at_base);
+        }
+        const double distance =
+            at.distance - (shape.is_triangle ? 0.0 : kChord * cell * cell / at.radius);
+        // Of a base, its cells have grown with `away` already.
+        return {distance, cell + kGrowth * std::max(std::abs(distance) - away, 0.0)};
+    }
+
+    [[nodiscard]] double above_ground(double distance, const glm::dvec3& point) const {
+        return solid_.ground ? std::max(distance, *solid_.ground - point.y) : distance;
+    }
+
+    /// Visits a tetrahedron whose shapes are near_[first, end of near_).
+    void descend(const Tetrahedron& tetrahedron,
+                 std::size_t first,
+                 int end, // NOLINT(bugprone-easily-swappable-parameters)
+                 const Visit& visit) {
+        const std::size_t last = near_.size();
+        if (overflow_) {
+            return;
+        }
+        if (tetrahedron.generation == end) {
+            visit(tetrahedron, std::span(near_).subspan(first));
+            return;
+        }
+        const Node& from = tetrahedron.nodes[0];
+        const Node& to = tetrahedron.nodes[static_cast<std::size_t>(tetrahedron.tag)];
+        const glm::dvec3 middle = grid_.middle(from, to);
+        double reach = 0.0; // from the middle
+        for (const Node& node : tetrahedron.nodes) {
+            reach = std::max(reach, glm::length(grid_.position(node) - middle));
+        }
+        probes_.resize(last - first);
+        double nearest = std::numeric_limits<double>::max();
+        double size = std::numeric_limits<double>::max();
+        for (std::size_t i = first; i < last; ++i) {
+            const Size at = measure(solid_.shapes[near_[i]], middle);
+            probes_[i - first] = at;
+            nearest = std::min(nearest, at.distance);
+            size = std::min(size, at.size);
+        }
+        const double distance = above_ground(nearest, middle);
+        if (std::abs(distance) > kSlope * reach) {
+            return;
+        }
+        const bool is_leaf =
+            tetrahedron.generation == kMaxGeneration || grid_.step(tetrahedron.generation) <= size;
+        const double next = is_leaf ? 0.0 : grid_.step(tetrahedron.generation + 1);
+        for (std::size_t i = first; i < last; ++i) {
+            const Size& at = probes_[i - first];
+            if (at.distance <= nearest + 2.0 * kSlope * reach ||
+                at.size - kMaxGrowth * reach < next) {
+                near_.push_back(near_[i]);
+            }
+        }
+        if (is_leaf) {
+            visit(tetrahedron, std::span(near_).subspan(last));
+        } else {
+            const Node node = (from + to) / 2;
+            descend(half_of(tetrahedron, node, distance, true), last, end, visit);
+            descend(half_of(tetrahedron, node, distance, false), last, end, visit);
+        }
+        near_.resize(last);
+    }
+
+    static Tetrahedron
+    half_of(const Tetrahedron& whole, const Node& middle, double distance, bool low) {
+        Tetrahedron half = whole;
+        const auto tag = static_cast<std::size_t>(whole.tag);
+        for (std::size_t i = 0; i < tag && !low; ++i) {
+            half.nodes[i] = whole.nodes[i + 1];
+            half.distances[i] = whole.distances[i + 1];
+        }
+        half.nodes[tag] = middle;
+        half.distances[tag] = distance;
+        half.tag = whole.tag > 1 ? whole.tag - 1 : 3;
+        half.generation = whole.generation + 1;
+        return half;
+    }
+
+    /// The vertex on the edge between a node within and one outside.
+    std::uint32_t vertex(const Tetrahedron& tetrahedron,
+                         std::size_t within,
+                         std::size_t outside,
+                         std::span<const std::uint32_t> near) {
+        const Node& a = tetrahedron.nodes[within];
+        const Node& b = tetrahedron.nodes[outside];
+        const std::uint64_t key = key_of(a, b);
+        const auto [found, is_new] =
+            vertex_of_.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
+        if (!is_new) {
+            return found->second;
+        }
+        const glm::dvec3 from = grid_.position(a);
+        const glm::dvec3 to = grid_.position(b);
+        double low = 0.0;
+        double high = 1.0;
+        double at_low = tetrahedron.distances[within];
+        double at_high = tetrahedron.distances[outside];
+        // Regula falsi, with the weight of an end halved when it stays (Dowell and Jarratt 1971).
+        constexpr int kRounds = 8;
+        double t = 0.5;
+        int side = 0;
+        for (int round = 0; round < kRounds; ++round) {
+            t = low + (high - low) * (at_low / (at_low - at_high));
+            const double at = probe(from + t * (to - from), near).distance;
+            if (at < 0.0) {
+                low = t;
+                at_low = at;
+                at_high *= side < 0 ? 0.5 : 1.0;
+                side = -1;
+            } else {
+                high = t;
+                at_high = at;
+                at_low *= side > 0 ? 0.5 : 1.0;
+                side = 1;
+            }
+        }
+        t = std::clamp(t, kEdgeMargin, 1.0 - kEdgeMargin);
+        SolidVertex made;
+        made.position = from + t * (to - from);
+        const Probe at = probe(made.position, near);
+        made.shape = at.shape;
+        made.on_ground = at.on_ground;
+        if (made.on_ground) {
+            made.position.y = *solid_.ground;
+        }
+        surface_.vertices.push_back(made);
+        keys_.push_back(key);
+        return found->second;
+    }
+
+    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned) {
+        surface_.triangles.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
+    }
+
+    /// Adds the triangles between the nodes within and those outside.
+    void cut(const Tetrahedron& tetrahedron, std::span<const std::uint32_t> near) {
+        // Nodes within first.
+        std::array<std::size_t, 4> order{0, 1, 2, 3};
+        const auto is_within = [&](std::size_t i) { return tetrahedron.distances[i] < 0.0; };
+        const auto outside = std::stable_partition(order.begin(), order.end(), is_within);
+        const auto count = outside - order.begin();
+        if (count == 0 || count == 4) {
+            return;
+        }
+        std::array<Node, 4> nodes;
+        std::transform(order.begin(), order.end(), nodes.begin(),
+                       [&](std::size_t i) { return tetrahedron.nodes[i]; });
+        const bool turned = !is_positive(nodes);
+        const std::size_t before = keys_.size();
+        const auto on = [&](std::size_t a, std::size_t b) {
+            return vertex(tetrahedron, order[a], order[b], near);
+        };
+        if (count == 1) {
+            const std::uint32_t first = on(0, 1);
+            const std::uint32_t second = on(0, 2);
+            add_triangle(first, second, on(0, 3), turned);
+        } else if (count == 3) {
+            const std::uint32_t first = on(0, 3);
+            const std::uint32_t second = on(1, 3);
+            add_triangle(first, second, on(2, 3), turned);
+        } else {
+            const std::uint32_t first = on(0, 2);
+            const std::uint32_t second = on(0, 3);
+            const std::uint32_t third = on(1, 3);
+            add_quad({first, second, third, on(1, 2)}, turned);
+        }
+        take((keys_.size() - before) * kVertexBytes + (count == 2 ? 2 : 1) * kTriangleBytes);
+    }
+
+    /// Divides a quad along its shorter diagonal.
+    void add_quad(const std::array<std::uint32_t, 4>& corners, bool turned) {
+        const auto square = [&](std::size_t a, std::size_t b) {
+            const glm::dvec3 line =
+                surface_.vertices[corners[a]].position - surface_.vertices[corners[b]].position;
+            return glm::dot(line, line);
+        };
+        const std::size_t first = square(0, 2) <= square(1, 3) ? 0 : 1;
+        add_triangle(corners[first], corners[first + 1], corners[first + 2], turned);
+        add_triangle(corners[first], corners[first + 2], corners[(first + 3) % 4], turned);
+    }
+
+    void take(std::uint64_t bytes) {
+        std::uint64_t left = bytes_left_.load();
+        while (left >= bytes && !bytes_left_.compare_exchange_weak(left, left - bytes)) {
+        }
+        overflow_ = overflow_ || left < bytes;
+    }
+
+    // With the table of edges, and both copies while pieces are joined.
+    static constexpr std::uint64_t kVertexBytes = 2 * sizeof(SolidVertex) + 96;
+    static constexpr std::uint64_t kTriangleBytes = 24;
+
+    const Solid& solid_;
+    const Grid& grid_;
+    std::atomic<std::uint64_t>& bytes_left_;
+    bool overflow_ = false;
+    std::vector<std::uint32_t> near_; // numbers of shapes, those of an ancestor before its child's
+    std::vector<Size> probes_;
+    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
+    std::vector<std::uint64_t> keys_; // of the vertices
+    SolidSurface surface_;
+};
+
+/// A tetrahedron with the shapes that matter in it.
+struct Piece {
+    Tetrahedron tetrahedron;
+    std::vector<std::uint32_t> near;
+    SolidSurface surface;
+    std::vector<std::uint64_t> keys;
+};
+
+/// The six tetrahedra around the diagonal of the root cube, bisected into pieces.
+std::vector<Piece>
+make_pieces(const Solid& solid, const Grid& grid, std::atomic<std::uint64_t>& bytes_left) {
+    std::vector<std::uint32_t> all(solid.shapes.size());
+    std::iota(all.begin(), all.end(), 0U);
+    Cutter cutter(solid, grid, bytes_left);
+    std::vector<Piece> pieces;
+    std::array<int, 3> axes{0, 1, 2};
+    do {
+        Tetrahedron root;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (i > 0) {
+                root.nodes[i] = root.nodes[i - 1];
+                root.nodes[i][axes[i - 1]] = kUnits;
+            }
+            root.distances[i] = cutter.probe(grid.position(root.nodes[i]), all).distance;
+        }
+        cutter.visit_leaves(root, all, kPieceGeneration,
+                            [&](const Tetrahedron& leaf, std::span<const std::uint32_t> near) {
+                                pieces.push_back({leaf, {near.begin(), near.end()}, {}, {}});
+                            });
+    } while (std::next_permutation(axes.begin(), axes.end()));
+    return pieces;
+}
+
+/// Joins the surfaces of pieces along their common vertices.
+SolidSurface join(std::vector<Piece>& pieces) {
+    SolidSurface all;
+    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;
+    std::vector<std::uint32_t> number;
+    for (Piece& piece : pieces) {
+        number.clear();
+        for (std::size_t i = 0; i < piece.keys.size(); ++i) {
+            const auto [found, is_new] = vertex_of.try_emplace(
+                piece.keys[i], static_cast<std::uint32_t>(all.vertices.size()));
+            if (is_new) {
+                all.vertices.push_back(piece.surface.vertices[i]);
+            }
+            number.push_back(found->second);
+        }
+        for (const auto& [a, b, c] : piece.surface.triangles) {
+            all.triangles.push_back({number[a], number[b], number[c]});
+        }
+        piece = {};
+    }
+    return all;
+}
+
+} // namespace
+
+std::optional<SolidSurface>
+extract_surface(const Solid& solid, std::uint64_t max_bytes, std::uint32_t threads) {
+    if (solid.shapes.empty()) {
+        return SolidSurface{};
+    }
+    const Grid grid = make_grid(solid);
+    std::atomic<std::uint64_t> bytes_left{max_bytes};
+    std::atomic<bool> overflow{false};
+    std::vector<Piece> pieces = make_pieces(solid, grid, bytes_left);
+    Workers workers(threads);
+    workers.for_each(pieces.size(), [&](std::uint64_t i) {
+        Piece& piece = pieces[i];
+        if (overflow) {
+            return;
+        }
+        Cutter cutter(solid, grid, bytes_left);
+        cutter.cut_leaves(piece.tetrahedron, piece.near);
+        piece.surface = cutter.take_surface();
+        piece.keys = cutter.take_keys();
+        if (cutter.overflow()) {
+            overflow = true;
+        }
+    });
+    if (overflow) {
+        return std::nullopt;
+    }
+    return join(pieces);
+}
+
+} // namespace lsys

@@ -1,0 +1,42 @@
+// A surface from its distance function by marching tetrahedra, in a cube that is halved along the
+// longest edges of its tetrahedra (Maubach 1995) until each is small beside the shapes near it.
+#pragma once
+
+#include "runtime/meshing/impl/solid_shapes.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+/// A union of shapes, cut off flat below `ground`.
+struct Solid {
+    std::vector<SolidShape> shapes;
+    std::optional<double> ground; // m
+    double cell = 0.5;            // edge of a cell per radius of the shape in it, at most 0.9
+};
+
+struct SolidVertex {
+    glm::dvec3 position{};
+    std::uint32_t shape = 0; // the nearest one
+    bool on_ground = false;  // of the flat base
+};
+
+struct SolidSurface {
+    std::vector<SolidVertex> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
+};
+
+/// Each edge belongs to two triangles, in opposite directions, and no two triangles meet but at
+/// common vertices and edges: a triangle lies in one tetrahedron. Vertices lie on the
+/// surface, moved outwards so that cones have the volume of round ones. The result is the same for any number of threads. Returns nothing when it takes more than
+/// `max_bytes`. Throws std::bad_alloc. Precondition: the shapes have finite corners and radii above
+/// 0.
+[[nodiscard]] std::optional<SolidSurface>
+extract_surface(const Solid& solid, std::uint64_t max_bytes, std::uint32_t threads);
+
+} // namespace lsys

@@ -1,0 +1,23 @@
+// Wind for plants of `lsc export --wind-data` in Unreal 5. README.md has the formulas. Written by
+// Unreal's documentation, not tried.
+//
+// Body of a Custom node with output type CMOT Float 3, for World Position Offset. Inputs:
+//   At       LocalPosition (of the instance), in cm; Unreal is +Z up
+//   UV1, UV2 TexCoord[1] and TexCoord[2]: TEXCOORD_1 in m, TEXCOORD_2
+//   Wind     a vector parameter: direction and strength in the axes of the instance, 1: a storm
+//   Height   a scalar parameter: of the plant, in cm
+//   Sway     a vector parameter: x of the top and y of a bough, parts of the height: 0.1, 0.05
+//   Seconds  Time
+// Transform the result with TransformVector from local to world space. Turn on "Use Full Precision
+// UVs" of the static mesh: heights and distances are in metres.
+float turn = 6.283185307;
+float pivot = 100.0 * UV1.x;
+float lever = 0.01 * Height;
+float high = max(At.z, 0.0) / Height;
+float3 trunk = Sway.x * Height * high * high * (0.7 + 0.3 * sin(turn * Seconds / 3.1)) * Wind.xyz;
+float3 bough = Sway.y * Height * (1.0 - UV2.y) * (0.5 + 0.5 * pivot / Height) *
+    (0.5 + 0.5 * sin(turn * (Seconds / 1.3 + UV2.x))) * Wind.xyz;
+float3 way = trunk + bough;
+way.z -= 0.5 * dot(trunk, trunk) / max(high * Height, lever) +
+    0.5 * dot(bough, bough) / max(100.0 * UV1.y, lever);
+return way;

@@ -1,0 +1,60 @@
+// Light skeletons: joints and keys. tests/export holds the meshes that they pose against the frames.
+#include "runtime/export/impl/bones.h"
+#include "tests/runtime/plants.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::test;
+
+namespace {
+
+/// A clip of a bending line: each segment turns as much against the one before it.
+PlantAnimation bending(const Skeleton& plant, float angle) {
+    PlantAnimation clip;
+    clip.frame_count = 5;
+    clip.segment_count = static_cast<std::uint32_t>(plant.segments.size());
+    for (std::uint32_t frame = 0; frame < clip.frame_count; ++frame) {
+        glm::vec3 base(0.0F);
+        for (std::uint32_t i = 0; i < clip.segment_count; ++i) {
+            const float part = static_cast<float>(frame) / static_cast<float>(clip.frame_count - 1);
+            const glm::quat frame_of = leaning(part * angle * static_cast<float>(i + 1));
+            clip.places.push_back({base, frame_of});
+            base += plant.segments[i].length * heading(frame_of);
+        }
+    }
+    return clip;
+}
+
+Skeleton line(std::uint32_t count) {
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        last = add_segment(plant, last, leaning(0.0F), rod(0.1F, 0.05F, 1.0F, 1.0F));
+    }
+    return plant;
+}
+
+} // namespace
+
+TEST_CASE("a plant that stands still has one joint without keys") {
+    const Skeleton plant = line(6);
+    const Bones bones = make_bones(plant, bending(plant, 0.0F), 16);
+    REQUIRE(bones.joints.size() == 1);
+    CHECK(bones.joints[0].keys.empty());
+    CHECK(bones.weights_of({3, 4}, {0.0F, 0.4F, 0.0F}).weights[0] == 1.0F);
+    CHECK(bones.weights_of({kNoSegment, kNoSegment}, {}).weights[0] == 1.0F);
+}
+
+TEST_CASE("keys that follow from others are left out") {
+    const Skeleton plant = line(1);
+    PlantAnimation clip = bending(plant, 0.4F); // turns evenly
+    const Bones bones = make_bones(plant, clip, 4);
+    REQUIRE(bones.joints.size() == 2);
+    CHECK(bones.joints[1].keys == std::vector<std::uint32_t>{0, 4});
+    clip.places[2].frame = leaning(0.5F);
+    CHECK(make_bones(plant, clip, 4).joints[1].keys.size() >= 4);
+}
