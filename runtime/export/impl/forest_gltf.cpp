@@ -75,7 +75,8 @@ void ForestDocument::add_surface(const Mesh& mesh,
     surface.materials = &materials;
     surface.sliced = slice_mesh(mesh, lists);
     surface.blocks.resize(mesh.materials.size());
-    const std::vector<bool> coloured = plan_gltf_data(mesh, nullptr, nullptr, {}).coloured; // by part
+    const std::vector<bool> coloured =
+        plan_gltf_data(mesh, nullptr, nullptr, {}).coloured; // by part
     for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
         ForestBlock& block = surface.blocks[mesh.parts[p].material];
         block.coloured = block.coloured || coloured[p];
