@@ -2,6 +2,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
+#include "runtime/cli/lod_files.h"
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
@@ -123,6 +124,7 @@ ExportInfo export_info(const Export& run) {
     info.generator = "lsc " LSC_VERSION;
     info.user_meshes = &run.plant.user_meshes;
     info.threads = run.command.run.threads;
+    info.wind_data = run.command.wind_data;
     return info;
 }
 
@@ -147,10 +149,8 @@ ExitStatus write_plant(Export& run,
     start = SteadyClock::now();
     ExportInfo info = export_info(run);
     info.animation = animation;
-    info.wind_data = command.wind_data;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
-    info.threads = command.run.threads;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
@@ -167,6 +167,96 @@ ExitStatus write_plant(Export& run,
     run.timing.bytes += files.byte_count();
     run.timing.write_seconds += seconds_since(start);
     return status;
+}
+
+/// Writes the levels of detail of `skeleton`: into one file, or a file for each and a list of them.
+ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
+    const ExportCommand& command = run.command;
+    const bool one_file = traits_of(run.format).lods && !command.lod_files;
+    SteadyClock::time_point start = SteadyClock::now();
+    ExitStatus status = plan_levels(run, skeleton, command.lods - 1);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t count = run.levels.levels.size();
+    if (count < command.lods) {
+        run.console.info(
+            fmt::format("the plant has {} {} of detail", count, count == 1 ? "level" : "levels"));
+    }
+    MeshOptions options = command.mesh;
+    options.segments = command.wind_data;
+    std::vector<CoarserMesh> meshes(count);
+    for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+        status = run.console.take(
+            mesh_plant_level(run.plant, skeleton, run.levels, i, options, run.project),
+            meshes[i].mesh);
+    }
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const PlantExtent extent = extent_of(meshes.front().mesh);
+    for (std::size_t i = 0; i < count; ++i) {
+        meshes[i].coverage = screen_coverage(extent, run.levels.levels[i].pixels);
+    }
+    run.mesh = std::move(meshes.front().mesh);
+    run.timing.mesh_seconds += seconds_since(start);
+    start = SteadyClock::now();
+    const ExportInfo origin = export_info(run);
+    OutputSet files(run.console);
+    if (one_file) {
+        meshes.erase(meshes.begin());
+        ExportInfo info = origin;
+        info.coarser = &meshes;
+        status = files.add(command.output, [&](const ByteSink& sink) {
+            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+        });
+    } else {
+        std::vector<LodFile> list;
+        Mesh finest; // for the statistics
+        for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+            if (i == 1) {
+                finest = std::move(run.mesh);
+            }
+            if (i > 0) {
+                run.mesh = std::move(meshes[i].mesh);
+            }
+            const std::string path = lod_path(command.output, i);
+            ExportInfo info = origin;
+            status = add_side_files(run, path, info, files);
+            if (status == ExitStatus::Ok) {
+                status = files.add(path, [&](const ByteSink& sink) {
+                    return export_mesh(run.mesh, skeleton, run.format, info, sink);
+                });
+            }
+            list.push_back({.name = std::filesystem::path(path).filename().string(),
+                            .triangles = run.mesh.indices.size() / 3,
+                            .pixels = run.levels.levels[i].pixels,
+                            .coverage = meshes[i].coverage});
+        }
+        if (count > 1) {
+            run.mesh = std::move(finest);
+        }
+        if (status == ExitStatus::Ok) {
+            const std::string text = lods_json(origin, extent, list);
+            status = files.add(lods_json_path(command.output),
+                               [&](const ByteSink& sink) -> Outcome<void> {
+                                   return sink(text) ? Outcome<void>()
+                                                     : Outcome<void>(Stop::Cancelled, Messages{});
+                               });
+        }
+    }
+    if (status == ExitStatus::Ok) {
+        status = files.commit();
+    }
+    run.timing.bytes += files.byte_count();
+    run.timing.write_seconds += seconds_since(start);
+    return status;
+}
+
+/// Writes a plant that does not move.
+ExitStatus write_still(Export& run, const Skeleton& skeleton) {
+    return run.command.lods != 0 ? write_lods(run, skeleton)
+                                 : write_plant(run, skeleton, run.command.output);
 }
 
 /// Stops if `bytes` of an animation are more than the limit.
@@ -260,7 +350,7 @@ ExitStatus write_bent(Export& run) {
     Skeleton bent;
     if (command.frames == 0) {
         physics.pose(bent);
-        return write_plant(run, bent, command.output);
+        return write_still(run, bent);
     }
     if (traits_of(run.format).motion) {
         return write_animation(run, physics);
@@ -313,9 +403,42 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     return ExitStatus::Ok;
 }
 
+/// A message about options of levels of detail that do not go together; empty if there are none.
+std::string find_lod_conflict(const ExportCommand& command, ExportFormat format) {
+    if (command.lod_files && command.lods == 0) {
+        return "--lod-files needs the number of levels: --lods";
+    }
+    if (command.lods == 0) {
+        return {};
+    }
+    if (command.mesh.level != 0) {
+        return "--lods and --level do not go together: --lods writes the levels from 0 on";
+    }
+    if (command.frames != 0) {
+        return "--lods and --frames do not go together";
+    }
+    if (command.mesh.method == MeshMethod::Solid) {
+        return "--lods and --method solid do not go together: a solid has no coarser levels";
+    }
+    if (!traits_of(format).uses_mesh) {
+        return fmt::format("--lods needs a format with triangles, which {} is not",
+                           traits_of(format).name);
+    }
+    const bool one_file = traits_of(format).lods && !command.lod_files;
+    if (!one_file && !is_regular(command.output)) {
+        return fmt::format("--lods writes several files here, which need a file name; {} hold all "
+                           "levels in one",
+                           format_names("and", [](const FormatTraits& each) { return each.lods; }));
+    }
+    return {};
+}
+
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
+    if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+        return conflict;
+    }
     if (command.grow && command.frames == 0) {
         return "--grow writes a numbered series; say of how many files with --frames";
     }
@@ -425,7 +548,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     }
     Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}};
     const SteadyClock::time_point start = SteadyClock::now();
-    status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
+    status = bends ? write_bent(run) : write_still(run, plant.skeleton);
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }

@@ -2,6 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
@@ -172,6 +173,18 @@ void add_export(CLI::App& app, ExportCommand& command) {
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
     describe_detail_levels(app);
+    add_parsed(app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
+               fmt::format(
+                   "Write the first N levels of detail: {} hold them in one file (MSFT_lod), other "
+                   "formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
+                   format_names("and", [](const FormatTraits& format) { return format.lods; }))
+                   .c_str())
+        ->type_name("N")
+        ->group("Mesh");
+    app.add_flag("--lod-files", command.lod_files,
+                 "Write a file for each level in any format, and the list of distances "
+                 "tree.lods.json")
+        ->group("Mesh");
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")

@@ -92,6 +92,8 @@ struct ExportCommand {
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
+    std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
+    bool lod_files = false; // a file for each level
     bool stats = false;
 };
 

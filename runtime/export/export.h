@@ -49,6 +49,7 @@ struct FormatTraits {
     ExportPictures pictures = ExportPictures::None;
     bool has_mtl = false; // materials in a file beside it, by write_mtl()
     bool motion = false;  // one file holds all frames of an animation
+    bool lods = false;    // one file holds all levels of detail
     /// Writes trees as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
@@ -71,6 +72,13 @@ inline constexpr std::uint32_t kMaxJoints = 65'535;
 
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
+
+/// A coarser level of detail in a file.
+struct CoarserMesh {
+    Mesh mesh;
+    /// The part of the screen, 0 to 1, that the box of the plant covers where this level begins.
+    double coverage = 0.0;
+};
 
 /// Origin and contents of a file.
 struct ExportInfo {
@@ -96,6 +104,9 @@ struct ExportInfo {
     /// Numbers for shaders that move the plant in wind (impl/wind_data.h), in glTF. Mesh::segments
     /// is complete.
     bool wind_data = false;
+    /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:
+    /// none. Not together with an animation.
+    const std::vector<CoarserMesh>* coarser = nullptr;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

@@ -4,6 +4,11 @@
 #include "runtime/meshing/impl/thinning.h"
 #include "runtime/meshing/impl/visible_areas.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +25,14 @@ constexpr double kMinPartOfBoxes = 1.0 / 4.5; // a step of their subdivision has
 constexpr std::uint32_t kMaxSideLevel = 8;
 constexpr int kMaxTries = 24;
 constexpr double kEnough = 0.96; // of the wanted triangles end the search for a number of paths
-constexpr int kFittingSteps = 6;
+constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.002; // ends the fitting of areas: part of wood, and a part of all
 constexpr double kAreaWeight = 0.1;
-constexpr float kMinScale = 0.25F; // of what is fitted
-constexpr float kMaxScale = 3.0F;
+constexpr double kMinScale = 0.2; // of what is fitted
+constexpr double kMaxScale = 6.0;
+constexpr double kMaxStep = 1.8;         // factor of a scale from one try to the next
+constexpr double kMaxExcess = 3.0;       // of an area, as a part of the wanted one
+constexpr double kMinMove = 1e-12;       // of a step that teaches derivatives
 constexpr float kMaxRadiusErrors = 2.0F; // radius of widened wood in errors: it is two pixels wide
 
 std::uint64_t triangles_of(const Mesh& mesh) {
@@ -42,6 +50,14 @@ float largest_extent(const Mesh& mesh) {
     }
     const glm::vec3 extent = bounds.high - bounds.low;
     return std::max({extent.x, extent.y, extent.z});
+}
+
+Thinning thinning_of(const DetailLevel& level) {
+    return {.paths = level.paths,
+            .foliage = level.foliage,
+            .max_radius = kMaxRadiusErrors * level.error,
+            .wood_scale = level.wood_scale,
+            .foliage_scale = level.foliage_scale};
 }
 
 class Planner {
@@ -162,13 +178,8 @@ private:
             draw(wood_, level.options, mesh_);
             draw(foliage_, level.options, foliage_mesh_);
         } else {
-            const Thinning thinning{.paths = level.paths,
-                                    .foliage = level.foliage,
-                                    .max_radius = kMaxRadiusErrors * level.error,
-                                    .wood_scale = level.wood_scale,
-                                    .foliage_scale = level.foliage_scale};
             Skeleton thin;
-            thin_skeleton(skeleton_, order_, thinning, fine_,
+            thin_skeleton(skeleton_, order_, thinning_of(level), fine_,
                           foliage_shapes(order_, user_meshes_, level.options.level), thin,
                           numbers_);
             Skeleton rest = thin;
@@ -181,21 +192,26 @@ private:
         return stop_ ? VisibleAreas{} : visible_areas(mesh_, foliage_mesh_, frame_);
     }
 
-    /// Scales wood and foliage until they cover what they cover at the finest level.
+    /// Scales wood and foliage until they cover what they cover at the finest level, by Broyden's
+    /// method ("A class of methods for solving nonlinear simultaneous equations", 1965).
     void fit_areas(DetailLevel& level) {
         if (!level.thinned &&
             (level.options.method != MeshMethod::Tubes || skeleton_.l3d_compatible_surface)) {
             return;
         }
-        const double all = std::max(areas_.all(), 1.0);
         DetailLevel tried = level;
-        tried.wood_scale = 1.0F;
-        tried.foliage_scale = 1.0F;
+        glm::dvec2 scales(1.0);
+        glm::dvec2 step(0.0);
+        glm::dvec2 before(0.0);
+        // Inverse of the derivatives of areas: that of wood grows as its widths, that of foliage as
+        // the square of its size.
+        glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
         for (int i = 0; i < kFittingSteps && !stop_; ++i) {
+            tried.wood_scale = static_cast<float>(scales.x);
+            tried.foliage_scale = static_cast<float>(scales.y);
             const VisibleAreas now = areas_of(tried);
-            const double off = std::abs(now.wood / std::max(now.all(), 1.0) - areas_.wood / all) +
-                               kAreaWeight * std::abs(now.all() / all - 1.0);
+            const double off = difference(now);
             if (off < best) {
                 best = off;
                 level = tried;
@@ -203,31 +219,43 @@ private:
             if (off < kCloseAreas) {
                 return;
             }
+            const glm::dvec2 error(excess(now.wood, areas_.wood),
+                                   excess(now.foliage, areas_.foliage));
+            const glm::dvec2 moved = inverse * (error - before);
+            const double length = glm::dot(step, moved);
+            if (std::abs(length) > kMinMove) {
+                inverse += glm::outerProduct(step - moved, step * inverse) / length;
+            }
+            before = error;
+            const glm::dvec2 wanted = scales - inverse * error;
+            step = glm::clamp(glm::clamp(wanted, scales / kMaxStep, scales * kMaxStep),
+                              glm::dvec2(kMinScale), glm::dvec2(kMaxScale)) -
+                   scales;
+            scales += step;
             tried.thinned = true;
-            if (now.wood > 0.0) {
-                tried.wood_scale = scaled(tried.wood_scale, areas_.wood / now.wood);
-            }
-            if (now.foliage > 0.0) {
-                tried.foliage_scale =
-                    scaled(tried.foliage_scale, std::sqrt(areas_.foliage / now.foliage));
-            }
         }
     }
-    static float scaled(float scale, double factor) {
-        return std::clamp(scale * static_cast<float>(std::clamp(factor, 0.6, 1.6)), kMinScale,
-                          kMaxScale);
+    /// Difference of colour as the part of wood, and less so of what is covered.
+    double difference(const VisibleAreas& now) const {
+        const double all = std::max(areas_.all(), 1.0);
+        return std::abs(now.wood / std::max(now.all(), 1.0) - areas_.wood / all) +
+               kAreaWeight * std::abs(now.all() / all - 1.0);
+    }
+    static double excess(double area, double wanted) {
+        return wanted > 0.0 ? std::min(area / wanted - 1.0, kMaxExcess) : 0.0;
     }
 
     /// The triangles of a level as it will be drawn.
     std::uint64_t exact_triangles(const DetailLevel& level) {
         if (!level.thinned) {
             count(skeleton_, level.options);
-            return triangles_of(mesh_);
+        } else {
+            Skeleton thin;
+            thin_skeleton(skeleton_, order_, thinning_of(level), fine_,
+                          foliage_shapes(order_, user_meshes_, level.options.level), thin,
+                          numbers_);
+            count(thin, level.options);
         }
-        Skeleton thin;
-        thin_skeleton(skeleton_, order_, {.paths = level.paths, .foliage = level.foliage}, fine_,
-                      foliage_shapes(order_, user_meshes_, level.options.level), thin, numbers_);
-        count(thin, level.options);
         return triangles_of(mesh_);
     }
 
@@ -374,7 +402,7 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
                                        std::uint32_t last,
                                        DetailLevels& levels) {
     levels = {};
-    if (last == 0) {
+    if (last == 0 || options.method == MeshMethod::Solid) {
         levels.levels.push_back({.options = options});
         return std::nullopt;
     }
@@ -412,12 +440,7 @@ std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
             const ThinningOrder& order = *levels.order;
             Skeleton thin;
             LargeVector<std::uint32_t> numbers;
-            thin_skeleton(skeleton, order,
-                          {.paths = level.paths,
-                           .foliage = level.foliage,
-                           .max_radius = kMaxRadiusErrors * level.error,
-                           .wood_scale = level.wood_scale,
-                           .foliage_scale = level.foliage_scale},
+            thin_skeleton(skeleton, order, thinning_of(level),
                           foliage_shapes(order, user_meshes, levels.levels[0].options.level),
                           foliage_shapes(order, user_meshes, all.level), thin, numbers);
             if (const std::optional<Stop> stop = make_mesh(thin, user_meshes, all, mesh)) {

@@ -242,6 +242,9 @@ Outcome<Mesh> mesh_plant_level(const Plant& plant,
     Mesh mesh;
     const std::optional<Stop> stop = make_detail_mesh(skeleton, plant.user_meshes, levels, number,
                                                       limited_options(options, project), mesh);
+    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
+        return step.end(Stop::Diagnosed);
+    }
     return finish_mesh(step, stop, std::move(mesh));
 }
 

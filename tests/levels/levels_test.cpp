@@ -25,7 +25,10 @@ namespace lsys {
 
 namespace {
 
-constexpr int kViews = 4;
+// Directions between those in which the levels are fitted: turns about +Y and heights of the eye, in
+// radians.
+constexpr std::array<float, 4> kTurns{0.39F, 1.18F, 1.96F, 2.75F};
+constexpr std::array<float, 2> kTilts{0.0F, 0.5F};
 constexpr int kSamples = 3; // of a pixel, along each side
 constexpr int kMaxPixels = 256;
 
@@ -57,6 +60,7 @@ Plant grown(const std::string& name) {
 
 /// A picture as coverage and colour of each pixel.
 struct Picture {
+    int side = 0;
     std::vector<float> coverage;
     glm::dvec3 colour{0.0}; // mean over the silhouette
     double area = 0.0;      // pixels
@@ -100,17 +104,23 @@ struct Texels {
     }
 };
 
-/// Draws `mesh` into the square around `frame`, `pixels` wide, seen along -Z after a turn.
-Picture draw(const Mesh& mesh, const Bounds& frame, int pixels, float turn) {
-    const int size = pixels * kSamples;
+/// Draws `mesh` into a square, in which the largest extent of `frame` takes `pixels`, seen along -Z
+/// after a turn and a tilt.
+Picture draw(const Mesh& mesh, const Bounds& frame, int pixels, float turn, float tilt) {
     const glm::vec3 middle = 0.5F * (frame.low + frame.high);
     const glm::vec3 half = frame.high - middle;
-    const float reach = std::max(half.y, std::hypot(half.x, half.z));
-    const float scale = 0.5F * static_cast<float>(size) / reach;
+    const float across = std::hypot(half.x, half.z);
+    const float reach = std::max(across, std::cos(tilt) * half.y + std::sin(tilt) * across);
+    const float largest = std::max({half.x, half.y, half.z});
+    const float scale = 0.5F * static_cast<float>(pixels * kSamples) / largest;
+    const int side = static_cast<int>(std::ceil(2.0F * scale * reach / kSamples));
+    const int size = side * kSamples;
     const auto place = [&](std::uint32_t vertex) {
         const glm::vec3 p = mesh.positions[vertex] - middle;
-        return scale * glm::vec3(std::cos(turn) * p.x + std::sin(turn) * p.z + reach, p.y + reach,
-                                 std::cos(turn) * p.z - std::sin(turn) * p.x);
+        const float near = std::cos(turn) * p.z - std::sin(turn) * p.x;
+        return scale * glm::vec3(std::cos(turn) * p.x + std::sin(turn) * p.z + reach,
+                                 std::cos(tilt) * p.y - std::sin(tilt) * near + reach,
+                                 std::cos(tilt) * near + std::sin(tilt) * p.y);
     };
     const std::size_t count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     std::vector<float> depth(count, -std::numeric_limits<float>::infinity());
@@ -166,13 +176,13 @@ Picture draw(const Mesh& mesh, const Bounds& frame, int pixels, float turn) {
         }
     }
     Picture picture;
-    picture.coverage.assign(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels),
-                            0.0F);
+    picture.side = side;
+    picture.coverage.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0F);
     for (std::size_t i = 0; i < count; ++i) {
         if (depth[i] > -std::numeric_limits<float>::infinity()) {
             const std::size_t x = i % static_cast<std::size_t>(size) / kSamples;
             const std::size_t y = i / static_cast<std::size_t>(size) / kSamples;
-            picture.coverage[y * static_cast<std::size_t>(pixels) + x] +=
+            picture.coverage[y * static_cast<std::size_t>(side) + x] +=
                 1.0F / static_cast<float>(kSamples * kSamples);
             picture.area += 1.0 / static_cast<double>(kSamples * kSamples);
             picture.colour += glm::dvec3(colours[i]);
@@ -182,9 +192,65 @@ Picture draw(const Mesh& mesh, const Bounds& frame, int pixels, float turn) {
     return picture;
 }
 
+/// Distance in pixels from each pixel to the nearest one that is at least half covered, along one
+/// axis and then the other (Felzenszwalb and Huttenlocher 2012, by direct search).
+std::vector<float> distances_to(const Picture& picture) {
+    const int side = picture.side;
+    const auto at = [side](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+               static_cast<std::size_t>(x);
+    };
+    constexpr float kFar = 1e9F;
+    std::vector<float> along(picture.coverage.size(), kFar); // in the row
+    for (int y = 0; y < side; ++y) {
+        for (const bool forwards : {true, false}) {
+            float last = kFar;
+            for (int k = 0; k < side; ++k) {
+                const int x = forwards ? k : side - 1 - k;
+                last = picture.coverage[at(x, y)] >= 0.5F ? 0.0F : last + 1.0F;
+                along[at(x, y)] = std::min(along[at(x, y)], last);
+            }
+        }
+    }
+    std::vector<float> result(picture.coverage.size(), kFar);
+    for (int x = 0; x < side; ++x) {
+        for (int y = 0; y < side; ++y) {
+            float best = along[at(x, y)];
+            for (int away = 1; away < side && static_cast<float>(away) < best; ++away) {
+                for (const int other : {y - away, y + away}) {
+                    if (other >= 0 && other < side) {
+                        best = std::min(best,
+                                        std::hypot(static_cast<float>(away), along[at(x, other)]));
+                    }
+                }
+            }
+            result[at(x, y)] = best;
+        }
+    }
+    return result;
+}
+
+/// Mean distance in pixels from the silhouette of one picture to that of the other, the larger one
+/// of both directions: the modified Hausdorff distance (Dubuisson and Jain 1994).
+double silhouette_distance(const Picture& a, const Picture& b) {
+    const auto one_way = [](const Picture& from, const Picture& to) {
+        const std::vector<float> distances = distances_to(to);
+        double sum = 0.0;
+        double pixels = 0.0;
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            if (from.coverage[i] >= 0.5F) {
+                sum += std::min(static_cast<double>(distances[i]), static_cast<double>(to.side));
+                pixels += 1.0;
+            }
+        }
+        return pixels > 0.0 ? sum / pixels : 0.0;
+    };
+    return std::max(one_way(a, b), one_way(b, a));
+}
+
 /// How a mesh differs from the finest one, over all views.
 struct Difference {
-    double silhouette = 0.0; // pixels covered by one of both alone, a part of those of the finest
+    double silhouette = 0.0; // mean over views, pixels
     double area = 0.0;       // ratio of the covered areas
     double colour = 0.0;     // largest difference of a channel, a part of the brightest one
 };
@@ -195,22 +261,21 @@ Difference compare(const Mesh& fine, const Mesh& coarse, const Bounds& frame, in
     double coarse_area = 0.0;
     glm::dvec3 fine_colour(0.0);
     glm::dvec3 coarse_colour(0.0);
-    for (int view = 0; view < kViews; ++view) {
-        const float turn = 0.79F * static_cast<float>(view);
-        const Picture a = draw(fine, frame, pixels, turn);
-        const Picture b = draw(coarse, frame, pixels, turn);
-        for (std::size_t i = 0; i < a.coverage.size(); ++i) {
-            result.silhouette += static_cast<double>(std::abs(a.coverage[i] - b.coverage[i]));
+    for (const float turn : kTurns) {
+        for (const float tilt : kTilts) {
+            const Picture a = draw(fine, frame, pixels, turn, tilt);
+            const Picture b = draw(coarse, frame, pixels, turn, tilt);
+            result.silhouette +=
+                silhouette_distance(a, b) / static_cast<double>(kTurns.size() * kTilts.size());
+            fine_area += a.area;
+            coarse_area += b.area;
+            fine_colour += a.area * a.colour;
+            coarse_colour += b.area * b.colour;
         }
-        fine_area += a.area;
-        coarse_area += b.area;
-        fine_colour += a.area * a.colour;
-        coarse_colour += b.area * b.colour;
     }
     fine_colour /= std::max(fine_area, 1e-9);
     coarse_colour /= std::max(coarse_area, 1e-9);
     const glm::dvec3 off = glm::abs(fine_colour - coarse_colour);
-    result.silhouette /= std::max(fine_area, 1e-9);
     result.area = coarse_area / std::max(fine_area, 1e-9);
     result.colour = std::max({off.x, off.y, off.z}) /
                     std::max({fine_colour.x, fine_colour.y, fine_colour.z, 1e-9});
@@ -260,9 +325,13 @@ TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[l
         const double factor = before / static_cast<double>(triangles_of(mesh));
         const int pixels = std::clamp(static_cast<int>(levels.levels[k].pixels), 8, kMaxPixels);
         const Difference difference = compare(finest, mesh, frame, pixels);
-        WARN(name << " level " << k << ": " << triangles_of(mesh) << " triangles, factor " << factor
-                  << ", " << pixels << " pixels, silhouette " << difference.silhouette << ", area "
-                  << difference.area << ", colour " << difference.colour);
+        std::printf("%s %d: %d triangles, factor %.2f, %d pixels, silhouette %.2f, area %.3f, "
+                    "colour %.4f | paths %d foliage %d w %.2f f %.2f sides %d\n",
+                    name.c_str(), int(k), int(triangles_of(mesh)), factor, pixels,
+                    difference.silhouette, difference.area, difference.colour,
+                    int(levels.levels[k].paths), int(levels.levels[k].foliage),
+                    double(levels.levels[k].wood_scale), double(levels.levels[k].foliage_scale),
+                    levels.levels[k].options.level);
         CAPTURE(name, k, triangles_of(mesh), factor, pixels, difference.silhouette, difference.area,
                 difference.colour);
         CHECK(levels.levels[k].triangles == triangles_of(mesh));

@@ -4,6 +4,7 @@
 #include "runtime/base/size_text.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/gltf_levels.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
@@ -136,6 +137,9 @@ private:
 };
 
 Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
+    if (job.info.coarser != nullptr) {
+        return write_gltf_levels(job, binary, out);
+    }
     const ExportInfo& info = job.info;
     std::optional<GltfMotion> moving;
     if (info.animation != nullptr && info.max_joints != 0) {

@@ -14,8 +14,9 @@ struct VisibleAreas {
     [[nodiscard]] double all() const { return wood + foliage; }
 };
 
-/// Draws both meshes into square views of `frame` from four sides, by pixel centres and with the
-/// opacity of pictures. The result is the same on every machine.
+/// Draws both meshes into square views of `frame` from four sides, each level with the plant and from
+/// above, by pixel centres and with the opacity of pictures. The result is the same on every
+/// machine.
 [[nodiscard]] VisibleAreas
 visible_areas(const Mesh& wood, const Mesh& foliage, const Bounds& frame);
 
