@@ -49,11 +49,17 @@ struct Export {
     std::set<std::string> pictures; // names of the written ones, shared by all frames
 };
 
-/// Adds the files beside `path`: pictures, and the materials of an OBJ; puts their names into
-/// `info`.
-ExitStatus
-add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info, OutputSet& files) {
+/// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
+/// their names into `info`.
+ExitStatus add_side_files(Export& run,
+                          const Skeleton& skeleton,
+                          const std::filesystem::path& path,
+                          ExportInfo& info,
+                          OutputSet& files) {
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    const bool separate = run.command.buffers == BufferPlace::Separate;
+    const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
+    info.buffer_name = separate ? buffer.filename().string() : std::string();
     std::vector<PictureFile> pictures;
     ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
     if (status != ExitStatus::Ok) {
@@ -68,6 +74,11 @@ add_side_files(Export& run, const std::filesystem::path& path, ExportInfo& info,
         if (status != ExitStatus::Ok) {
             return status;
         }
+    }
+    if (separate) {
+        return files.add(buffer.string(), [&](const ByteSink& sink) {
+            return write_gltf_buffer(run.mesh, skeleton, info, sink);
+        });
     }
     if (!traits_of(run.format).has_mtl) {
         return ExitStatus::Ok;
@@ -125,6 +136,7 @@ ExportInfo export_info(const Export& run) {
     info.user_meshes = &run.plant.user_meshes;
     info.threads = run.command.run.threads;
     info.wind_data = run.command.wind_data;
+    info.compression = run.command.compression.value_or(ExportCompression::None);
     return info;
 }
 
@@ -154,7 +166,7 @@ ExitStatus write_plant(Export& run,
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
-        status = add_side_files(run, path, info, files);
+        status = add_side_files(run, skeleton, path, info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
@@ -222,7 +234,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
             }
             const std::string path = lod_path(command.output, i);
             ExportInfo info = origin;
-            status = add_side_files(run, path, info, files);
+            status = add_side_files(run, skeleton, path, info, files);
             if (status == ExitStatus::Ok) {
                 status = files.add(path, [&](const ByteSink& sink) {
                     return export_mesh(run.mesh, skeleton, run.format, info, sink);
@@ -382,13 +394,47 @@ ExitStatus write_stats(const Export& run, const Plant& plant) {
     return report_result(run.console.write(text), run.console);
 }
 
+bool is_empty(const Skeleton& skeleton) {
+    return skeleton.segments.empty() && skeleton.objects.empty() && skeleton.polygons.empty();
+}
+
+/// Sets `generation` to the first with something to draw, 0 if there is none.
+ExitStatus find_first_drawn(const Export& run, PlantGrowth& growth, std::uint32_t& generation) {
+    Skeleton drawn;
+    for (generation = 0; generation <= growth.last_generation(); ++generation) {
+        const ExitStatus status =
+            run.console.interrupted()
+                ? ExitStatus::Interrupted
+                : run.console.take(growth.pose({generation, 0.0}, run.project, drawn));
+        if (status != ExitStatus::Ok || !is_empty(drawn)) {
+            return status;
+        }
+    }
+    generation = 0;
+    return ExitStatus::Ok;
+}
+
 /// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     const ExportCommand& command = run.command;
+    std::uint32_t first = 0;
+    if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
+        return status;
+    }
+    // From the last generation that draws nothing on. It has no file, as nothing can be written:
+    // the first frame is one step later.
+    const std::uint32_t start = first == 0 ? 0 : first - 1;
+    const std::uint32_t skipped = first == 0 ? 0 : 1;
+    if (first > 0) {
+        run.console.info(fmt::format("nothing is drawn before generation {}; the first frame is on "
+                                     "the way to it",
+                                     first));
+    }
     for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
-        const GrowthMoment moment =
-            moment_of_frame(frame, command.frames, growth.last_generation());
+        GrowthMoment moment = moment_of_frame(frame + skipped, command.frames + skipped,
+                                              growth.last_generation() - start);
+        moment.generation += start;
         ExitStatus status = run.console.interrupted()
                                 ? ExitStatus::Interrupted
                                 : run.console.take(growth.pose(moment, run.project, grown));
@@ -425,6 +471,9 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
                            traits_of(format).name);
     }
     const bool one_file = traits_of(format).lods && !command.lod_files;
+    if (one_file && command.buffers == BufferPlace::Separate) {
+        return "--lods with --buffers separate needs --lod-files";
+    }
     if (!one_file && !is_regular(command.output)) {
         return fmt::format("--lods writes several files here, which need a file name; {} hold all "
                            "levels in one",
@@ -438,6 +487,17 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
     if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
         return conflict;
+    }
+    const auto names_with = [](bool FormatTraits::*feature) {
+        return format_names("or", [feature](const FormatTraits& each) { return each.*feature; });
+    };
+    if (command.compression && !traits_of(format).compresses) {
+        return fmt::format("--compress needs {}, not {}", names_with(&FormatTraits::compresses),
+                           traits_of(format).name);
+    }
+    if (command.buffers && !traits_of(format).separates) {
+        return fmt::format("--buffers needs {}, not {}", names_with(&FormatTraits::separates),
+                           traits_of(format).name);
     }
     if (command.grow && command.frames == 0) {
         return "--grow writes a numbered series; say of how many files with --frames";

@@ -167,6 +167,18 @@ void add_export(CLI::App& app, ExportCommand& command) {
     }
     add_choice(app, "--format", command.format, std::move(formats),
                "Format (default: by the extension of the output)");
+    add_choice<std::optional<ExportCompression>>(
+        app, "--compress", command.compression,
+        {{"none", ExportCompression::None},
+         {"quantize", ExportCompression::Quantize},
+         {"meshopt", ExportCompression::Meshopt}},
+        "glb and gltf: numbers of 8 to 16 bits (KHR_mesh_quantization), with `meshopt` compressed "
+        "by EXT_meshopt_compression too (default none)");
+    add_choice<std::optional<BufferPlace>>(
+        app, "--buffers", command.buffers,
+        {{"embedded", BufferPlace::Embedded}, {"separate", BufferPlace::Separate}},
+        "gltf: the buffer in the file, or with the pictures beside it: tree.bin, tree.bark.png "
+        "(default embedded)");
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,

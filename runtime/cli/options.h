@@ -71,6 +71,12 @@ struct DumpCommand {
     std::string from;
 };
 
+/// Place of the buffer and the pictures of a glTF.
+enum class BufferPlace : std::uint8_t {
+    Embedded,
+    Separate, // files beside the output
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -78,7 +84,9 @@ struct ExportCommand {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output;
-    std::optional<ExportFormat> format; // default: by the extension of the output
+    std::optional<ExportFormat> format;           // default: by the extension of the output
+    std::optional<ExportCompression> compression; // default: none
+    std::optional<BufferPlace> buffers;           // default: embedded
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant

@@ -47,9 +47,11 @@ struct FormatTraits {
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;
-    bool has_mtl = false; // materials in a file beside it, by write_mtl()
-    bool motion = false;  // one file holds all frames of an animation
-    bool lods = false;    // one file holds all levels of detail
+    bool has_mtl = false;    // materials in a file beside it, by write_mtl()
+    bool motion = false;     // one file holds all frames of an animation
+    bool lods = false;       // one file holds all levels of detail
+    bool compresses = false; // takes ExportInfo::compression
+    bool separates = false;  // takes ExportInfo::buffer_name
     /// Writes trees as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
@@ -69,6 +71,13 @@ using ByteSink = std::function<bool(std::string_view)>;
 
 /// Max count of moving joints of a skin: glTF numbers joints in 16 bits, and joint 0 stands still.
 inline constexpr std::uint32_t kMaxJoints = 65'535;
+
+/// Form of the arrays of a glTF file.
+enum class ExportCompression : std::uint8_t {
+    None,
+    Quantize, // integers of 8 to 16 bits: KHR_mesh_quantization, KHR_texture_transform
+    Meshopt,  // quantised, and compressed by EXT_meshopt_compression
+};
 
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
@@ -91,6 +100,12 @@ struct ExportInfo {
     /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
     /// colours.
     std::string picture_prefix;
+    /// Form of the arrays of vertices and indices, for FormatTraits::compresses.
+    ExportCompression compression = ExportCompression::None;
+    /// Name of the file of write_gltf_buffer() beside a glTF; pictures then lie beside it too, with
+    /// `picture_prefix`. Empty: the file holds its buffer and pictures. For
+    /// FormatTraits::separates.
+    std::string buffer_name = {};
     bool textures = true;      // pictures for textured materials, where the format has pictures
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped.
@@ -117,6 +132,11 @@ Outcome<void> export_mesh(const Mesh& mesh,
                           ExportFormat format,
                           const ExportInfo& info,
                           const ByteSink& sink);
+/// Writes the buffer of a glTF, for its `info.buffer_name`. Stops as export_mesh().
+Outcome<void> write_gltf_buffer(const Mesh& mesh,
+                                const Skeleton& skeleton,
+                                const ExportInfo& info,
+                                const ByteSink& sink);
 /// A PNG file that an exported file refers to.
 struct PictureFile {
     std::string name;

@@ -14,7 +14,7 @@ export function readPlyPositions(bytes) {
     return positions;
 }
 
-/// Where three.js has each vertex of `gltf` at `time`, and how many joints move it.
+/// Where three.js has each vertex of `gltf` at rest and at `time`, and how many joints move it.
 export function posedVertices(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
@@ -23,17 +23,18 @@ export function posedVertices(three, gltf, time) {
     action.play();
     mixer.setTime(time);
     gltf.scene.updateMatrixWorld(true);
-    let vertices = [];
+    const vertices = [];
     gltf.scene.traverse(object => {
-        if (!object.isSkinnedMesh || vertices.length > 0) {
-            return; // primitives share their vertices
+        if (!object.isSkinnedMesh) {
+            return;
         }
         const { position, skinWeight } = object.geometry.attributes;
         for (let i = 0; i < position.count; ++i) {
             const at = new three.Vector3().fromBufferAttribute(position, i);
+            const rest = at.toArray();
             object.applyBoneTransform(i, at);
             at.applyMatrix4(object.matrixWorld);
-            vertices.push({ at: at.toArray(), joints: skinWeight.getY(i) > 0 ? 2 : 1 });
+            vertices.push({ rest, at: at.toArray(), joints: skinWeight.getY(i) > 0 ? 2 : 1 });
         }
     });
     return vertices;

@@ -1,5 +1,5 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | motion | obj | svg | off+ | usda |
+//   node read_files.mjs MODULES (validator | three | compressed | motion | obj | svg | off+ | usda |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
 // `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each that moves.
@@ -8,13 +8,14 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { distance, posedVertices, readPlyPositions } from './motion.mjs';
+import { extentOf, greatestDifference, primitivesOf, sameTriangles } from './compressed.mjs';
 import { instancedForest, readAccessors } from './forest.mjs';
 import { readOffPlus, readUsda, readUsdaForest } from './own_readers.mjs';
 
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|motion|obj|svg|off+|usda|forest-three|forest-transform|forest-usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|obj|svg|off+|usda|forest-three|forest-transform|forest-usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -93,6 +94,38 @@ async function threeAndLoader() {
     return { three, GLTFLoader };
 }
 
+// glTF-Transform with every extension, and the validator for files and for what it has decoded.
+async function transformer() {
+    const core = await module('@gltf-transform/core/dist/index.js');
+    const { ALL_EXTENSIONS } = await module('@gltf-transform/extensions/dist/index.js');
+    const { MeshoptDecoder } = await module('three/examples/jsm/libs/meshopt_decoder.module.js');
+    const validator = require('gltf-validator');
+    await MeshoptDecoder.ready;
+    const io = new core.NodeIO().registerExtensions(ALL_EXTENSIONS)
+        .registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
+    const expectValid = async (file, bytes, uri) => {
+        const report = await validator.validateBytes(new Uint8Array(bytes), {
+            uri, maxIssues: 100,
+            externalResourceFunction: async name =>
+                new Uint8Array(readFileSync(join(folder, decodeURIComponent(name)))),
+        });
+        const { numErrors, numWarnings, messages } = report.issues;
+        const bad = messages.filter(issue => issue.severity < 2);
+        expect(file, `errors and warnings of ${uri} ${JSON.stringify(bad.slice(0, 3))}`,
+               numErrors + numWarnings, 0);
+    };
+    // The document without EXT_meshopt_compression.
+    const expectValidDecoded = async (file, document) => {
+        for (const extension of document.getRoot().listExtensionsUsed()) {
+            if (extension.extensionName === 'EXT_meshopt_compression') {
+                extension.dispose();
+            }
+        }
+        await expectValid(file, await io.writeBinary(document), `${file} decoded`);
+    };
+    return { io, MeshoptDecoder, expectValid, expectValidDecoded };
+}
+
 function arrayBuffer(file) {
     const bytes = readFileSync(join(folder, file));
     return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
@@ -138,23 +171,32 @@ const checks = {
                 },
             }));
             const gltf = await loader.parseAsync(arrayBuffer(file), '');
-            const positions = new Map();
+            let vertices = 0;
             let triangles = 0;
             let parts = 0;
             let extras;
             gltf.scene.traverse(object => {
                 extras = object.userData.grammar === undefined ? extras : object.userData;
                 if (object.isMesh) {
-                    const { array, count } = object.geometry.attributes.position;
-                    positions.set(array, count);
-                    triangles += object.geometry.index.count / 3;
-                    ++parts;
-                    const largest = object.geometry.index.array.reduce((a, b) => Math.max(a, b), 0);
-                    expect(file, 'an index within the vertices', largest < count, true);
+                    const { index, attributes } = object.geometry;
+                    const { count } = attributes.position;
+                    vertices += count;
+                    triangles += index.count / 3;
+                    // One material may stand for many that differ in colour only.
+                    const merged = /, (\d+) colours$/.exec(object.material.name);
+                    parts += Number(merged?.[1] ?? 1);
+                    expect(file, 'colours of a merged material', !merged || !!attributes.color, true);
+                    // Vertices come in the order of their first use.
+                    let next = 0;
+                    const ordered = index.array.every(i => i < next || i === next++);
+                    expect(file, 'vertices in order of use', ordered && next === count, true);
+                    expect(file, 'bytes of an index', index.array.BYTES_PER_ELEMENT,
+                           count <= 65535 ? 2 : 4);
+                    expect(file, 'tangents only for a normal map', !!attributes.tangent,
+                           !!object.material.normalMap);
                 }
             });
-            const vertices = [...positions.values()].reduce((a, b) => a + b, 0);
-            expect(file, 'number of vertices', vertices, mesh.vertices);
+            expect(file, 'some vertices', vertices > 0, true);
             expect(file, 'number of triangles', triangles, mesh.triangles);
             expect(file, 'number of parts', parts, mesh.parts);
             expect(file, 'number of textures read', textures,
@@ -163,6 +205,73 @@ const checks = {
             expect(file, 'type of extras.n', typeof extras?.n, 'number');
             expect(file, 'extras.seed', /^[0-9]+$/.test(`${extras?.seed}`), true);
         });
+    },
+
+    // Compressed files hold the numbers of the plain one within half a step, files with a buffer of
+    // their own exactly; decoded by glTF-Transform they are valid without any extension.
+    async compressed() {
+        const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
+        const { three, GLTFLoader } = await threeAndLoader();
+        // Tolerances: positions in parts of the extent, directions, texture coordinates in tiles.
+        const forms = [
+            ['separate.gltf', 0, 0, 0],
+            ['quantize.glb', 0.5001 / 65535, 0.5001 / 127, 1 / 1024 + 1e-5],
+            ['quantize.gltf', 0.5001 / 65535, 0.5001 / 127, 1 / 1024 + 1e-5],
+            ['meshopt.glb', 0.5001 / 16383, 0.5001 / 127, 1 / 1024 + 1e-5],
+            ['meshopt.gltf', 0.5001 / 16383, 0.5001 / 127, 1 / 1024 + 1e-5],
+        ];
+        for (const { name } of counts()) {
+            const plain = primitivesOf(await io.readBinary(readFileSync(join(folder, `${name}.glb`))));
+            const extent = extentOf(plain);
+            const largest = plain.flatMap(p => p.POSITION.flat())
+                .reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+            for (const [ending, positionStep, directionStep, textureStep] of forms) {
+                const file = `${name}.${ending}`;
+                ++files;
+                const document = await io.read(join(folder, file));
+                const found = primitivesOf(document);
+                expect(file, 'number of primitives', found.length, plain.length);
+                found.forEach((one, i) => {
+                    const other = plain[i];
+                    expect(file, `triangles of primitive ${i}`,
+                           sameTriangles(one.indices, other.indices), true);
+                    const within = (attribute, most) => {
+                        if (one[attribute] === undefined && attribute === 'TEXCOORD_0' &&
+                            one.material.getBaseColorTexture() === null &&
+                            one.material.getNormalTexture() === null && ending !== 'separate.gltf') {
+                            return; // no texture is read
+                        }
+                        expect(file, `${attribute} of primitive ${i}`, one[attribute]?.length,
+                               other[attribute]?.length);
+                        const off = one[attribute] === undefined
+                            ? 0 : greatestDifference(one[attribute], other[attribute]);
+                        expect(file, `${attribute} of primitive ${i} off by ${off} of ${most}`,
+                               off <= most, true);
+                    };
+                    // A float of the node's scale and shift rounds too.
+                    within('POSITION', positionStep * extent + (positionStep > 0 ? 3e-7 * largest : 0));
+                    within('NORMAL', directionStep + (directionStep > 0 ? 5e-4 : 0));
+                    within('TANGENT', directionStep + (directionStep > 0 ? 5e-4 : 0));
+                    within('TEXCOORD_0', textureStep);
+                    within('COLOR_0', 0);
+                    expect(file, `colour of primitive ${i}`, `${one.material.getBaseColorFactor()}`,
+                           `${other.material.getBaseColorFactor()}`);
+                });
+                if (!ending.startsWith('meshopt')) {
+                    await expectValid(file, readFileSync(join(folder, file)), file);
+                } else {
+                    await expectValidDecoded(file, document);
+                }
+                if (ending === 'meshopt.glb') {
+                    const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+                    loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+                    const gltf = await loader.parseAsync(arrayBuffer(file), '');
+                    const size = new three.Box3().setFromObject(gltf.scene).getSize(new three.Vector3());
+                    expect(file, 'extent in three.js', Math.abs(Math.max(...size.toArray()) - extent) <=
+                           1e-4 * extent, true);
+                }
+            }
+        }
     },
 
     // At each key a skin has its vertices where the mesh of that frame has them: those of cylinders
@@ -184,9 +293,16 @@ const checks = {
             let moved = 0;
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const expected = frame(number);
+                // Vertices of the PLY that lie where the vertex is at rest.
                 const found = posedVertices(three, gltf, number / mesh.fps);
-                expect(file, `number of vertices in frame ${number}`, found.length, expected.length);
-                const off = expected.map((at, i) => distance(at, found[i].at));
+                const at = new Map();
+                first.forEach((place, i) => {
+                    at.set(`${place}`, [...(at.get(`${place}`) ?? []), i]);
+                });
+                const used = new Set(found.flatMap(vertex => at.get(`${vertex.rest}`) ?? []));
+                expect(file, `vertices in frame ${number}`, used.size > 0.9 * first.length, true);
+                const off = found.map(vertex => Math.min(Infinity, ...(at.get(`${vertex.rest}`) ?? [])
+                    .map(i => distance(vertex.at, expected[i]))));
                 const most = mesh.name === 'cylinders' || number === 0 ? 1e-5 : mesh.metres || 1e-2;
                 expect(file, `frame ${number}: off by more than ${most}`,
                        off.filter(d => !(d <= most)).length, 0);
@@ -194,10 +310,10 @@ const checks = {
                 expect(file, `frame ${number}: ${part} of the vertices are off by ${near} m`,
                        off.filter(d => !(d <= near)).length > part * off.length, false);
                 if (loops && number === mesh.frames - 1) {
-                    const seam = Math.max(...expected.map((at, i) => distance(at, first[i])));
+                    const seam = Math.max(...expected.map((to, i) => distance(to, first[i])));
                     expect(file, 'the last frame is the first', seam < 1e-5, true);
                 }
-                moved = Math.max(moved, ...expected.map((at, i) => distance(at, first[i])));
+                moved = Math.max(moved, ...expected.map((to, i) => distance(to, first[i])));
             }
             expect(file, 'it moves', moved > (loops ? 0.01 : 0.1), true);
             const turns = gltf.animations[0].tracks.filter(t => t.name.endsWith('.quaternion'));
@@ -207,6 +323,45 @@ const checks = {
                     const dot = [0, 1, 2, 3].reduce((sum, k) => sum + values[i + k] * values[i + k - 4], 0);
                     expect(file, `key ${i / 4} of ${name} is on the side of the one before`, dot > 0, true);
                 }
+            }
+        });
+        // Compressed, each vertex moves as the plain one, and wind data are within their rounding.
+        const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
+        await eachMesh(['quantize.glb', 'meshopt.glb'], async (file, mesh) => {
+            const load = name => {
+                const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+                loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+                return loader.parseAsync(arrayBuffer(name), '');
+            };
+            const meshopt = file.endsWith('meshopt.glb');
+            const plainDocument = await io.read(join(folder, `${mesh.name}.glb`));
+            const document = await io.read(join(folder, file));
+            const plain = primitivesOf(plainDocument);
+            const step = extentOf(plain) / (meshopt ? 16383 : 65535);
+            const gltf = await load(file);
+            const other = await load(`${mesh.name}.glb`);
+            for (const number of [0, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
+                const expected = posedVertices(three, other, number / mesh.fps);
+                const found = posedVertices(three, gltf, number / mesh.fps);
+                expect(file, 'number of vertices', found.length, expected.length);
+                const off = Math.max(...found.map((v, i) => distance(v.at, expected[i].at)));
+                expect(file, `frame ${number}: off by ${off}, steps are ${step}`,
+                       off <= 0.87 * step + 1e-5, true); // half a step along each axis
+            }
+            primitivesOf(document).forEach((one, i) => {
+                for (const [attribute, most] of [['TEXCOORD_1', meshopt ? 0.5 * step : 0],
+                                                 ['TEXCOORD_2', 0.501 / 65535]]) {
+                    expect(file, `${attribute} of primitive ${i}`, one[attribute]?.length,
+                           plain[i][attribute]?.length);
+                    const off = greatestDifference(one[attribute] ?? [], plain[i][attribute] ?? []);
+                    expect(file, `${attribute} of primitive ${i} off by ${off} of ${most}`,
+                           off <= most, true);
+                }
+            });
+            if (meshopt) {
+                await expectValidDecoded(file, document);
+            } else {
+                await expectValid(file, readFileSync(join(folder, file)), file);
             }
         });
     },

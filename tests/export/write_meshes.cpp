@@ -41,6 +41,16 @@ bool write_file(const std::filesystem::path& path,
     return true;
 }
 
+bool write_buffer(const std::filesystem::path& path, const Mesh& mesh, const ExportInfo& info) {
+    std::ofstream file(path, std::ios::binary);
+    const Outcome<void> written =
+        write_gltf_buffer(mesh, {}, info, [&file](std::string_view bytes) {
+            file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+            return file.good();
+        });
+    return written.ok() && file.good();
+}
+
 /// Pictures that lie beside a file of the format.
 bool write_pictures(const std::filesystem::path& folder,
                     const Mesh& mesh,
@@ -128,6 +138,23 @@ int main(int argument_count, char** arguments) {
                 fine = write_pictures(folder, mesh, format, info) && fine;
                 fine = write_file(folder / file, mesh, {}, info) && fine;
             }
+        }
+        for (const auto& [ending, compression] :
+             {std::pair{"separate.gltf", ExportCompression::None},
+              {"quantize.glb", ExportCompression::Quantize},
+              {"quantize.gltf", ExportCompression::Quantize},
+              {"meshopt.glb", ExportCompression::Meshopt},
+              {"meshopt.gltf", ExportCompression::Meshopt}}) {
+            const std::string file = fmt::format("{}.{}", name, ending);
+            ExportInfo form = info;
+            form.compression = compression;
+            if (compression == ExportCompression::None) {
+                form.buffer_name = fmt::format("{}.separate.bin", name);
+                form.picture_prefix = fmt::format("{}.separate", name);
+                fine = write_pictures(folder, mesh, ExportFormat::Gltf, form) && fine;
+                fine = write_buffer(folder / form.buffer_name, mesh, form) && fine;
+            }
+            fine = write_file(folder / file, mesh, {}, form) && fine;
         }
         counts << name << ' ' << mesh.positions.size() << ' ' << mesh.indices.size() / 3 << ' '
                << mesh.parts.size() << '\n';

@@ -53,23 +53,34 @@ const std::array kCases{
 constexpr const char* kFrames = "13";
 constexpr const char* kRate = "10";
 
+bool write_file(const Case& motion, const fs::path& path, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"export",   "-",     "-o",    path.string(),
+                                       "--frames", kFrames, "--fps", kRate};
+    arguments.insert(arguments.end(), motion.options.begin(), motion.options.end());
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const LscRun run = run_lsc(arguments, motion.grammar);
+    if (run.status != 0) {
+        std::fprintf(stderr, "%s: status %d\n%s", path.c_str(), run.status, run.err.c_str());
+    }
+    return run.status == 0;
+}
+
 bool write_case(const Case& motion, const fs::path& folder, std::ofstream& counts) {
     for (const lsys::ExportFormat format : lsys::export_formats()) {
         const lsys::FormatTraits& traits = lsys::traits_of(format);
         if (!traits.motion && format != lsys::ExportFormat::Ply) {
             continue;
         }
-        const std::string file = fmt::format("{}.{}", motion.name, traits.name);
-        std::vector<std::string> arguments{"export",   "-",     "-o",    (folder / file).string(),
-                                           "--frames", kFrames, "--fps", kRate};
-        arguments.insert(arguments.end(), motion.options.begin(), motion.options.end());
-        if (traits.motion) {
-            arguments.insert(arguments.end(), motion.gltf_options.begin(),
-                             motion.gltf_options.end());
+        if (!write_file(motion, folder / fmt::format("{}.{}", motion.name, traits.name),
+                        traits.motion ? motion.gltf_options : std::vector<std::string>())) {
+            return false;
         }
-        const LscRun run = run_lsc(arguments, motion.grammar);
-        if (run.status != 0) {
-            std::fprintf(stderr, "%s: status %d\n%s", file.c_str(), run.status, run.err.c_str());
+    }
+    for (const char* const compression : {"quantize", "meshopt"}) {
+        std::vector<std::string> options = motion.gltf_options;
+        options.insert(options.end(), {"--compress", compression});
+        if (!write_file(motion, folder / fmt::format("{}.{}.glb", motion.name, compression),
+                        options)) {
             return false;
         }
     }

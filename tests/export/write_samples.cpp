@@ -66,6 +66,18 @@ bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& 
             return false;
         }
     }
+    for (const std::vector<std::string>& form :
+         std::vector<std::vector<std::string>>{{"separate.gltf", "--buffers", "separate"},
+                                               {"quantize.glb", "--compress", "quantize"},
+                                               {"quantize.gltf", "--compress", "quantize"},
+                                               {"meshopt.glb", "--compress", "meshopt"},
+                                               {"meshopt.gltf", "--compress", "meshopt"}}) {
+        const LscRun written =
+            run_lsc({"export", source, "-n", n, "-o", file(form[0]), form[1], form[2]}, "");
+        if (failed(sample, written)) {
+            return false;
+        }
+    }
     counts << name << ' ' << stated(run.out, "vertices") << ' ' << stated(run.out, "triangles")
            << ' ' << occurrences(lsys::tests::read_text(file("obj")), "\nusemtl ") << '\n';
     return true;

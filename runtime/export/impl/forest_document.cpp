@@ -4,37 +4,28 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace lsys {
 
 namespace {
 
-struct Attribute {
-    const char* name;
-    std::uint64_t bytes; // per vertex
-    int component;
-    const char* type;
-};
+constexpr int kVertices = 34962;
+constexpr int kIndices = 34963;
 
-const Attribute& attribute_of(const GltfView& view) {
-    static constexpr std::array<Attribute, 5> kAttributes{{
-        {"POSITION", 12, kGltfFloat, "VEC3"},
-        {"NORMAL", 12, kGltfFloat, "VEC3"},
-        {"TEXCOORD_0", 8, kGltfFloat, "VEC2"},
-        {"TANGENT", 16, kGltfFloat, "VEC4"},
-        {"COLOR_0", 4, kGltfByte, "VEC4"},
-    }};
-    static_assert(kAttributes.size() == static_cast<std::size_t>(GltfArray::Joints));
-    return kAttributes[static_cast<std::size_t>(view.array)];
+/// The view of an array of several slices, for which glTF asks for a stride.
+void put_array_view(JsonWriter& json, const ForestView& view) {
+    const bool indices = view.array == GltfArray::Indices;
+    json.object().member("buffer", 0).member("byteOffset", view.offset);
+    json.member("byteLength", view.item_bytes());
+    if (!indices) {
+        json.member("byteStride", view.type.stride);
+    }
+    json.member("target", indices ? kIndices : kVertices).end();
 }
 
-/// The view of an attribute of several slices, for which glTF asks for a stride.
-void put_attribute_view(JsonWriter& json, const GltfView& view) {
-    constexpr int kVertices = 34962;
-    json.object().member("buffer", 0).member("byteOffset", view.offset);
-    json.member("byteLength", view.bytes).member("byteStride", attribute_of(view).bytes);
-    json.member("target", kVertices).end();
+/// A view of bytes that are no vertices.
+void put_plain_view(JsonWriter& json, std::uint64_t offset, std::uint64_t bytes) {
+    json.object().member("buffer", 0).member("byteOffset", offset);
+    json.member("byteLength", bytes).end();
 }
 
 } // namespace
@@ -124,8 +115,8 @@ void ForestDocument::put_mesh(JsonWriter& json,
     for (const MeshPart& part : parts) {
         const ForestBlock& block = surface.blocks[part.material];
         json.object().object("attributes");
-        for (const GltfView& view : block.attributes) {
-            json.member(attribute_of(view).name, accessor++);
+        for (const ForestView& view : block.attributes) {
+            json.member(attribute_name(view.array), accessor++);
         }
         json.end().member("indices", accessor++);
         const std::pair key((*surface.materials)[part.material], block.coloured);
@@ -164,8 +155,9 @@ void ForestDocument::put_materials(JsonWriter& json) const {
     }
     json.array("materials");
     for (const auto& [material, coloured] : list) {
-        put_material(json, materials_.samples.materials[material], pictures_.of_materials[material],
-                     coloured);
+        const Material& shown = materials_.samples.materials[material];
+        put_material(json, shown, pictures_.of_materials[material],
+                     {shown.name, coloured ? glm::vec3(1.0F) : glm::vec3(shown.colour), {}});
     }
     json.end();
     if (!pictures_.list.empty()) {
@@ -180,22 +172,22 @@ void ForestDocument::put_part_accessors(JsonWriter& json,
     const Slice& slice = surface.sliced.slices[part];
     const ForestBlock& block = surface.blocks[drawn.material];
     for (std::size_t i = 0; i < block.attributes.size(); ++i) {
-        const Attribute& attribute = attribute_of(block.attributes[i]);
-        begin_accessor(json, {block.first_view + i, attribute.bytes * slice.first_vertex,
-                              attribute.component, slice.vertex_count, attribute.type});
-        if (block.attributes[i].array == GltfArray::Positions) {
+        const ForestView& view = block.attributes[i];
+        begin_accessor(json, {block.first_view + i, view.type.stride * slice.first_vertex,
+                              view.type.component, slice.vertex_count, view.type.type});
+        if (view.array == GltfArray::Positions) {
             // Digits of doubles: readers parse the shortest text of a float as another double.
             const glm::dvec3 low(slice.bounds.low);
             const glm::dvec3 high(slice.bounds.high);
             json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
         }
-        if (attribute.component == kGltfByte) {
+        if (view.type.normalized) {
             json.member("normalized", true);
         }
         json.end();
     }
     const std::size_t wide_view = block.first_view + block.attributes.size();
-    const std::size_t narrow_view = wide_view + (block.wide_indices.bytes > 0 ? 1 : 0);
+    const std::size_t narrow_view = wide_view + (block.wide_indices.count > 0 ? 1 : 0);
     if (slice.is_wide()) {
         begin_accessor(json, {wide_view, sizeof(std::uint32_t) * slice.first_index, kGltfInteger,
                               drawn.index_count, "SCALAR"})
@@ -235,26 +227,25 @@ void ForestDocument::put_views(JsonWriter& json) const {
     json.array("bufferViews");
     for (const ForestSurface& surface : surfaces_) {
         for (const ForestBlock& block : surface.blocks) {
-            for (const GltfView& view : block.attributes) {
-                put_attribute_view(json, view);
+            for (const ForestView& view : block.attributes) {
+                put_array_view(json, view);
             }
-            for (const GltfView& view : {block.wide_indices, block.narrow_indices}) {
-                if (view.bytes > 0) {
-                    put_view(json, view, 0);
+            for (const ForestView* view : {&block.wide_indices, &block.narrow_indices}) {
+                if (view->count > 0) {
+                    put_array_view(json, *view);
                 }
             }
         }
     }
-    GltfView view{.array = GltfArray::Image, .offset = transforms_offset_};
+    std::uint64_t offset = transforms_offset_;
     if (first_image_view_ > transforms_view_) {
-        view.bytes = kInstanceBytes * plan_.branches();
-        put_view(json, view, 0);
-        view.offset += view.bytes;
+        const std::uint64_t bytes = kInstanceBytes * plan_.branches();
+        put_plain_view(json, offset, bytes);
+        offset += bytes;
     }
     for (const std::string& image : images_) {
-        view.bytes = image.size();
-        put_view(json, view, 0);
-        view.offset += view.bytes;
+        put_plain_view(json, offset, image.size());
+        offset += image.size();
     }
     json.end();
 }

@@ -4,7 +4,7 @@
 
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/forest_slices.h"
-#include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
@@ -19,13 +19,25 @@
 
 namespace lsys {
 
+/// An array of the vertices or indices of a block: a buffer view.
+struct ForestView {
+    GltfArray array = GltfArray::Positions;
+    GltfItem type;
+    std::uint64_t count = 0;  // items
+    std::uint64_t offset = 0; // in the buffer, a multiple of 4
+    std::uint64_t bytes = 0;  // in the buffer
+
+    [[nodiscard]] std::uint64_t item_bytes() const { return type.stride * count; }
+};
+
 /// Arrays of one material of a surface.
 struct ForestBlock {
-    std::vector<GltfView> attributes; // offsets in the buffer
-    GltfView wide_indices;            // 32 bits; no view if it has no bytes
-    GltfView narrow_indices;          // 16 bits, likewise
-    std::size_t first_view = 0;       // of the attributes; wide indices, narrow ones follow
-    bool coloured = false;            // vertices have colours of their own
+    GltfForm form;
+    std::vector<ForestView> attributes;
+    ForestView wide_indices;    // 32 bits; no view without items
+    ForestView narrow_indices;  // 16 bits, likewise
+    std::size_t first_view = 0; // of the attributes; wide indices, narrow ones follow
+    bool coloured = false;      // vertices have colours of their own
 };
 
 /// Arrays of a kind of tree, or of the ground.
@@ -35,8 +47,6 @@ struct ForestSurface {
     SlicedMesh sliced;
     std::vector<ForestBlock> blocks; // by material of the mesh
 };
-
-inline constexpr std::uint64_t kColourBytes = 4; // of a vertex: linear RGBA
 
 class ForestDocument {
 public:

@@ -75,22 +75,14 @@ void ForestDocument::add_surface(const Mesh& mesh,
     surface.materials = &materials;
     surface.sliced = slice_mesh(mesh, lists);
     surface.blocks.resize(mesh.materials.size());
-    const std::vector<bool> coloured =
-        plan_gltf_data(mesh, nullptr, nullptr, {}).coloured; // by part
-    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-        ForestBlock& block = surface.blocks[mesh.parts[p].material];
-        block.coloured = block.coloured || coloured[p];
+    for (const MeshPart& part : mesh.parts) {
+        ForestBlock& block = surface.blocks[part.material];
+        block.coloured = block.coloured || has_vertex_colours(mesh, part);
     }
 }
 
 void ForestDocument::add_views(ForestSurface& surface) {
     const Mesh& mesh = *surface.mesh;
-    const auto view_of = [this](GltfArray array, std::uint64_t bytes) {
-        const GltfView view{.array = array, .offset = bytes_, .bytes = bytes};
-        bytes_ += (bytes + 3) / 4 * 4;
-        view_count_ += bytes > 0 ? 1 : 0;
-        return view;
-    };
     for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
         const SliceBlock& from = surface.sliced.blocks[material];
         ForestBlock& to = surface.blocks[material];
@@ -98,67 +90,44 @@ void ForestDocument::add_views(ForestSurface& surface) {
         if (from.vertex_count == 0) {
             continue;
         }
-        const auto add = [&](GltfArray array, std::uint64_t bytes) {
-            to.attributes.push_back(view_of(array, bytes * from.vertex_count));
+        const auto place = [this](ForestView& view) {
+            view.offset = bytes_;
+            view.bytes = view.item_bytes();
+            bytes_ += (view.bytes + 3) / 4 * 4;
+            view_count_ += view.count > 0 ? 1 : 0;
         };
-        add(GltfArray::Positions, sizeof(glm::vec3));
-        add(GltfArray::Normals, sizeof(glm::vec3));
+        const auto add = [&](GltfArray array) {
+            to.attributes.push_back(
+                {.array = array, .type = item_of(array, to.form), .count = from.vertex_count});
+            place(to.attributes.back());
+        };
+        add(GltfArray::Positions);
+        add(GltfArray::Normals);
         if (is_complete(mesh, mesh.texture_coordinates)) {
-            add(GltfArray::TextureCoordinates, sizeof(glm::vec2));
+            add(GltfArray::TextureCoordinates);
         }
         // Only normal maps need tangents.
         if (is_complete(mesh, mesh.tangents) &&
             pictures_.of_materials[(*surface.materials)[material]].relief) {
-            add(GltfArray::Tangents, sizeof(glm::vec4));
+            add(GltfArray::Tangents);
         }
         if (to.coloured) {
-            add(GltfArray::Colours, kColourBytes);
+            add(GltfArray::Colours);
         }
-        to.wide_indices = view_of(GltfArray::Indices, from.wide_indices * sizeof(std::uint32_t));
-        to.narrow_indices =
-            view_of(GltfArray::Indices, from.narrow_indices * sizeof(std::uint16_t));
+        to.wide_indices = {.array = GltfArray::Indices,
+                           .type = {kGltfInteger, "SCALAR", false, 4},
+                           .count = from.wide_indices};
+        place(to.wide_indices);
+        to.narrow_indices = {.array = GltfArray::Indices,
+                             .type = {kGltfShort, "SCALAR", false, 2},
+                             .count = from.narrow_indices};
+        place(to.narrow_indices);
     }
 }
 
 namespace {
 
-constexpr std::size_t kChunk = 16384; // vertices or indices
-
-/// Writes one attribute of the vertices of a block.
-void write_attribute(const Mesh& mesh,
-                     std::span<const std::uint32_t> vertices,
-                     const GltfView& view,
-                     const GltfBytes& write) {
-    GltfData data;
-    data.views.push_back({.array = view.array});
-    Mesh chunk;
-    const auto gather = [](const auto& from, std::span<const std::uint32_t> numbers, auto& to) {
-        to.resize(numbers.size());
-        std::transform(numbers.begin(), numbers.end(), to.begin(),
-                       [&from](std::uint32_t vertex) { return from[vertex]; });
-    };
-    for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
-        const auto numbers = vertices.subspan(first, std::min(kChunk, vertices.size() - first));
-        switch (view.array) {
-        case GltfArray::Positions:
-            gather(mesh.positions, numbers, chunk.positions);
-            break;
-        case GltfArray::Normals:
-            gather(mesh.normals, numbers, chunk.normals);
-            break;
-        case GltfArray::TextureCoordinates:
-            gather(mesh.texture_coordinates, numbers, chunk.texture_coordinates);
-            break;
-        case GltfArray::Tangents:
-            gather(mesh.tangents, numbers, chunk.tangents);
-            break;
-        default:
-            gather(mesh.colours, numbers, chunk.colours);
-            break;
-        }
-        write_gltf_data(chunk, nullptr, nullptr, data, write);
-    }
-}
+constexpr std::size_t kChunk = 16384; // indices
 
 /// Writes the indices of the parts of one material whose slices are wide, or of the others.
 template <typename Index>
@@ -193,8 +162,9 @@ void ForestDocument::put_data(const GltfSink& write) const {
             const SliceBlock& block = surface.sliced.blocks[material];
             const auto vertices =
                 std::span(surface.sliced.vertices).subspan(block.first_vertex, block.vertex_count);
-            for (const GltfView& view : surface.blocks[material].attributes) {
-                write_attribute(*surface.mesh, vertices, view, put);
+            const ForestBlock& to = surface.blocks[material];
+            for (const ForestView& view : to.attributes) {
+                write_items(*surface.mesh, vertices, view.array, to.form, put);
             }
             write_indices<std::uint32_t>(surface, material, put);
             write_indices<std::uint16_t>(surface, material, put);

@@ -20,6 +20,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
+
+std::size_t aligned(std::size_t bytes) {
+    return (bytes + 3) / 4 * 4;
+}
+
 /// A GLB file as its document and its buffer.
 struct GlbFile {
     Json document;
@@ -45,7 +51,13 @@ Json take_list(Json& document, const char* list) {
 /// The document and the buffer of the joined file.
 class JoinedFile {
 public:
-    explicit JoinedFile(GlbFile first) : file_(std::move(first)) {}
+    explicit JoinedFile(GlbFile first) : file_(std::move(first)) {
+        const Json buffers = take_list(file_.document, "buffers");
+        if (buffers.size() > 1) {
+            decoded_bytes_ = buffers[1]["byteLength"].get<std::size_t>();
+        }
+        file_.document.erase("buffers");
+    }
 
     /// Adds the nodes of a file, without its scene. Returns the number of its first node.
     std::size_t add(GlbFile file, std::size_t level) {
@@ -124,7 +136,13 @@ public:
     }
 
     [[nodiscard]] Json& document() { return file_.document; }
-    [[nodiscard]] const std::string& data() const { return file_.data; }
+    /// The buffer, of a size that is a multiple of 4.
+    [[nodiscard]] const std::string& pad_data() {
+        file_.data.resize(aligned(file_.data.size()), '\0');
+        return file_.data;
+    }
+    /// Size of the buffer of decoded items of EXT_meshopt_compression; 0: there is none.
+    [[nodiscard]] std::size_t decoded_bytes() const { return aligned(decoded_bytes_); }
 
 private:
     static std::string level_name(const Json& name, std::size_t level) {
@@ -151,9 +169,16 @@ private:
             views_.emplace(old.get<std::size_t>(), count_of("bufferViews"));
         if (is_new) {
             Json view = views[found->first];
-            const std::string_view bytes = bytes_of(view, data);
-            file_.data.resize((file_.data.size() + 3) / 4 * 4, '\0');
-            view["byteOffset"] = file_.data.size();
+            Json* stored = &view;
+            if (view.contains("extensions") && view["extensions"].contains(kMeshopt)) {
+                stored = &view["extensions"][kMeshopt];
+                decoded_bytes_ = aligned(decoded_bytes_);
+                view["byteOffset"] = decoded_bytes_;
+                decoded_bytes_ += view["byteLength"].get<std::size_t>();
+            }
+            const std::string_view bytes = bytes_of(*stored, data);
+            file_.data.resize(aligned(file_.data.size()), '\0');
+            (*stored)["byteOffset"] = file_.data.size();
             file_.data += bytes;
             file_.document["bufferViews"].push_back(std::move(view));
         }
@@ -198,6 +223,7 @@ private:
     }
 
     GlbFile file_;
+    std::size_t decoded_bytes_ = 0;
     std::map<std::size_t, std::size_t> views_; // of the file that is being added
 };
 
@@ -237,10 +263,10 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
         node["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
         node["extras"]["MSFT_screencoverage"] = std::move(coverages);
     }
-    if (joined.data().size() > kMaxGltfBytes) {
+    const std::string& data = joined.pad_data();
+    if (data.size() > kMaxGltfBytes || joined.decoded_bytes() > kMaxGltfBytes) {
         return too_large_for_format(job.info.subject);
     }
-    joined.document().erase("buffers");
     GltfFile file;
     file.binary = binary;
     file.put_members = [&joined](JsonWriter& json) {
@@ -248,9 +274,8 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
             json.name(name).literal(value.dump());
         }
     };
-    std::string data = joined.data();
-    data.resize((data.size() + 3) / 4 * 4, '\0');
     file.data_bytes = data.size();
+    file.decoded_bytes = joined.decoded_bytes();
     file.put_data = [&data](const GltfSink& sink) {
         static_cast<void>(sink(std::as_bytes(std::span(data))));
     };

@@ -14,8 +14,6 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kChunk = 16384; // vertices
-
 struct Influence {
     std::array<std::uint16_t, 4> joints{};
     std::array<std::uint8_t, 4> weights{};
@@ -58,22 +56,6 @@ Influence influence_at(const Mesh& mesh, const GltfMotion& motion, std::size_t v
                         : influence_of(mesh.segments[vertex], motion.skin);
 }
 
-template <typename Item, typename ItemOf>
-void write_vertices(const Mesh& mesh,
-                    const GltfMotion& motion,
-                    const GltfBytes& write,
-                    const ItemOf& item_of) {
-    std::vector<std::array<Item, 4>> chunk;
-    for (std::size_t first = 0; first < mesh.segments.size(); first += kChunk) {
-        chunk.clear();
-        const std::size_t end = std::min(first + kChunk, mesh.segments.size());
-        for (std::size_t vertex = first; vertex < end; ++vertex) {
-            chunk.push_back(item_of(influence_at(mesh, motion, vertex)));
-        }
-        write(std::as_bytes(std::span<const std::array<Item, 4>>(chunk)));
-    }
-}
-
 float time_of(const PlantAnimation& poses, std::uint32_t frame) {
     return static_cast<float>(static_cast<double>(frame) /
                               static_cast<double>(poses.frames_per_second));
@@ -98,13 +80,17 @@ std::uint64_t GltfMotion::rotation_count() const {
     return count;
 }
 
-void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
+void write_vertex_joints(const Mesh& mesh,
+                         std::span<const std::uint32_t> vertices,
+                         const GltfMotion& motion,
+                         const GltfBytes& write) {
     if (motion.joint_bytes() == 2) {
-        write_vertices<std::uint16_t>(mesh, motion, write,
-                                      [](const Influence& influence) { return influence.joints; });
+        write_each(vertices, write,
+                   [&](std::uint32_t vertex) { return influence_at(mesh, motion, vertex).joints; });
         return;
     }
-    write_vertices<std::uint8_t>(mesh, motion, write, [](const Influence& influence) {
+    write_each(vertices, write, [&](std::uint32_t vertex) {
+        const Influence influence = influence_at(mesh, motion, vertex);
         std::array<std::uint8_t, 4> bytes{};
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             bytes[i] = static_cast<std::uint8_t>(influence.joints[i]);
@@ -113,19 +99,23 @@ void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfB
     });
 }
 
-void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write) {
-    write_vertices<std::uint8_t>(mesh, motion, write,
-                                 [](const Influence& influence) { return influence.weights; });
+void write_vertex_weights(const Mesh& mesh,
+                          std::span<const std::uint32_t> vertices,
+                          const GltfMotion& motion,
+                          const GltfBytes& write) {
+    write_each(vertices, write,
+               [&](std::uint32_t vertex) { return influence_at(mesh, motion, vertex).weights; });
 }
 
-void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write) {
-    const glm::mat4 identity(1.0F);
-    write(std::as_bytes(std::span(&identity, 1)));
-    const auto put = [&write](const glm::dvec3& base, const glm::dquat& frame) {
+void write_inverse_binds(const GltfMotion& motion,
+                         const glm::mat4& decode,
+                         const GltfBytes& write) {
+    write(std::as_bytes(std::span(&decode, 1)));
+    const auto put = [&](const glm::dvec3& base, const glm::dquat& frame) {
         const glm::dquat back = glm::conjugate(glm::normalize(frame));
         glm::dmat4 inverse = glm::mat4_cast(back);
         inverse[3] = glm::dvec4(back * -base, 1.0);
-        const glm::mat4 matrix(inverse);
+        const glm::mat4 matrix(inverse * glm::dmat4(decode));
         write(std::as_bytes(std::span(&matrix, 1)));
     };
     if (motion.bones) {
@@ -220,21 +210,22 @@ void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
     }
 }
 
-void put_bone_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
+/// Times and rotations in views `times` and `rotations`.
+void put_bone_accessors(JsonWriter& json,
+                        const GltfMotion& motion,
+                        std::size_t times,
+                        std::size_t rotations) {
     std::size_t key = 0;
     for (const Bone& bone : motion.bones->joints) {
         if (bone.keys.empty()) {
             continue;
         }
         const std::size_t count = bone.keys.size();
-        begin_accessor(json, {data.first_view(GltfArray::Times), key * sizeof(float), kGltfFloat,
-                              count, "SCALAR"})
+        begin_accessor(json, {times, key * sizeof(float), kGltfFloat, count, "SCALAR"})
             .member("min", {static_cast<double>(time_of(motion.poses, bone.keys.front()))})
             .member("max", {static_cast<double>(time_of(motion.poses, bone.keys.back()))})
             .end();
-        begin_accessor(json, {data.first_view(GltfArray::Rotations), key * sizeof(glm::quat),
-                              kGltfFloat, count, "VEC4"})
-            .end();
+        begin_accessor(json, {rotations, key * sizeof(glm::quat), kGltfFloat, count, "VEC4"}).end();
         key += count;
     }
 }
@@ -291,26 +282,27 @@ void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t fir
     }
 }
 
-void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data) {
+void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view) {
     const std::uint32_t frames = motion.poses.frame_count;
-    const std::size_t binds = data.first_view(GltfArray::InverseBinds);
-    begin_accessor(json, {binds, {}, kGltfFloat, motion.joint_count(), "MAT4"}).end();
+    const std::size_t times = first_view + 1;
+    const std::size_t translations = times + (motion.time_count() > 0 ? 1 : 0);
+    const std::size_t rotations = translations + (motion.translation_count() > 0 ? 1 : 0);
+    begin_accessor(json, {first_view, {}, kGltfFloat, motion.joint_count(), "MAT4"}).end();
     if (motion.bones) {
-        put_bone_accessors(json, motion, data);
+        put_bone_accessors(json, motion, times, rotations);
         return;
     }
-    begin_accessor(json, {data.first_view(GltfArray::Times), {}, kGltfFloat, frames, "SCALAR"})
+    begin_accessor(json, {times, {}, kGltfFloat, frames, "SCALAR"})
         .member("min", {0})
         .member("max", {static_cast<double>(time_of(motion.poses, frames - 1))})
         .end();
-    const auto put_channels = [&](GltfArray array, std::size_t bytes, const char* type) {
-        const std::size_t view = data.first_view(array);
+    const auto put_channels = [&](std::size_t view, std::size_t bytes, const char* type) {
         for (std::size_t i = 0; i < motion.moving_joints(); ++i) {
             begin_accessor(json, {view, i * frames * bytes, kGltfFloat, frames, type}).end();
         }
     };
-    put_channels(GltfArray::Translations, sizeof(glm::vec3), "VEC3");
-    put_channels(GltfArray::Rotations, sizeof(glm::quat), "VEC4");
+    put_channels(translations, sizeof(glm::vec3), "VEC3");
+    put_channels(rotations, sizeof(glm::quat), "VEC4");
 }
 
 void put_skin_and_animation(JsonWriter& json,

@@ -3,18 +3,18 @@
 #pragma once
 
 #include "runtime/export/impl/bones.h"
+#include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/skin.h"
 
+#include <glm/mat4x4.hpp>
+
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 
 namespace lsys {
-
-struct GltfData;
 
 struct GltfMotion {
     Skin skin;                   // without `bones`
@@ -33,11 +33,17 @@ struct GltfMotion {
     [[nodiscard]] std::uint64_t rotation_count() const;
 };
 
-using GltfBytes = std::function<void(std::span<const std::byte>)>;
-/// Write the arrays, in the order of GltfArray.
-void write_vertex_joints(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
-void write_vertex_weights(const Mesh& mesh, const GltfMotion& motion, const GltfBytes& write);
-void write_inverse_binds(const GltfMotion& motion, const GltfBytes& write);
+/// Write the arrays, in the order of GltfArray, of some vertices of the mesh or of all joints.
+void write_vertex_joints(const Mesh& mesh,
+                         std::span<const std::uint32_t> vertices,
+                         const GltfMotion& motion,
+                         const GltfBytes& write);
+void write_vertex_weights(const Mesh& mesh,
+                          std::span<const std::uint32_t> vertices,
+                          const GltfMotion& motion,
+                          const GltfBytes& write);
+/// `decode` turns items of the positions into positions; it comes first.
+void write_inverse_binds(const GltfMotion& motion, const glm::mat4& decode, const GltfBytes& write);
 void write_times(const GltfMotion& motion, const GltfBytes& write);
 /// Joint by joint, frame by frame within a joint.
 void write_translations(const GltfMotion& motion, const GltfBytes& write);
@@ -46,8 +52,9 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 /// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
 /// Accessors: inverse binds, times, then two for each joint that moves. With bones: inverse binds,
-/// then times and rotations of each joint with keys.
-void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, const GltfData& data);
+/// then times and rotations of each joint with keys. The views of the arrays that are not empty are
+/// consecutive, from `first_view` on.
+void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view);
 /// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,
                             const GltfMotion& motion,

@@ -11,30 +11,6 @@ namespace lsys {
 
 namespace {
 
-struct Attribute {
-    const char* name;
-    int component;
-    const char* type;
-    bool normalized = false;
-};
-/// Indexed by GltfArray.
-constexpr std::array<Attribute, 9> kAttributes{{
-    {"POSITION", kGltfFloat, "VEC3"},
-    {"NORMAL", kGltfFloat, "VEC3"},
-    {"TEXCOORD_0", kGltfFloat, "VEC2"},
-    {"TANGENT", kGltfFloat, "VEC4"},
-    {"COLOR_0", kGltfByte, "VEC4", true},
-    {"JOINTS_0", kGltfByte, "VEC4"},
-    {"WEIGHTS_0", kGltfByte, "VEC4", true},
-    {"TEXCOORD_1", kGltfFloat, "VEC2"},
-    {"TEXCOORD_2", kGltfFloat, "VEC2"},
-}};
-static_assert(kAttributes.size() == static_cast<std::size_t>(GltfArray::Indices));
-
-const Attribute& attribute_of(const GltfView& view) {
-    return kAttributes[static_cast<std::size_t>(view.array)];
-}
-
 void put_sampler(JsonWriter& json, int wrap) {
     constexpr int kLinear = 9729;
     constexpr int kLinearMipmapLinear = 9987;
@@ -54,72 +30,31 @@ JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor) {
         .member("type", accessor.type);
 }
 
-void put_attributes(JsonWriter& json,
-                    const GltfData& data,
-                    std::size_t first_accessor,
-                    bool coloured) {
-    json.object("attributes");
-    for (std::size_t i = 0; data.views[i].array != GltfArray::Indices; ++i) {
-        if (data.views[i].array != GltfArray::Colours || coloured) {
-            json.member(attribute_of(data.views[i]).name, first_accessor + i);
-        }
-    }
-    json.end();
-}
-
-void put_attribute_accessors(JsonWriter& json,
-                             const GltfData& data,
-                             std::size_t first_view,
-                             std::uint64_t vertices,
-                             const Bounds& bounds) {
-    for (std::size_t i = 0; data.views[i].array != GltfArray::Indices; ++i) {
-        const GltfView& view = data.views[i];
-        const Attribute& attribute = attribute_of(view);
-        const bool wide = view.array == GltfArray::Joints && view.bytes > 4 * vertices;
-        begin_accessor(json, {first_view + i,
-                              {},
-                              wide ? kGltfShort : attribute.component,
-                              vertices,
-                              attribute.type});
-        if (view.array == GltfArray::Positions) {
-            // Digits of doubles: readers parse the shortest text of a float as another double.
-            const glm::dvec3 low(bounds.low);
-            const glm::dvec3 high(bounds.high);
-            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
-        }
-        if (attribute.normalized) {
-            json.member("normalized", true);
-        }
-        json.end();
-    }
-}
-
-void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset) {
-    constexpr int kVertices = 34962;
-    constexpr int kIndices = 34963;
-    json.object().member("buffer", 0);
-    json.member("byteOffset", offset + view.offset).member("byteLength", view.bytes);
-    if (view.array <= GltfArray::Indices) {
-        json.member("target", view.array == GltfArray::Indices ? kIndices : kVertices);
-    }
-    json.end();
-}
-
 void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,
-                  bool coloured) {
-    const glm::vec4 colour = glm::clamp(
-        coloured ? glm::vec4(1.0F, 1.0F, 1.0F, material.colour.a) : material.colour, 0.0F, 1.0F);
-    json.object().member("name", material.name).object("pbrMetallicRoughness");
+                  const GltfMaterial& look) {
+    const auto put_texture = [&](const char* name, std::size_t texture) {
+        json.object(name).member("index", texture);
+        if (look.transform) {
+            const glm::vec2& offset = look.transform->offset;
+            const glm::vec2& scale = look.transform->scale;
+            json.object("extensions").object("KHR_texture_transform");
+            json.member("offset", {offset.x, offset.y}).member("scale", {scale.x, scale.y});
+            json.end().end();
+        }
+        json.end();
+    };
+    const glm::vec4 colour = glm::clamp(glm::vec4(look.colour, material.colour.a), 0.0F, 1.0F);
+    json.object().member("name", look.name).object("pbrMetallicRoughness");
     json.member("baseColorFactor", {colour.r, colour.g, colour.b, colour.a});
     if (shown.colour) {
-        json.object("baseColorTexture").member("index", *shown.colour).end();
+        put_texture("baseColorTexture", *shown.colour);
     }
     json.member("metallicFactor", 0);
     json.member("roughnessFactor", material.kind == MaterialKind::Bark ? 0.95 : 0.7).end();
     if (shown.relief) {
-        json.object("normalTexture").member("index", *shown.relief).end();
+        put_texture("normalTexture", *shown.relief);
     }
     if (material.cut_out) {
         json.member("alphaMode", "MASK").member("alphaCutoff", 0.5);
@@ -132,7 +67,9 @@ void put_material(JsonWriter& json,
     json.end();
 }
 
-void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t first_view) {
+void put_images(JsonWriter& json,
+                const std::vector<Picture>& list,
+                std::optional<std::size_t> first_view) {
     constexpr int kRepeat = 10497;
     constexpr int kClampToEdge = 33071;
     const auto is_leaf = [](const Picture& picture) {
@@ -153,8 +90,12 @@ void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t 
     }
     json.end().array("images");
     for (std::size_t i = 0; i < list.size(); ++i) {
-        json.object().member("name", list[i].name).member("mimeType", "image/png");
-        json.member("bufferView", first_view + i).end();
+        json.object().member("name", list[i].name);
+        if (first_view) {
+            json.member("mimeType", "image/png").member("bufferView", *first_view + i).end();
+        } else {
+            json.member("uri", uri_text(list[i].name)).end();
+        }
     }
     json.end();
 }
@@ -165,7 +106,9 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
         json.object();
         file.put_members(json);
         json.array("buffers").object().member("byteLength", file.data_bytes);
-        if (!file.binary) {
+        if (!file.data_name.empty()) {
+            json.member("uri", uri_text(file.data_name));
+        } else if (!file.binary) {
             json.name("uri").text([&] {
                 to.put("data:application/octet-stream;base64,");
                 Base64Writer base64(to);
@@ -176,7 +119,12 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
                 base64.finish();
             });
         }
-        json.end().end().end();
+        json.end();
+        if (file.decoded_bytes > 0) {
+            json.object().member("byteLength", file.decoded_bytes).object("extensions");
+            json.object("EXT_meshopt_compression").member("fallback", true).end().end().end();
+        }
+        json.end().end();
     };
     if (!file.binary) {
         put_document(out);

@@ -2,7 +2,7 @@
 // into the document.
 #pragma once
 
-#include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/piece_writer.h"
@@ -20,12 +20,6 @@ namespace lsys {
 
 inline constexpr std::uint64_t kMaxGltfBytes = 0xFFFFFFFFu; // of a GLB, and of any buffer
 
-// Component types of accessors.
-inline constexpr int kGltfByte = 5121; // all unsigned
-inline constexpr int kGltfShort = 5123;
-inline constexpr int kGltfInteger = 5125;
-inline constexpr int kGltfFloat = 5126;
-
 /// A part of a buffer view as items of one type.
 struct GltfAccessor {
     std::size_t view;
@@ -37,28 +31,21 @@ struct GltfAccessor {
 /// Begins the object of an accessor; the caller adds members and ends it.
 JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
 
-/// The member `attributes` of a primitive: accessors from `first_accessor` on, one for each view of
-/// `data` before the indices. `coloured`: with the colours of vertices.
-void put_attributes(JsonWriter& json,
-                    const GltfData& data,
-                    std::size_t first_accessor,
-                    bool coloured);
-/// The accessors of put_attributes(), of views from `first_view` on. `bounds` of the positions.
-void put_attribute_accessors(JsonWriter& json,
-                             const GltfData& data,
-                             std::size_t first_view,
-                             std::uint64_t vertices,
-                             const Bounds& bounds);
-/// A buffer view that begins at byte `offset + view.offset` of the buffer.
-void put_view(JsonWriter& json, const GltfView& view, std::uint64_t offset);
-
-/// `coloured`: vertices have colours of their own in place of the material's.
+/// Appearance of a material in a file.
+struct GltfMaterial {
+    std::string name;
+    glm::vec3 colour{1.0F}; // in place of the material's
+    std::optional<GltfTextureTransform> transform;
+};
 void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,
-                  bool coloured);
-/// Samplers, textures and images. The images lie in buffer views from `first_view` on.
-void put_images(JsonWriter& json, const std::vector<Picture>& list, std::size_t first_view);
+                  const GltfMaterial& look);
+/// Samplers, textures and images. The images lie in buffer views from `first_view` on; without it
+/// beside the file, with the names of the pictures.
+void put_images(JsonWriter& json,
+                const std::vector<Picture>& list,
+                std::optional<std::size_t> first_view);
 
 /// Takes the next bytes of a buffer; returns false to stop.
 using GltfSink = std::function<bool(std::span<const std::byte>)>;
@@ -70,6 +57,11 @@ struct GltfFile {
     std::function<void(JsonWriter&)> put_members;
     std::uint64_t data_bytes = 0; // of the buffer: a multiple of 4, at most kMaxGltfBytes
     std::function<void(const GltfSink&)> put_data;
+    /// Name of the file that holds the buffer; empty: this file does.
+    std::string data_name = {};
+    /// Size of a second buffer that exists only when EXT_meshopt_compression has been decoded; 0:
+    /// there is none.
+    std::uint64_t decoded_bytes = 0;
 };
 /// Returns false where a GLB would be too large; nothing is written then.
 [[nodiscard]] bool put_gltf_file(const GltfFile& file, PieceWriter& out);

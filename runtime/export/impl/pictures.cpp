@@ -109,11 +109,12 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
     pictures.of_materials.resize(mesh.materials.size());
     const bool inside = kind == ExportPictures::Inside;
     if (!info.textures || kind == ExportPictures::None ||
-        (!inside && info.picture_prefix.empty())) {
+        (!(inside && info.buffer_name.empty()) && info.picture_prefix.empty())) {
         return pictures;
     }
+    const bool embedded = inside && info.buffer_name.empty();
     const auto name = [&](const std::string& what) {
-        return inside ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
+        return embedded ? what : one_line(info.picture_prefix) + '.' + identifier(what) + ".png";
     };
     const bool has_tangents = is_complete(mesh, mesh.tangents);
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
@@ -169,7 +170,7 @@ make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info
     return run_within_memory("the pictures", [&]() -> Outcome<std::vector<PictureFile>> {
         std::vector<PictureFile> files;
         const ExportPictures kind = traits_of(format).pictures;
-        if (kind != ExportPictures::Inside) {
+        if (kind != ExportPictures::Inside || !info.buffer_name.empty()) {
             const Pictures pictures = find_pictures(mesh, kind, info);
             std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
             for (std::size_t i = 0; i < encoded.size(); ++i) {

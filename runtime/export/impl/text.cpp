@@ -107,6 +107,20 @@ std::string xml_text(std::string_view text) {
     return escaped;
 }
 
+std::string uri_text(std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
+        if (plain) {
+            text += c;
+        } else {
+            text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        }
+    }
+    return text;
+}
+
 std::string obj_identifier(std::string_view text) {
     std::string name = one_line(text);
     std::replace(name.begin(), name.end(), ' ', '_');

@@ -37,6 +37,9 @@ inline char* put_text(char* at, std::string_view text) {
 [[nodiscard]] std::string json_text(std::string_view text);
 /// Escaped for XML, between tags or in an attribute.
 [[nodiscard]] std::string xml_text(std::string_view text);
+/// A name of a file as a relative reference (RFC 3986): all but its unreserved characters are
+/// percent-encoded.
+[[nodiscard]] std::string uri_text(std::string_view name);
 /// A name of OBJ: one line, blanks become underscores; `_` for an empty one.
 [[nodiscard]] std::string obj_identifier(std::string_view text);
 /// A letter or underscore, then letters, digits and underscores: other bytes become underscores.

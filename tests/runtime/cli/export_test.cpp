@@ -194,6 +194,31 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     CHECK(count_files(folder) == 10);
 }
 
+TEST_CASE("frames that grow begin after the last generation that draws nothing") {
+    const char* const grammar = "#n = 4;\n#w : A;\n#wait : A : * : B;\n#sprout : B : * : F A;\n"
+                                "#wither : F : * : F(2);\n";
+    const auto file_of = [&](const std::string& generations) {
+        return run_lsc({"export", "-", "-o", "-", "--format", "stl", "-n", generations}, grammar)
+            .out;
+    };
+    const ScratchFolder folder;
+    const LscRun run =
+        run_lsc({"export", "-", "-o", folder / "t.stl", "--grow", "--frames", "6"}, grammar);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.find("nothing is drawn before generation 2") != std::string::npos);
+    CHECK(count_files(folder) == 6);
+    // Half a generation from frame to frame: 1.5, 2, 2.5, 3, 3.5, 4.
+    CHECK(read_text(folder / "t.0001.stl") != file_of("2"));
+    CHECK(read_text(folder / "t.0002.stl") == file_of("2"));
+    CHECK(read_text(folder / "t.0004.stl") == file_of("3"));
+    CHECK(read_text(folder / "t.0006.stl") == file_of("4"));
+
+    const LscRun bare = run_lsc({"export", "-", "-o", folder / "no.stl", "--grow", "--frames", "3"},
+                                "#n = 3;\n#w : A;\n");
+    CHECK(bare.status != 0);
+    CHECK(bare.err.find("nothing to draw") != std::string::npos);
+}
+
 TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
     const ScratchFolder folder;
     const std::vector<std::string> force{"--frames", "3", "--fps", "12", "--wind", "8,0,0,0.5"};
@@ -232,6 +257,66 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
     // Without frames there is no skin.
     const LscRun rest = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
     CHECK(rest.out.find("skins") == std::string::npos);
+}
+
+TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
+    const ScratchFolder folder;
+    const std::vector<std::string> separate{"--buffers", "separate"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), separate.begin(), separate.end());
+        return run_lsc(arguments, kTree);
+    };
+    REQUIRE(with({"export", "-", "-o", folder / "a tree.gltf"}).status == 0);
+    CHECK(count_files(folder) == 4);
+    const nlohmann::json document = nlohmann::json::parse(read_text(folder / "a tree.gltf"));
+    CHECK(document["buffers"][0]["uri"] == "a%20tree.bin");
+    CHECK(document["buffers"][0]["byteLength"] ==
+          std::filesystem::file_size(folder / "a tree.bin"));
+    CHECK(document["images"][0]["uri"] == "a%20tree.bark.png");
+    CHECK(std::filesystem::exists(folder / "a tree.bark.png"));
+    CHECK(std::filesystem::exists(folder / "a tree.bark_normals.png"));
+    // Standard output holds everything.
+    const LscRun whole = with({"export", "-", "-o", "-", "--format", "gltf"});
+    CHECK(whole.out == run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree).out);
+    // Frames share pictures and have buffers of their own.
+    REQUIRE(with({"export", "-", "-o", folder / "b.gltf", "--grow", "--frames", "3"}).status == 0);
+    CHECK(std::filesystem::exists(folder / "b.0003.bin"));
+    CHECK(std::filesystem::exists(folder / "b.bark.png"));
+    CHECK(count_files(folder) == 4 + 2 * 3 + 2);
+    const LscRun glb = with({"export", "-", "-o", folder / "c.glb"});
+    CHECK(glb.status == 2);
+    CHECK(glb.err.find("--buffers needs gltf, not glb") != std::string::npos);
+}
+
+TEST_CASE("compressed plants are smaller, the same for any threads, and of glTF only") {
+    const ScratchFolder folder;
+    const auto with = [&](const std::string& compression, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"export", "-",          "-o",        "-",  "--format",
+                                           "glb",    "--compress", compression, "-n", "6"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_lsc(arguments, kTree).out;
+    };
+    const std::vector<std::string> moving{"--frames", "3", "--wind", "8,0,0,0.5"};
+    for (const auto& more : std::vector<std::vector<std::string>>{{}, moving}) {
+        const std::string none = with("none", more);
+        const std::string quantize = with("quantize", more);
+        const std::string meshopt = with("meshopt", more);
+        REQUIRE(!meshopt.empty());
+        CHECK(none.size() > quantize.size() + quantize.size() / 10);
+        CHECK(quantize.size() > meshopt.size() + meshopt.size() / 10);
+        std::vector<std::string> threads = more;
+        threads.insert(threads.end(), {"--threads", "1"});
+        CHECK(with("meshopt", threads) == meshopt);
+    }
+    const LscRun obj =
+        run_lsc({"export", "-", "-o", folder / "a.obj", "--compress", "meshopt"}, kTree);
+    CHECK(obj.status == 2);
+    CHECK(obj.err.find("--compress needs glb or gltf, not obj") != std::string::npos);
+    const LscRun wrong =
+        run_lsc({"export", "-", "-o", folder / "a.glb", "--compress", "draco"}, kTree);
+    CHECK(wrong.status == 2);
+    CHECK(wrong.err.find("none|quantize|meshopt") != std::string::npos);
+    CHECK(count_files(folder) == 0);
 }
 
 TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {

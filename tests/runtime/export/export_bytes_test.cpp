@@ -237,17 +237,17 @@ TEST_CASE("a GLB of a triangle") {
           R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
           R"("min":[0,0,0],"max":[2,0.5,0]},)"
           R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},)"
-          R"({"bufferView":2,"byteOffset":0,"componentType":5125,"count":3,"type":"SCALAR"}],)"
+          R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"}],)"
           R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36,"target":34962},)"
           R"({"buffer":0,"byteOffset":36,"byteLength":36,"target":34962},)"
-          R"({"buffer":0,"byteOffset":72,"byteLength":12,"target":34963}],)"
-          R"("buffers":[{"byteLength":84}]})");
+          R"({"buffer":0,"byteOffset":72,"byteLength":6,"target":34963}],)"
+          R"("buffers":[{"byteLength":80}]})");
     const std::size_t data = 20 + json_bytes;
-    CHECK(read<std::uint32_t>(bytes, data) == 84);
+    CHECK(read<std::uint32_t>(bytes, data) == 80);
     CHECK(bytes.substr(data + 4, 4) == std::string("BIN\0", 4));
-    REQUIRE(bytes.size() == data + 8 + 84);
+    REQUIRE(bytes.size() == data + 8 + 80);
     CHECK(read<float>(bytes, data + 8 + 12) == 2.0F);
-    CHECK(read<std::uint32_t>(bytes, data + 8 + 72 + 8) == 2);
+    CHECK(read<std::uint16_t>(bytes, data + 8 + 72 + 4) == 2);
 }
 
 TEST_CASE("a glTF carries the buffer of the GLB as base64") {
@@ -269,6 +269,6 @@ TEST_CASE("a glTF carries the buffer of the GLB as base64") {
             data += static_cast<char>(bits >> static_cast<unsigned>(count) & 0xFFU);
         }
     }
-    CHECK(data == glb.substr(glb.size() - 84));
+    CHECK(data == glb.substr(glb.size() - 80));
     CHECK(text.substr(text.size() - 5) == "\"}]}\n");
 }

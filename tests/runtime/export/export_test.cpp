@@ -186,8 +186,8 @@ TEST_CASE("a primitive uses colours of vertices where they are not the material'
     Mesh mesh = test::plant_mesh();
     std::string json = exported(mesh, ExportFormat::Gltf);
     // The third part has two palette colours, the others have their material's.
-    CHECK(json.find(R"("COLOR_0":4},"indices":7,"material":2)") != std::string::npos);
-    CHECK(json.find(R"("TANGENT":3},"indices":5,"material":0)") != std::string::npos);
+    CHECK(json.find(R"("COLOR_0":12},"indices":13,"material":2)") != std::string::npos);
+    CHECK(json.find(R"("TANGENT":3},"indices":4,"material":0)") != std::string::npos);
     CHECK(
         json.find(R"("name":"colour \"2\"","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1])") !=
         std::string::npos);

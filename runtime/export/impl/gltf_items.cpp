@@ -1,0 +1,315 @@
+#include "runtime/export/impl/gltf_items.h"
+
+#include "runtime/base/large_vector.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <meshoptimizer.h>
+
+namespace lsys {
+
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
+
+namespace {
+
+// Bits of a position. Readers decode 16 bits into as many bytes as 14, but compressed they take
+// more.
+constexpr unsigned kPositionBits = 16;
+constexpr unsigned kCompressedPositionBits = 14;
+// Bits of a texture coordinate: the fewest that keep a step within half a texel of our pictures,
+// which are 256 texels wide. Floats where 16 bits leave steps of more than 4 texels.
+constexpr unsigned kMinTextureBits = 12;
+constexpr unsigned kMaxTextureBits = 16;
+constexpr float kMaxTextureStep = 1.0F / 512.0F;
+constexpr float kMaxCoarseTextureStep = 4.0F / 256.0F;
+
+template <typename T, std::size_t count>
+using Item = std::array<T, count>;
+
+float max_value(unsigned bits) {
+    return static_cast<float>((1U << bits) - 1U);
+}
+
+/// Rounds half up, the same on any machine.
+std::uint16_t rounded(float value, float most) {
+    return static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5F), 0.0F, most));
+}
+
+std::uint8_t linear_byte(float value) {
+    return static_cast<std::uint8_t>(rounded(255.0F * value, 255.0F));
+}
+
+/// A component of a direction as a signed normalised byte.
+std::int8_t signed_byte(float value) {
+    const float scaled = std::floor(127.0F * std::clamp(value, -1.0F, 1.0F) + 0.5F);
+    return static_cast<std::int8_t>(scaled);
+}
+
+std::uint16_t quantized_position(float value, float low, float step, float most) {
+    // In double, because floats round both the difference and the quotient.
+    const double item =
+        (static_cast<double>(value) - static_cast<double>(low)) / static_cast<double>(step);
+    return static_cast<std::uint16_t>(
+        std::clamp(std::floor(item + 0.5), 0.0, static_cast<double>(most)));
+}
+
+unsigned position_bits(ExportCompression compression) {
+    return compression == ExportCompression::Meshopt ? kCompressedPositionBits : kPositionBits;
+}
+
+Item<std::uint16_t, 2> texture_item(const GltfTextureForm& form, const glm::vec2& coordinates) {
+    if (form.bits == 0) {
+        return {0, 0};
+    }
+    const float most = max_value(form.bits);
+    const auto item = [&](int axis) {
+        const float part = (coordinates[axis] - form.low[axis]) / form.extent[axis];
+        const std::uint16_t steps = rounded(most * part, most);
+        if (form.transform) {
+            return steps;
+        }
+        // All 16 bits, so that the highest step is 1.
+        return rounded(static_cast<float>(steps) * 65535.0F / most, 65535.0F);
+    };
+    return {item(0), item(1)};
+}
+
+void write_colours(const Mesh& mesh,
+                   std::span<const std::uint32_t> vertices,
+                   const GltfBytes& write) {
+    std::vector<Item<std::uint8_t, 4>> palette;
+    write_each(vertices, write, [&](std::uint32_t vertex) {
+        const std::uint32_t index = mesh.colours[vertex];
+        while (palette.size() <= index) {
+            palette.push_back(
+                colour_item(palette_colour(static_cast<std::uint32_t>(palette.size()))));
+        }
+        return palette[index];
+    });
+}
+
+/// Sets the versions that the extension has, which meshoptimizer keeps for all threads.
+void set_versions() {
+    static const bool set = [] {
+        meshopt_encodeVertexVersion(0);
+        meshopt_encodeIndexVersion(1);
+        return true;
+    }();
+    static_cast<void>(set);
+}
+
+void write_quantized(const Mesh& mesh,
+                     std::span<const std::uint32_t> vertices,
+                     GltfArray array,
+                     const GltfForm& form,
+                     const GltfBytes& write) {
+    if (array == GltfArray::Positions) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            return position_item(form, mesh.positions[vertex]);
+        });
+    } else if (array == GltfArray::Normals) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            const glm::vec3 n = valid_normal(mesh.normals[vertex]);
+            return Item<std::int8_t, 4>{signed_byte(n.x), signed_byte(n.y), signed_byte(n.z), 0};
+        });
+    } else if (array == GltfArray::TextureCoordinates) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            return texture_item(form.texture, mesh.texture_coordinates[vertex]);
+        });
+    } else {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            const glm::vec4 t = valid_tangent(mesh.tangents[vertex]);
+            return Item<std::int8_t, 4>{signed_byte(t.x), signed_byte(t.y), signed_byte(t.z),
+                                        signed_byte(t.w)};
+        });
+    }
+}
+
+} // namespace
+
+GltfTextureForm texture_form_of(const glm::vec2& low, const glm::vec2& high) {
+    GltfTextureForm form;
+    form.bits = kMinTextureBits;
+    if (low.x >= 0.0F && low.y >= 0.0F && high.x <= 1.0F && high.y <= 1.0F) {
+        form.quantized = true;
+        return form;
+    }
+    const glm::vec2 extent = high - low;
+    const float most = std::max(extent.x, extent.y);
+    while (form.bits < kMaxTextureBits && most > kMaxTextureStep * max_value(form.bits)) {
+        ++form.bits;
+    }
+    form.quantized = most <= kMaxCoarseTextureStep * max_value(form.bits);
+    if (!form.quantized) {
+        return form;
+    }
+    form.low = low;
+    form.extent = {extent.x > 0.0F ? extent.x : 1.0F, extent.y > 0.0F ? extent.y : 1.0F};
+    form.transform = {low, form.extent * (65535.0F / max_value(form.bits))};
+    return form;
+}
+
+glm::mat4 GltfForm::decoding() const {
+    glm::mat4 matrix(1.0F);
+    if (step > 0.0F) {
+        matrix[0][0] = matrix[1][1] = matrix[2][2] = step;
+        matrix[3] = glm::vec4(low, 1.0F);
+    }
+    return matrix;
+}
+
+GltfForm form_of(ExportCompression compression, const Bounds& bounds) {
+    GltfForm form;
+    form.compression = compression;
+    if (!form.quantized()) {
+        return form;
+    }
+    const glm::vec3 extent = bounds.high - bounds.low;
+    const float most = std::max({extent.x, extent.y, extent.z});
+    form.low = bounds.low;
+    form.step = most > 0.0F ? most / max_value(position_bits(compression)) : 1.0F;
+    if (compression == ExportCompression::Meshopt) {
+        // The power of two at or below the step of positions: its multiples are floats with few
+        // bits, which compress well.
+        int exponent = 0;
+        static_cast<void>(std::frexp(form.step, &exponent));
+        form.wind_step = std::ldexp(1.0F, exponent - 1);
+    }
+    return form;
+}
+
+GltfItem item_of(GltfArray array, const GltfForm& form) {
+    const bool quantized = form.quantized();
+    switch (array) {
+    case GltfArray::Positions:
+        return quantized ? GltfItem{kGltfShort, "VEC3", false, 8, true}
+                         : GltfItem{kGltfFloat, "VEC3", false, 12};
+    case GltfArray::Normals:
+        return quantized ? GltfItem{kGltfSignedByte, "VEC3", true, 4, true}
+                         : GltfItem{kGltfFloat, "VEC3", false, 12};
+    case GltfArray::TextureCoordinates:
+        return form.texture.quantized ? GltfItem{kGltfShort, "VEC2", true, 4}
+                                      : GltfItem{kGltfFloat, "VEC2", false, 8};
+    case GltfArray::Tangents:
+        return quantized ? GltfItem{kGltfSignedByte, "VEC4", true, 4}
+                         : GltfItem{kGltfFloat, "VEC4", false, 16};
+    case GltfArray::WindPivots:
+        return {kGltfFloat, "VEC2", false, 8};
+    case GltfArray::WindMotions:
+        return quantized ? GltfItem{kGltfShort, "VEC2", true, 4}
+                         : GltfItem{kGltfFloat, "VEC2", false, 8};
+    case GltfArray::Joints:
+        return {kGltfByte, "VEC4", false, 4};
+    default: // colours, weights
+        return {kGltfByte, "VEC4", true, 4};
+    }
+}
+
+std::string_view attribute_name(GltfArray array) {
+    constexpr std::array<std::string_view, 9> kNames{
+        "POSITION", "NORMAL",    "TEXCOORD_0", "TANGENT",    "COLOR_0",
+        "JOINTS_0", "WEIGHTS_0", "TEXCOORD_1", "TEXCOORD_2",
+    };
+    static_assert(kNames.size() == static_cast<std::size_t>(GltfArray::Indices));
+    return kNames[static_cast<std::size_t>(array)];
+}
+
+std::array<std::uint16_t, 4> position_item(const GltfForm& form, const glm::vec3& position) {
+    const float most = max_value(position_bits(form.compression));
+    const auto item = [&](int axis) {
+        return quantized_position(position[axis], form.low[axis], form.step, most);
+    };
+    return {item(0), item(1), item(2), 0};
+}
+
+std::array<std::uint8_t, 4> colour_item(const glm::vec3& colour) {
+    return {linear_byte(colour.r), linear_byte(colour.g), linear_byte(colour.b), 255};
+}
+
+void write_items(const Mesh& mesh,
+                 std::span<const std::uint32_t> vertices,
+                 GltfArray array,
+                 const GltfForm& form,
+                 const GltfBytes& write) {
+    if (array == GltfArray::Colours) {
+        write_colours(mesh, vertices, write);
+    } else if (array == GltfArray::TextureCoordinates ? form.texture.quantized
+                                                      : form.quantized()) {
+        write_quantized(mesh, vertices, array, form, write);
+    } else if (array == GltfArray::Positions) {
+        write_each(vertices, write, [&](std::uint32_t vertex) { return mesh.positions[vertex]; });
+    } else if (array == GltfArray::Normals) {
+        write_each(vertices, write,
+                   [&](std::uint32_t vertex) { return valid_normal(mesh.normals[vertex]); });
+    } else if (array == GltfArray::TextureCoordinates) {
+        write_each(vertices, write,
+                   [&](std::uint32_t vertex) { return mesh.texture_coordinates[vertex]; });
+    } else {
+        write_each(vertices, write,
+                   [&](std::uint32_t vertex) { return valid_tangent(mesh.tangents[vertex]); });
+    }
+}
+
+void write_wind_items(const Mesh& mesh,
+                      std::span<const std::uint32_t> vertices,
+                      GltfArray array,
+                      const GltfForm& form,
+                      const WindData& wind,
+                      const GltfBytes& write) {
+    const auto at = [&](std::uint32_t vertex) {
+        return wind.at(mesh.segments[vertex], mesh.positions[vertex]);
+    };
+    if (array == GltfArray::WindPivots) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            const glm::vec2 pivot = at(vertex).pivot;
+            return form.wind_step > 0.0F
+                       ? glm::floor(pivot / form.wind_step + 0.5F) * form.wind_step
+                       : pivot;
+        });
+    } else if (form.quantized()) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            const glm::vec2 motion = 65535.0F * at(vertex).motion;
+            return Item<std::uint16_t, 2>{rounded(motion.x, 65535.0F), rounded(motion.y, 65535.0F)};
+        });
+    } else {
+        write_each(vertices, write, [&](std::uint32_t vertex) { return at(vertex).motion; });
+    }
+}
+
+std::string compress_items(std::string_view items, std::uint32_t stride) {
+    const std::size_t count = items.size() / stride;
+    std::string bytes;
+    set_versions();
+    bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
+    bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
+                                            bytes.size(), items.data(), count, stride));
+    return bytes;
+}
+
+std::string
+compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices) {
+    const std::size_t count = items.size() / stride;
+    LargeVector<unsigned> indices(count);
+    if (stride == sizeof(std::uint16_t)) {
+        for (std::size_t i = 0; i < count; ++i) {
+            std::uint16_t index = 0;
+            std::memcpy(&index, items.data() + sizeof index * i, sizeof index);
+            indices[i] = index;
+        }
+    } else {
+        std::memcpy(indices.data(), items.data(), items.size());
+    }
+    std::string bytes;
+    set_versions();
+    bytes.resize(meshopt_encodeIndexBufferBound(count, vertices));
+    bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
+                                           bytes.size(), indices.data(), count));
+    return bytes;
+}
+
+} // namespace lsys

@@ -1,0 +1,126 @@
+// Items of glTF: the numbers of one attribute of one vertex, of full size or quantised
+// (KHR_mesh_quantization). The writers of plants and of forests describe and write their arrays of
+// vertices by these functions.
+#pragma once
+
+#include "runtime/export/export.h"
+#include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/impl/wind_data.h"
+#include "runtime/meshing/mesh.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace lsys {
+
+// Component types of accessors.
+inline constexpr int kGltfSignedByte = 5120;
+inline constexpr int kGltfByte = 5121; // all others unsigned
+inline constexpr int kGltfShort = 5123;
+inline constexpr int kGltfInteger = 5125;
+inline constexpr int kGltfFloat = 5126;
+
+/// Indices of primitives with more vertices take 32 bits: the highest 16-bit one restarts strips.
+inline constexpr std::uint64_t kMaxNarrowVertices = 65535;
+
+/// KHR_texture_transform: a texture is read at `offset + scale * coordinates`.
+struct GltfTextureTransform {
+    glm::vec2 offset{0.0F};
+    glm::vec2 scale{1.0F};
+};
+
+/// The form of texture coordinates.
+struct GltfTextureForm {
+    bool quantized = false;
+    unsigned bits = 0; // of a quantised coordinate; 0: no texture is read, and all are 0
+    std::optional<GltfTextureTransform> transform; // none: coordinates are from 0 to 1
+    glm::vec2 low{0.0F};                           // of the coordinates that become 0
+    glm::vec2 extent{1.0F};
+};
+/// The form of quantised coordinates from `low` to `high`: floats where 16 bits are too few.
+[[nodiscard]] GltfTextureForm texture_form_of(const glm::vec2& low, const glm::vec2& high);
+
+/// The form of the arrays of vertices.
+struct GltfForm {
+    ExportCompression compression = ExportCompression::None;
+    /// Positions are `low + step * item`; step 0: items are positions.
+    glm::vec3 low{0.0F};
+    float step = 0.0F;
+    /// TEXCOORD_1 is a multiple of this; 0: not rounded.
+    float wind_step = 0.0F;
+    GltfTextureForm texture;
+
+    [[nodiscard]] bool quantized() const { return compression != ExportCompression::None; }
+    /// Turns the items of positions into positions.
+    [[nodiscard]] glm::mat4 decoding() const;
+};
+/// The form for positions within `bounds`, without `texture`.
+[[nodiscard]] GltfForm form_of(ExportCompression compression, const Bounds& bounds);
+
+/// Type of the items of an array.
+struct GltfItem {
+    int component = kGltfFloat;
+    std::string_view type; // "VEC3"
+    bool normalized = false;
+    std::uint32_t stride = 0; // bytes from one item to the next
+    bool padded = false;      // items are shorter than the stride
+};
+/// The type of an attribute. Joints are bytes here.
+[[nodiscard]] GltfItem item_of(GltfArray array, const GltfForm& form);
+/// The name of an attribute: "POSITION".
+[[nodiscard]] std::string_view attribute_name(GltfArray array);
+
+/// The item of a position.
+[[nodiscard]] std::array<std::uint16_t, 4> position_item(const GltfForm& form,
+                                                         const glm::vec3& position);
+/// The item of a linear colour, opaque.
+[[nodiscard]] std::array<std::uint8_t, 4> colour_item(const glm::vec3& colour);
+
+using GltfBytes = std::function<void(std::span<const std::byte>)>;
+/// Write an item for each vertex: positions, normals, texture coordinates, tangents, and colours of
+/// the palette. Normals and tangents that are not of unit length, which glTF does not allow, are
+/// replaced on the way.
+void write_items(const Mesh& mesh,
+                 std::span<const std::uint32_t> vertices,
+                 GltfArray array,
+                 const GltfForm& form,
+                 const GltfBytes& write);
+/// As write_items(), of GltfArray::WindPivots or WindMotions.
+void write_wind_items(const Mesh& mesh,
+                      std::span<const std::uint32_t> vertices,
+                      GltfArray array,
+                      const GltfForm& form,
+                      const WindData& wind,
+                      const GltfBytes& write);
+
+/// Calls write(bytes) with the items of `item_of` for the vertices, in chunks.
+template <typename ItemOf>
+void write_each(std::span<const std::uint32_t> vertices,
+                const GltfBytes& write,
+                const ItemOf& item_of) {
+    constexpr std::size_t kChunk = 16384; // vertices
+    using T = decltype(item_of(std::uint32_t{0}));
+    std::vector<T> chunk;
+    for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
+        chunk.clear();
+        for (const std::uint32_t vertex :
+             vertices.subspan(first, std::min(kChunk, vertices.size() - first))) {
+            chunk.push_back(item_of(vertex));
+        }
+        write(std::as_bytes(std::span<const T>(chunk)));
+    }
+}
+
+/// A stream compressed by EXT_meshopt_compression.
+[[nodiscard]] std::string compress_items(std::string_view items, std::uint32_t stride);
+/// Indices of triangles, of `stride` 2 or 4, below `vertices`.
+[[nodiscard]] std::string
+compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices);
+
+} // namespace lsys

@@ -1,0 +1,93 @@
+// GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has arrays of
+// its own: bounds and attributes are those it needs, and its indices are as short as its vertices
+// allow. Vertices are in the order in which the triangles use them first, which is the order that
+// caches of GPUs and EXT_meshopt_compression favour. Made from a Mesh; read by gltf_streams.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Vertices and triangles of a part of a mesh.
+struct GltfPart {
+    std::uint32_t part = 0;         // in Mesh::parts
+    std::uint64_t first_vertex = 0; // in GltfPrimitives::vertices
+    std::uint64_t vertex_count = 0;
+};
+
+/// Source of the colours of vertices.
+enum class GltfColours : std::uint8_t {
+    None,     // the material has the colour
+    Palette,  // Mesh::colours, instead of the material's
+    Material, // materials of the parts, divided by GltfPrimitive::colour
+};
+
+/// Parts that are drawn with one material.
+struct GltfPrimitive {
+    std::vector<GltfPart> parts;
+    glm::vec3 colour{1.0F}; // of the material, linear
+    GltfColours colours = GltfColours::None;
+    std::uint64_t first_vertex = 0;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t index_count = 0;
+    Bounds bounds;
+};
+
+struct GltfPrimitives {
+    std::vector<GltfPrimitive> list;
+    /// The vertex of the mesh for each vertex of the file. A vertex that two parts use is there
+    /// twice, one that no triangle uses is left out.
+    LargeVector<std::uint32_t> vertices;
+
+    [[nodiscard]] std::span<const std::uint32_t> vertices_of(const GltfPrimitive& primitive) const {
+        return std::span(vertices).subspan(primitive.first_vertex, primitive.vertex_count);
+    }
+    [[nodiscard]] Bounds bounds() const; // of all vertices
+};
+
+/// Min number of materials that become one with colours at its vertices. Colours take 4 bytes a
+/// vertex, and a few materials are easier to change by hand.
+inline constexpr std::size_t kMinMergedMaterials = 4;
+
+/// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
+/// only become one primitive from kMinMergedMaterials on.
+[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh);
+
+/// The material of a primitive, which gives all but the colour.
+[[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
+
+/// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles
+/// that count from its first vertex.
+template <typename Visit>
+void for_each_index(const Mesh& mesh,
+                    const GltfPrimitives& primitives,
+                    const GltfPrimitive& primitive,
+                    const Visit& visit) {
+    constexpr std::uint64_t kChunk = 24576;
+    std::vector<std::uint32_t> chunk;
+    LargeVector<std::uint32_t> numbers(mesh.positions.size());
+    for (const GltfPart& part : primitive.parts) {
+        const std::uint64_t base = part.first_vertex - primitive.first_vertex;
+        for (std::uint64_t i = 0; i < part.vertex_count; ++i) {
+            numbers[primitives.vertices[part.first_vertex + i]] =
+                static_cast<std::uint32_t>(base + i);
+        }
+        const MeshPart& triangles = mesh.parts[part.part];
+        const std::uint64_t count = triangles.index_count / 3 * 3;
+        for (std::uint64_t first = 0; first < count; first += kChunk) {
+            chunk.resize(std::min(kChunk, count - first));
+            mesh.indices.read(triangles.first_index + first, chunk);
+            for (std::uint32_t& index : chunk) {
+                index = numbers[index];
+            }
+            visit(std::span<const std::uint32_t>(chunk));
+        }
+    }
+}
+
+} // namespace lsys

@@ -1,0 +1,330 @@
+#include "runtime/export/impl/gltf_streams.h"
+
+#include "runtime/base/workers.h"
+#include "runtime/export/impl/formats.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// The form of the texture coordinates of some vertices.
+GltfTextureForm plan_texture_form(const Mesh& mesh, std::span<const std::uint32_t> vertices) {
+    glm::vec2 low = mesh.texture_coordinates[vertices.front()];
+    glm::vec2 high = low;
+    for (const std::uint32_t vertex : vertices) {
+        low = glm::min(low, mesh.texture_coordinates[vertex]);
+        high = glm::max(high, mesh.texture_coordinates[vertex]);
+    }
+    return texture_form_of(low, high);
+}
+
+/// Colours of the materials of a primitive's parts.
+void write_material_colours(const Mesh& mesh,
+                            const GltfPrimitives& primitives,
+                            const GltfPrimitive& primitive,
+                            const GltfBytes& write) {
+    for (const GltfPart& part : primitive.parts) {
+        const auto vertices =
+            std::span(primitives.vertices).subspan(part.first_vertex, part.vertex_count);
+        const Material& material = mesh.materials[mesh.parts[part.part].material];
+        const auto colour = colour_item(glm::vec3(material.colour) / primitive.colour);
+        write_each(vertices, write, [&](std::uint32_t) { return colour; });
+    }
+}
+
+template <typename Index>
+void write_indices(const Mesh& mesh,
+                   const GltfStreams& streams,
+                   const GltfPrimitive& primitive,
+                   const GltfBytes& write) {
+    std::vector<Index> chunk;
+    for_each_index(mesh, streams.primitives, primitive, [&](std::span<const std::uint32_t> part) {
+        chunk.resize(part.size());
+        std::transform(part.begin(), part.end(), chunk.begin(),
+                       [](std::uint32_t index) { return static_cast<Index>(index); });
+        write(std::as_bytes(std::span<const Index>(chunk)));
+    });
+}
+
+/// Writes the items of a stream of a primitive, uncompressed and without padding behind them.
+void write_primitive_stream(const GltfPlant& plant,
+                            const GltfStreams& streams,
+                            const GltfStream& stream,
+                            const GltfBytes& write) {
+    const Mesh& mesh = plant.mesh;
+    const GltfPrimitive& primitive = streams.primitives.list[stream.item];
+    const GltfForm& form = streams.forms[stream.item];
+    const std::span<const std::uint32_t> vertices = streams.primitives.vertices_of(primitive);
+    switch (stream.array) {
+    case GltfArray::Joints:
+        write_vertex_joints(mesh, vertices, *plant.motion, write);
+        break;
+    case GltfArray::Weights:
+        write_vertex_weights(mesh, vertices, *plant.motion, write);
+        break;
+    case GltfArray::WindPivots:
+    case GltfArray::WindMotions:
+        write_wind_items(mesh, vertices, stream.array, form, *plant.wind, write);
+        break;
+    case GltfArray::Indices:
+        if (stream.type.component == kGltfShort) {
+            write_indices<std::uint16_t>(mesh, streams, primitive, write);
+        } else {
+            write_indices<std::uint32_t>(mesh, streams, primitive, write);
+        }
+        break;
+    case GltfArray::Colours:
+        if (primitive.colours == GltfColours::Material) {
+            write_material_colours(mesh, streams.primitives, primitive, write);
+            break;
+        }
+        [[fallthrough]];
+    default:
+        write_items(mesh, vertices, stream.array, form, write);
+        break;
+    }
+}
+
+/// Gives the streams their sizes, and places in the buffer.
+class Planner {
+public:
+    Planner(GltfStreams& streams, const GltfPlant& plant) : streams_(streams), plant_(plant) {}
+
+    void add_primitive(std::size_t number, bool relief, bool textured) {
+        const Mesh& mesh = plant_.mesh;
+        const GltfPrimitive& primitive = streams_.primitives.list[number];
+        GltfForm& form = streams_.forms[number];
+        const auto add = [&](GltfArray array) {
+            streams_.list.push_back({.array = array,
+                                     .item = number,
+                                     .type = item_of(array, form),
+                                     .count = primitive.vertex_count});
+        };
+        add(GltfArray::Positions);
+        add(GltfArray::Normals);
+        // Quantised files are for display: coordinates without a texture are left out, or 0 before
+        // those of wind data, because sets of coordinates are numbered from 0 on.
+        const bool shown = textured || relief;
+        if (is_complete(mesh, mesh.texture_coordinates) &&
+            (shown || plant_.wind != nullptr || !form.quantized())) {
+            if (form.quantized() && shown) {
+                form.texture = plan_texture_form(mesh, streams_.primitives.vertices_of(primitive));
+            } else if (form.quantized()) {
+                form.texture.quantized = true;
+            }
+            add(GltfArray::TextureCoordinates);
+        }
+        if (relief && is_complete(mesh, mesh.tangents)) {
+            add(GltfArray::Tangents);
+        }
+        if (primitive.colours != GltfColours::None) {
+            add(GltfArray::Colours);
+        }
+        if (plant_.motion != nullptr) {
+            add(GltfArray::Joints);
+            if (plant_.motion->joint_bytes() == 2) {
+                GltfItem& joints = streams_.list.back().type;
+                joints.component = kGltfShort;
+                joints.stride = 8;
+            }
+            add(GltfArray::Weights);
+        }
+        if (plant_.wind != nullptr) {
+            add(GltfArray::WindPivots);
+            add(GltfArray::WindMotions);
+        }
+        add(GltfArray::Indices);
+        GltfStream& indices = streams_.list.back();
+        indices.type = primitive.vertex_count <= kMaxNarrowVertices
+                           ? GltfItem{kGltfShort, "SCALAR", false, 2}
+                           : GltfItem{kGltfInteger, "SCALAR", false, 4};
+        indices.count = primitive.index_count;
+    }
+
+    void add_motion() {
+        const auto add = [this](GltfArray array, std::uint32_t bytes, std::uint64_t count) {
+            if (count > 0) {
+                GltfStream& stream = streams_.list.emplace_back();
+                stream.array = array;
+                stream.type.stride = bytes;
+                stream.count = count;
+            }
+        };
+        const GltfMotion& motion = *plant_.motion;
+        add(GltfArray::InverseBinds, sizeof(glm::mat4), motion.joint_count());
+        add(GltfArray::Times, sizeof(float), motion.time_count());
+        add(GltfArray::Translations, sizeof(glm::vec3), motion.translation_count());
+        add(GltfArray::Rotations, sizeof(glm::quat), motion.rotation_count());
+    }
+
+    void compress(std::uint32_t threads) {
+        Workers workers(threads);
+        workers.for_each(streams_.first_motion,
+                         [this](std::uint64_t i) { compress(streams_.list[i]); });
+    }
+
+    void place() {
+        for (std::size_t i = 0; i < streams_.list.size(); ++i) {
+            GltfStream& stream = streams_.list[i];
+            stream.offset = streams_.bytes;
+            stream.bytes = stream.decoded_bytes();
+            if (stream.array == GltfArray::Image) {
+                stream.bytes = streams_.images[stream.item].size();
+            } else if (!stream.compressed.empty()) {
+                stream.bytes = stream.compressed.size();
+                stream.decoded_offset = streams_.decoded_bytes;
+                streams_.decoded_bytes += (stream.decoded_bytes() + 3) / 4 * 4;
+            }
+            streams_.bytes += (stream.bytes + 3) / 4 * 4;
+        }
+    }
+
+private:
+    void compress(GltfStream& stream) {
+        std::string items;
+        items.reserve(stream.decoded_bytes());
+        write_primitive_stream(
+            plant_, streams_, stream, [&items](std::span<const std::byte> bytes) {
+                items.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            });
+        stream.compressed =
+            stream.array == GltfArray::Indices
+                ? compress_indices(items, stream.type.stride,
+                                   streams_.primitives.list[stream.item].vertex_count)
+                : compress_items(items, stream.type.stride);
+    }
+
+    GltfStreams& streams_;
+    const GltfPlant& plant_;
+};
+
+} // namespace
+
+GltfStreams plan_gltf_streams(const GltfPlant& plant,
+                              const Pictures& pictures,
+                              std::vector<std::string> images,
+                              const ExportInfo& info) {
+    const Mesh& mesh = plant.mesh;
+    GltfStreams streams;
+    streams.primitives = plan_gltf_primitives(mesh);
+    streams.images = std::move(images);
+    streams.forms.assign(streams.primitives.list.size(),
+                         form_of(info.compression, streams.primitives.bounds()));
+    Planner planner(streams, plant);
+    for (std::size_t i = 0; i < streams.primitives.list.size(); ++i) {
+        const GltfPart& part = streams.primitives.list[i].parts.front();
+        const MaterialPictures& shown = pictures.of_materials[mesh.parts[part.part].material];
+        planner.add_primitive(i, shown.relief.has_value(), shown.colour.has_value());
+    }
+    streams.first_motion = streams.list.size();
+    if (plant.motion != nullptr) {
+        planner.add_motion();
+    }
+    streams.first_image = streams.list.size();
+    for (std::size_t i = 0; i < streams.images.size(); ++i) {
+        GltfStream& stream = streams.list.emplace_back();
+        stream.array = GltfArray::Image;
+        stream.item = i;
+    }
+    if (info.compression == ExportCompression::Meshopt) {
+        planner.compress(info.threads);
+    }
+    planner.place();
+    return streams;
+}
+
+void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write) {
+    std::uint64_t written = 0;
+    bool stopped = false;
+    const GltfBytes put = [&](std::span<const std::byte> bytes) {
+        written += bytes.size();
+        stopped = stopped || !write(bytes);
+    };
+    for (const GltfStream& stream : streams.list) {
+        switch (stream.array) {
+        case GltfArray::InverseBinds:
+            write_inverse_binds(*plant.motion, streams.forms.front().decoding(), put);
+            break;
+        case GltfArray::Times:
+            write_times(*plant.motion, put);
+            break;
+        case GltfArray::Translations:
+            write_translations(*plant.motion, put);
+            break;
+        case GltfArray::Rotations:
+            write_rotations(*plant.motion, put);
+            break;
+        case GltfArray::Image:
+            put(std::as_bytes(std::span(streams.images[stream.item])));
+            break;
+        default:
+            if (!stream.compressed.empty()) {
+                put(std::as_bytes(std::span(stream.compressed)));
+            } else {
+                write_primitive_stream(plant, streams, stream, put);
+            }
+            break;
+        }
+        constexpr std::array<std::byte, 3> kPadding{};
+        put(std::span(kPadding).first((4 - written % 4) % 4));
+        if (stopped) {
+            return;
+        }
+    }
+}
+
+void put_stream_view(JsonWriter& json, const GltfStream& stream) {
+    constexpr int kVertices = 34962;
+    constexpr int kIndices = 34963;
+    const bool compressed = !stream.compressed.empty();
+    const bool indices = stream.array == GltfArray::Indices;
+    json.object().member("buffer", compressed ? 1 : 0);
+    json.member("byteOffset", compressed ? stream.decoded_offset : stream.offset);
+    json.member("byteLength", compressed ? stream.decoded_bytes() : stream.bytes);
+    if (stream.type.padded) {
+        json.member("byteStride", stream.type.stride);
+    }
+    if (stream.array <= GltfArray::Indices) {
+        json.member("target", indices ? kIndices : kVertices);
+    }
+    if (compressed) {
+        json.object("extensions").object("EXT_meshopt_compression").member("buffer", 0);
+        json.member("byteOffset", stream.offset).member("byteLength", stream.bytes);
+        json.member("byteStride", stream.type.stride).member("count", stream.count);
+        json.member("mode", indices ? "TRIANGLES" : "ATTRIBUTES").end().end();
+    }
+    json.end();
+}
+
+void put_stream_accessor(JsonWriter& json,
+                         const GltfStreams& streams,
+                         const GltfStream& stream,
+                         std::size_t view) {
+    begin_accessor(json, {view, {}, stream.type.component, stream.count, stream.type.type});
+    if (stream.array == GltfArray::Positions) {
+        const Bounds& bounds = streams.primitives.list[stream.item].bounds;
+        if (const GltfForm& form = streams.forms[stream.item]; form.quantized()) {
+            const auto low = position_item(form, bounds.low);
+            const auto high = position_item(form, bounds.high);
+            json.member("min", {low[0], low[1], low[2]});
+            json.member("max", {high[0], high[1], high[2]});
+        } else {
+            // Digits of doubles: readers parse the shortest text of a float as another double.
+            const glm::dvec3 low(bounds.low);
+            const glm::dvec3 high(bounds.high);
+            json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});
+        }
+    }
+    if (stream.type.normalized) {
+        json.member("normalized", true);
+    }
+    json.end();
+}
+
+} // namespace lsys

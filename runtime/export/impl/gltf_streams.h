@@ -1,0 +1,71 @@
+// GltfStreams: the arrays of a plant in the buffer of a glTF file, as numbers of full size,
+// quantised (KHR_mesh_quantization) or compressed as well (EXT_meshopt_compression). A stream is
+// one buffer view, and one accessor where it belongs to a primitive. Made by plan_gltf_streams();
+// read by write_glb() and write_gltf(), which describe the streams and write the buffer.
+#pragma once
+
+#include "runtime/export/export.h"
+#include "runtime/export/impl/gltf_motion.h"
+#include "runtime/export/impl/gltf_parts.h"
+#include "runtime/export/impl/gltf_primitives.h"
+#include "runtime/export/impl/pictures.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// The sources of the arrays of a plant.
+struct GltfPlant {
+    const Mesh& mesh;
+    const GltfMotion* motion = nullptr; // null: no skin
+    const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
+};
+
+struct GltfStream {
+    GltfArray array = GltfArray::Positions;
+    std::size_t item = 0; // the primitive, or the image
+    GltfItem type;
+    std::uint64_t count = 0;  // items
+    std::uint64_t offset = 0; // in the buffer, a multiple of 4
+    std::uint64_t bytes = 0;  // in the buffer
+    /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
+    std::string compressed = {};
+    std::uint64_t decoded_offset = 0;
+
+    [[nodiscard]] std::uint64_t decoded_bytes() const { return type.stride * count; }
+};
+
+struct GltfStreams {
+    GltfPrimitives primitives;
+    std::vector<GltfForm> forms; // of primitives; all but the texture coordinates are the same
+    /// Streams of primitives, by GltfArray within each; then those of the motion and the images.
+    std::vector<GltfStream> list;
+    std::size_t first_motion = 0; // in `list`
+    std::size_t first_image = 0;
+    std::vector<std::string> images; // PNG
+    std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
+    std::uint64_t decoded_bytes = 0; // of the buffer of decoded items; 0: there is none
+};
+
+/// Plans the buffer. `images` lie in it.
+[[nodiscard]] GltfStreams plan_gltf_streams(const GltfPlant& plant,
+                                            const Pictures& pictures,
+                                            std::vector<std::string> images,
+                                            const ExportInfo& info);
+/// Hands over the buffer in order.
+void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
+
+/// The view of a stream, in buffer 0 or, decoded, in buffer 1.
+void put_stream_view(JsonWriter& json, const GltfStream& stream);
+/// The accessor of the stream of a primitive in view `view`.
+void put_stream_accessor(JsonWriter& json,
+                         const GltfStreams& streams,
+                         const GltfStream& stream,
+                         std::size_t view);
+
+} // namespace lsys
