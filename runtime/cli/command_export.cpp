@@ -56,7 +56,10 @@ ExitStatus add_side_files(Export& run,
                           const std::filesystem::path& path,
                           ExportInfo& info,
                           OutputSet& files) {
-    info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    // Levels of detail have colours of their own, frames the same ones.
+    info.picture_prefix = run.command.lods != 0
+                              ? path.stem().string()
+                              : std::filesystem::path(run.command.output).stem().string();
     const bool separate = run.command.buffers == BufferPlace::Separate;
     const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
     info.buffer_name = separate ? buffer.filename().string() : std::string();
@@ -107,8 +110,13 @@ ExitStatus plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t last
     }
     MeshOptions finest = run.command.mesh;
     finest.level = 0;
+    const ExportPictures pictures = traits_of(run.format).pictures;
+    const bool shows_pictures =
+        pictures == ExportPictures::Inside ||
+        (pictures != ExportPictures::None && is_regular(run.command.output));
     return run.console.take(plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton,
-                                              finest, last, run.project),
+                                              finest, {.last = last, .pictures = shows_pictures},
+                                              run.project),
                             run.levels);
 }
 

@@ -281,14 +281,20 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
     add_choice<ForestInstances>(
         app, "--instances", command.instances,
-        {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
+        {{"branches", ForestInstances::Branches},
+         {"trees", ForestInstances::Trees},
+         {"lods", ForestInstances::Lods}},
         "branches: every tree is different; trees: whole heroes, few draw calls and as many "
-        "different trees as --heroes (default branches)");
+        "different trees as --heroes; lods: whole heroes, each with the level of detail for its "
+        "distance from --viewpoint (default branches)");
+    add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
+               "Eye for --instances lods, in m (default: outside the edge of the forest)")
+        ->type_name("X,Y,Z");
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
-        "with --instances trees 0)")
+        "with --instances trees or lods 0)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);

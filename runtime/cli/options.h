@@ -106,7 +106,7 @@ struct ExportCommand {
 };
 
 /// Parts of a forest that its file repeats.
-enum class ForestInstances : std::uint8_t { Branches, Trees };
+enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
 struct ForestCommand {
     MessageOptions messages;
@@ -117,6 +117,7 @@ struct ForestCommand {
     bool expand = false;
     bool bake = false;
     ForestInstances instances = ForestInstances::Branches;
+    std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
     std::optional<float> cell;
     std::uint32_t frames = 0;

@@ -1,6 +1,7 @@
 #include "runtime/meshing/detail_levels.h"
 
 #include "runtime/base/out_of_memory.h"
+#include "runtime/meshing/impl/impostor.h"
 #include "runtime/meshing/impl/thinning.h"
 #include "runtime/meshing/impl/visible_areas.h"
 
@@ -30,8 +31,17 @@ constexpr double kCloseAreas = 0.002; // ends the fitting of areas: part of wood
 constexpr double kAreaWeight = 0.1;
 constexpr double kMinScale = 0.2; // of what is fitted
 constexpr double kMaxScale = 6.0;
-constexpr double kMaxStep = 1.8;         // factor of a scale from one try to the next
-constexpr double kMaxExcess = 3.0;       // of an area, as a part of the wanted one
+constexpr double kMaxStep = 1.8;   // factor of a scale from one try to the next
+constexpr double kMaxExcess = 3.0; // of an area, as a part of the wanted one
+constexpr double kMinTint = 0.4;
+constexpr double kMaxTint = 2.0;
+constexpr double kCloseTint = 0.005; // is left as it is
+constexpr double kMinCover = 0.25;   // of impostors
+constexpr double kMaxCover = 1.75;
+// Triangles of the level before an impostor.
+constexpr std::uint64_t kMinBeforeImpostor = 3 * kImpostorTriangles / 2;
+constexpr std::uint64_t kWantedBeforeImpostor = 5 * kImpostorTriangles / 2;
+constexpr std::uint64_t kMaxBeforeImpostor = 3 * kImpostorTriangles;
 constexpr double kMinMove = 1e-12;       // of a step that teaches derivatives
 constexpr float kMaxRadiusErrors = 2.0F; // radius of widened wood in errors: it is two pixels wide
 
@@ -77,7 +87,7 @@ public:
         fine_ = foliage_shapes(order, user_meshes, options.level);
     }
 
-    std::optional<Stop> plan(std::uint32_t last, DetailLevels& result) {
+    std::optional<Stop> plan(const DetailChain& chain, DetailLevels& result) {
         DetailLevel level{
             .options = options_, .paths = order_.path_count(), .foliage = order_.foliage.size()};
         count(skeleton_, options_);
@@ -93,11 +103,25 @@ public:
         measure_polygons();
         areas_ = areas_of(level);
         result.levels.push_back(level);
-        while (result.levels.size() <= last && level.triangles > kMinDetailTriangles) {
+        const std::uint64_t end = chain.pictures ? kMinBeforeImpostor : kMinDetailTriangles;
+        min_wanted_ = chain.pictures ? static_cast<double>(kWantedBeforeImpostor) : 0.0;
+        while (result.levels.size() <= chain.last && level.triangles > end) {
+            if (chain.pictures && level.triangles <= kMaxBeforeImpostor) {
+                result.levels.push_back(impostor());
+                return stop_;
+            }
             DetailLevel next = coarser(level);
             fit_areas(next);
+            if (chain.pictures) {
+                next.tint = tint_for(areas_of(next));
+            }
             next.triangles = exact_triangles(next);
             if (stop_) {
+                return stop_;
+            }
+            const bool is_last = next.triangles <= end || next.triangles >= level.triangles;
+            if (chain.pictures && is_last) {
+                result.levels.push_back(impostor());
                 return stop_;
             }
             if (next.triangles >= level.triangles) {
@@ -235,6 +259,41 @@ private:
             tried.thinned = true;
         }
     }
+    /// The impostor that covers what the finest level covers.
+    DetailLevel impostor() {
+        DetailLevel level{.options = options_, .impostor = true};
+        draw(skeleton_, level.options, mesh_);
+        if (stop_) {
+            return level;
+        }
+        const ImpostorBaker baker(mesh_);
+        const Mesh none;
+        double low = kMinCover;
+        double high = kMaxCover;
+        for (int i = 0; i < kFittingSteps; ++i) {
+            level.cover = 0.5 * (low + high);
+            const Mesh cards = baker.make(level.cover);
+            level.triangles = triangles_of(cards);
+            (visible_areas(none, cards, frame_).all() < areas_.all() ? low : high) = level.cover;
+        }
+        const Mesh cards = baker.make(level.cover);
+        level.tint = tint_for(visible_areas(none, cards, frame_));
+        set_error(static_cast<double>(level.triangles), level);
+        return level;
+    }
+    /// The factor of colours that gives `now` the mean colour of the finest level.
+    glm::vec3 tint_for(const VisibleAreas& now) const {
+        glm::dvec3 tint(1.0);
+        const glm::dvec3 wanted = areas_.mean_colour();
+        const glm::dvec3 own = now.mean_colour();
+        for (int c = 0; c < 3; ++c) {
+            if (own[c] > 0.0) {
+                tint[c] = std::clamp(wanted[c] / own[c], kMinTint, kMaxTint);
+            }
+        }
+        const glm::dvec3 off = glm::abs(tint - 1.0);
+        return std::max({off.x, off.y, off.z}) < kCloseTint ? glm::vec3(1.0F) : glm::vec3(tint);
+    }
     /// Difference of colour as the part of wood, and less so of what is covered.
     double difference(const VisibleAreas& now) const {
         const double all = std::max(areas_.all(), 1.0);
@@ -293,7 +352,7 @@ private:
             wood = level_wood;
             foliage = level_foliage;
         }
-        return thinner(base, wood, foliage, kPart * all);
+        return thinner(base, wood, foliage, std::max(kPart * all, min_wanted_));
     }
 
     /// Leaves out paths and foliage until about `wanted` triangles are left, in the proportion of
@@ -389,20 +448,83 @@ private:
     VisibleAreas areas_;      // of the finest level
     Bounds frame_;
     double finest_ = 1.0;
+    double min_wanted_ = 0.0;        // triangles of a level
     double triangles_per_ear_ = 1.0; // of polygons, which have corners - 2 ears
     float extent_ = 0.0F;
     std::optional<Stop> stop_;
 };
+
+/// Whether all vertices of each part have one colour.
+bool has_plain_parts(const Mesh& mesh) {
+    TriangleReader indices(mesh.indices);
+    for (const MeshPart& part : mesh.parts) {
+        for (std::uint64_t i = 1; i < part.index_count && !mesh.colours.empty(); ++i) {
+            if (mesh.colours[indices[part.first_index + i]] !=
+                mesh.colours[indices[part.first_index]]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Multiplies the colours of materials, which then replace those of vertices.
+void tint_materials(const glm::vec3& tint, Mesh& mesh) {
+    if (tint == glm::vec3(1.0F) || !has_plain_parts(mesh)) {
+        return;
+    }
+    mesh.colours.clear();
+    for (Material& material : mesh.materials) {
+        material.colour = glm::vec4(tint, 1.0F) * material.colour;
+    }
+}
+
+/// The impostor of a pose, with the arrays that are asked for.
+std::optional<Stop> make_impostor(const Skeleton& skeleton,
+                                  const std::vector<UserMesh>& user_meshes,
+                                  const MeshOptions& options,
+                                  double cover,
+                                  Mesh& mesh) {
+    MeshOptions baked = options;
+    baked.texture_coordinates = true;
+    baked.tangents = false;
+    baked.colours = true;
+    baked.segments = false;
+    if (const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, baked, mesh)) {
+        return stop;
+    }
+    return catch_out_of_memory(
+        [&]() -> std::optional<Stop> {
+            mesh = ImpostorBaker(mesh).make(cover);
+            if (!options.tangents) {
+                mesh.tangents.clear();
+            }
+            if (options.colours) {
+                mesh.colours.resize(mesh.positions.size());
+                std::fill(mesh.colours.begin(), mesh.colours.end(), std::uint16_t{0});
+            }
+            if (options.segments) {
+                mesh.segments.resize(mesh.positions.size());
+                std::fill(mesh.segments.begin(), mesh.segments.end(),
+                          VertexSegments{kNoSegment, kNoSegment});
+            }
+            return std::nullopt;
+        },
+        [&] {
+            mesh = {};
+            return Stop::OutOfMemory;
+        });
+}
 
 } // namespace
 
 std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
                                        const std::vector<UserMesh>& user_meshes,
                                        const MeshOptions& options,
-                                       std::uint32_t last,
+                                       const DetailChain& chain,
                                        DetailLevels& levels) {
     levels = {};
-    if (last == 0 || options.method == MeshMethod::Solid) {
+    if (chain.last == 0 || options.method == MeshMethod::Solid) {
         levels.levels.push_back({.options = options});
         return std::nullopt;
     }
@@ -410,7 +532,7 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
         [&] {
             const auto order = std::make_shared<const ThinningOrder>(thinning_order(skeleton));
             levels.order = order;
-            return Planner(skeleton, user_meshes, options, *order).plan(last, levels);
+            return Planner(skeleton, user_meshes, options, *order).plan(chain, levels);
         },
         [&] {
             levels = {};
@@ -432,8 +554,16 @@ std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
     all.segments = options.segments;
     all.threads = options.threads;
     all.max_bytes = options.max_bytes;
+    if (level.impostor) {
+        const std::optional<Stop> stop =
+            make_impostor(skeleton, user_meshes, all, level.cover, mesh);
+        tint_materials(level.tint, mesh);
+        return stop;
+    }
     if (!level.thinned) {
-        return make_mesh(skeleton, user_meshes, all, mesh);
+        const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, all, mesh);
+        tint_materials(level.tint, mesh);
+        return stop;
     }
     return catch_out_of_memory(
         [&]() -> std::optional<Stop> {
@@ -446,6 +576,7 @@ std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
             if (const std::optional<Stop> stop = make_mesh(thin, user_meshes, all, mesh)) {
                 return stop;
             }
+            tint_materials(level.tint, mesh);
             for (VertexSegments& pair : mesh.segments) {
                 for (std::uint32_t& segment : pair) {
                     segment = segment < numbers.size() ? numbers[segment] : kNoSegment;

@@ -8,6 +8,8 @@
 #include "runtime/meshing/mesh.h"
 #include "runtime/turtle/skeleton.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -25,15 +27,28 @@ inline constexpr float kFinestPixels = 1024.0F;
 struct DetailLevel {
     MeshOptions options;
     bool thinned = false;      // drawn from a thinned skeleton
+    bool impostor = false;     // cards with pictures of the finest level
+    double cover = 1.0;        // of impostors: opaque texels, in the area of the plant
     std::uint64_t paths = 0;   // of wood that stay, of thinned levels
     std::uint64_t foliage = 0; // objects and polygons that stay, of thinned levels
     float wood_scale = 1.0F; // of widths, of thinned levels: wood covers what it covers at level 0
     float foliage_scale = 1.0F; // the same of foliage
+    /// Factor of linear colours of materials, for the mean colour of level 0; only with
+    /// DetailChain::pictures, and where each part has one colour.
+    glm::vec3 tint{1.0F};
     std::uint64_t triangles = 0;
     /// Max pixels of the plant's largest extent for this level. Half a pixel then is the error
     /// allowed in the course of branches.
     float pixels = kFinestPixels;
     float error = 0.0F; // that half pixel in metres; 0 for the finest level
+};
+
+/// The levels to plan.
+struct DetailChain {
+    std::uint32_t last = kMaxDetailLevel; // the chain may end before
+    /// For formats with pictures: the chain ends with an impostor, crossed cards with one picture
+    /// and its normals, and materials of coarser levels have colours of their own.
+    bool pictures = false;
 };
 
 struct ThinningOrder; // runtime/meshing/impl/thinning.h
@@ -43,13 +58,13 @@ struct DetailLevels {
     std::shared_ptr<const ThinningOrder> order; // null if no level is thinned
 };
 
-/// Plans levels 0 to `last`, or fewer if the chain ends before. `options` are those of level 0;
-/// its level is added to the sides of all. Returns nothing when it is done, else the Stop of
+/// Plans the levels of `chain`. `options` are those of level 0; its level is added to the sides of
+/// all. MeshMethod::Solid has level 0 only. Returns nothing when it is done, else the Stop of
 /// make_mesh().
 [[nodiscard]] std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
                                                      const std::vector<UserMesh>& user_meshes,
                                                      const MeshOptions& options,
-                                                     std::uint32_t last,
+                                                     const DetailChain& chain,
                                                      DetailLevels& levels);
 
 /// Makes the mesh of one level from `skeleton`: the planned one or a pose of it. Mesh::segments

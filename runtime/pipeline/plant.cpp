@@ -223,12 +223,12 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
 Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                         const Skeleton& skeleton,
                                         const MeshOptions& options,
-                                        std::uint32_t last,
+                                        const DetailChain& chain,
                                         const Project& project) {
     Step step(project);
     DetailLevels levels;
     const std::optional<Stop> stop = plan_detail_levels(
-        skeleton, plant.user_meshes, limited_options(options, project), last, levels);
+        skeleton, plant.user_meshes, limited_options(options, project), chain, levels);
     return finish_mesh(step, stop, std::move(levels));
 }
 

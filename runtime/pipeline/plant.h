@@ -59,7 +59,7 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
 [[nodiscard]] Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                                       const Skeleton& skeleton,
                                                       const MeshOptions& options,
-                                                      std::uint32_t last,
+                                                      const DetailChain& chain,
                                                       const Project& project);
 /// Meshes level `number` of `skeleton`, the planned one or a pose of it, with the arrays that
 /// `options` ask for. Precondition: number < levels.levels.size().

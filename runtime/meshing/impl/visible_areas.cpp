@@ -1,7 +1,7 @@
 #include "runtime/meshing/impl/visible_areas.h"
 
+#include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/impl/raster.h"
-#include "runtime/meshing/texture.h"
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -16,27 +16,16 @@ namespace lsys {
 namespace {
 
 constexpr int kSize = 384; // pixels of a side
-constexpr float kDiagonal = 0.70710678F;
+constexpr float kHalfRoot3 = 0.8660254F;
 /// Cosine and sine of the turn about +Y, and of the height of the eye above the horizon.
-constexpr std::array<std::array<float, 2>, 4> kTurns{
-    {{1.0F, 0.0F}, {kDiagonal, kDiagonal}, {0.0F, 1.0F}, {-kDiagonal, kDiagonal}}};
+constexpr std::array<std::array<float, 2>, 6> kTurns{{{1.0F, 0.0F},
+                                                      {kHalfRoot3, 0.5F},
+                                                      {0.5F, kHalfRoot3},
+                                                      {0.0F, 1.0F},
+                                                      {-0.5F, kHalfRoot3},
+                                                      {-kHalfRoot3, 0.5F}}};
 constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}}};
-constexpr std::uint8_t kHalfOpaque = 128;
-
 enum class Cover : std::uint8_t { Nothing, Wood, Foliage };
-
-/// The texture whose opacity cuts a material out; empty where it is opaque.
-Texture cut_out_texture(const Material& material) {
-    if (!material.cut_out || !material.textured) {
-        return {};
-    }
-    return material.picture != nullptr ? *material.picture : material_texture(material.kind);
-}
-
-bool is_opaque(const Texture& texture, const glm::vec2& place) {
-    const std::size_t texel = texel_number(place.x, place.y, texture.width, texture.height);
-    return texture.texels[4 * texel + 3] >= kHalfOpaque;
-}
 
 /// One view: the nearest surface at each pixel.
 class View {
@@ -44,7 +33,7 @@ public:
     View(const Bounds& frame, const std::array<float, 2>& turn, const std::array<float, 2>& tilt)
         : middle_(0.5F * (frame.low + frame.high)), cosine_(turn[0]), sine_(turn[1]),
           tilt_cosine_(tilt[0]), tilt_sine_(tilt[1]), depth_(kSize, kSize),
-          cover_(std::size_t{kSize} * kSize, Cover::Nothing) {
+          cover_(std::size_t{kSize} * kSize, Cover::Nothing), colours_(cover_.size()) {
         const glm::vec3 half = frame.high - middle_;
         const float across = std::sqrt(half.x * half.x + half.z * half.z);
         reach_ = std::max({tilt_cosine_ * half.y + tilt_sine_ * across, across,
@@ -52,23 +41,25 @@ public:
         scale_ = 0.5F * static_cast<float>(kSize) / reach_;
     }
 
-    void draw(const Mesh& mesh, Cover cover) {
+    void draw(const Mesh& mesh, Cover cover, LinearTextures& textures) {
         TriangleReader indices(mesh.indices);
         for (const MeshPart& part : mesh.parts) {
-            const Texture texture = cut_out_texture(mesh.materials[part.material]);
-            const bool is_cut = !texture.texels.empty() && !mesh.texture_coordinates.empty();
+            const Material& material = mesh.materials[part.material];
+            const LinearTexture& texture = textures.of(material);
             for (std::uint64_t i = 0; i + 2 < part.index_count; i += 3) {
                 const std::uint64_t first = part.first_index + i;
-                draw(mesh, {indices[first], indices[first + 1], indices[first + 2]},
-                     is_cut ? &texture : nullptr, cover);
+                draw(mesh, {indices[first], indices[first + 1], indices[first + 2]}, material,
+                     texture, cover);
             }
         }
     }
 
     void add_to(VisibleAreas& areas) const {
-        areas.wood += static_cast<double>(std::count(cover_.begin(), cover_.end(), Cover::Wood));
-        areas.foliage +=
-            static_cast<double>(std::count(cover_.begin(), cover_.end(), Cover::Foliage));
+        for (std::size_t i = 0; i < cover_.size(); ++i) {
+            areas.wood += cover_[i] == Cover::Wood ? 1.0 : 0.0;
+            areas.foliage += cover_[i] == Cover::Foliage ? 1.0 : 0.0;
+            areas.colour += glm::dvec3(colours_[i]);
+        }
     }
 
 private:
@@ -81,19 +72,25 @@ private:
     }
     void draw(const Mesh& mesh,
               const std::array<std::uint32_t, 3>& corners,
-              const Texture* cut,
+              const Material& material,
+              const LinearTexture& texture,
               Cover cover) {
         const std::array<glm::vec3, 3> places{place(mesh.positions[corners[0]]),
                                               place(mesh.positions[corners[1]]),
                                               place(mesh.positions[corners[2]])};
+        const bool is_textured = !texture.texels.empty() && !mesh.texture_coordinates.empty();
         raster_triangle(places, depth_, [&](std::size_t pixel, const glm::vec3& weights) {
-            if (cut != nullptr &&
-                !is_opaque(*cut, weights.x * mesh.texture_coordinates[corners[0]] +
-                                     weights.y * mesh.texture_coordinates[corners[1]] +
-                                     weights.z * mesh.texture_coordinates[corners[2]])) {
+            glm::vec4 texel(1.0F);
+            if (is_textured) {
+                texel = texture.at(weights.x * mesh.texture_coordinates[corners[0]] +
+                                   weights.y * mesh.texture_coordinates[corners[1]] +
+                                   weights.z * mesh.texture_coordinates[corners[2]]);
+            }
+            if (material.cut_out && texel.a == 0.0F) {
                 return false;
             }
             cover_[pixel] = cover;
+            colours_[pixel] = glm::vec3(material.colour) * glm::vec3(texel);
             return true;
         });
     }
@@ -107,17 +104,19 @@ private:
     float scale_ = 1.0F;
     DepthBuffer depth_;
     std::vector<Cover> cover_;
+    std::vector<glm::vec3> colours_; // linear
 };
 
 } // namespace
 
 VisibleAreas visible_areas(const Mesh& wood, const Mesh& foliage, const Bounds& frame) {
     VisibleAreas areas;
+    LinearTextures textures;
     for (const std::array<float, 2>& tilt : kTilts) {
         for (const std::array<float, 2>& turn : kTurns) {
             View view(frame, turn, tilt);
-            view.draw(wood, Cover::Wood);
-            view.draw(foliage, Cover::Foliage);
+            view.draw(wood, Cover::Wood, textures);
+            view.draw(foliage, Cover::Foliage, textures);
             view.add_to(areas);
         }
     }
