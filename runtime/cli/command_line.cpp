@@ -3,6 +3,7 @@
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/cli/presets.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
@@ -128,6 +129,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                  "Print the origin of each module or part of the skeleton: production or axiom, "
                  "place, generation");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
     add_base(app, command.run);
@@ -246,6 +248,19 @@ void add_export(CLI::App& app, ExportCommand& command) {
     app.add_flag("--stats", command.stats,
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
+    add_parsed(app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
+               fmt::format(
+                   "Write the first N levels of detail: {} hold them in one file (MSFT_lod), other "
+                   "formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
+                   format_names("and", [](const FormatTraits& format) { return format.lods; }))
+                   .c_str())
+        ->type_name("N")
+        ->group("Mesh");
+    app.add_flag("--lod-files", command.lod_files,
+                 "Write a file for each level in any format, and the list of distances "
+                 "tree.lods.json")
+        ->group("Mesh");
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
@@ -335,15 +350,21 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
     add_choice<ForestInstances>(
         app, "--instances", command.instances,
-        {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
+        {{"branches", ForestInstances::Branches},
+         {"trees", ForestInstances::Trees},
+         {"lods", ForestInstances::Lods}},
         "branches: every tree is different; trees: whole heroes, few draw calls and as many "
-        "different trees as --heroes (default branches)");
+        "different trees as --heroes; lods: whole heroes, each with the level of detail for its "
+        "distance from --viewpoint (default branches)");
+    add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
+               "Eye for --instances lods, in m (default: outside the edge of the forest)")
+        ->type_name("X,Y,Z");
     add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
-        "with --instances trees 0)")
+        "with --instances trees or lods 0)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);

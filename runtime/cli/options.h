@@ -113,11 +113,13 @@ struct ExportCommand {
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
+    std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
+    bool lod_files = false; // a file for each level
     bool stats = false;
 };
 
 /// Parts of a forest that its file repeats.
-enum class ForestInstances : std::uint8_t { Branches, Trees };
+enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
 struct ForestCommand {
     MessageOptions messages;
@@ -131,6 +133,7 @@ struct ForestCommand {
     bool bake = false;
     SurfaceOptions surface;
     ForestInstances instances = ForestInstances::Branches;
+    std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
     std::optional<float> cell;
     std::uint32_t frames = 0;

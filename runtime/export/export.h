@@ -66,6 +66,7 @@ struct FormatTraits {
     bool has_mtl = false;    // materials in a file beside it, by write_mtl()
     bool motion = false;     // one file holds all frames of an animation
     bool film = false;       // one file holds all frames of a growth
+    bool lods = false;       // one file holds all levels of detail
     bool compresses = false; // takes ExportInfo::compression
     bool separates = false;  // takes ExportInfo::buffer_name
     bool wind_data = false;  // takes ExportInfo::wind_data
@@ -102,6 +103,13 @@ enum class ExportCompression : std::uint8_t {
 
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
+
+/// A coarser level of detail in a file.
+struct CoarserMesh {
+    Mesh mesh;
+    /// The part of the screen, 0 to 1, that the box of the plant covers where this level begins.
+    double coverage = 0.0;
+};
 
 /// Origin and contents of a file.
 struct ExportInfo {
@@ -145,6 +153,9 @@ struct ExportInfo {
     /// Of the skeleton at rest, in glTF.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
+    /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:
+    /// none. Not together with an animation.
+    const std::vector<CoarserMesh>* coarser = nullptr;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

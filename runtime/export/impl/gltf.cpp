@@ -4,6 +4,7 @@
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_collision.h"
+#include "runtime/export/impl/gltf_levels.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/gltf_streams.h"
 #include "runtime/export/impl/json_writer.h"
@@ -337,6 +338,9 @@ Outcome<Contents> plan(const ExportJob& job) {
 }
 
 Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
+    if (job.info.coarser != nullptr) {
+        return write_gltf_levels(job, binary, out);
+    }
     Outcome<Contents> planned = plan(job);
     if (!planned) {
         return {planned.stop(), std::move(planned.messages())};
