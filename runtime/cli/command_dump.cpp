@@ -8,6 +8,7 @@
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
 #include "runtime/program/files.h"
@@ -16,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -239,7 +241,18 @@ ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Consol
     MeshOptions mesh_options = command.mesh;
     mesh_options.segments = true;
     Mesh mesh;
-    status = console.take(mesh_plant(plant, plant.skeleton, mesh_options, project), mesh);
+    DetailLevels levels;
+    mesh_options.level = 0;
+    status = console.take(plan_plant_levels(plant, plant.skeleton, mesh_options,
+                                            {.last = command.mesh.level}, project),
+                          levels);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t number =
+        std::min<std::size_t>(command.mesh.level, levels.levels.size() - 1); // or the coarsest
+    status = console.take(
+        mesh_plant_level(plant, plant.skeleton, levels, number, mesh_options, project), mesh);
     if (status != ExitStatus::Ok) {
         return status;
     }

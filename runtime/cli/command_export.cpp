@@ -2,12 +2,14 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
+#include "runtime/cli/lod_files.h"
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/plant_options.h"
 #include "runtime/cli/progress.h"
 #include "runtime/cli/surface_options.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/animation.h"
 #include "runtime/pipeline/plant.h"
@@ -45,6 +47,7 @@ struct Export {
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                      // of the last file
+    DetailLevels levels;            // of the plant; empty until a coarser level is asked for
     std::set<std::string> pictures; // names of the written ones, shared by all frames
 };
 
@@ -55,7 +58,10 @@ ExitStatus add_side_files(Export& run,
                           const std::filesystem::path& path,
                           ExportInfo& info,
                           OutputSet& files) {
-    info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    // Levels of detail have colours of their own, frames the same ones.
+    info.picture_prefix = run.command.lods != 0
+                              ? path.stem().string()
+                              : std::filesystem::path(run.command.output).stem().string();
     const bool separate = run.command.buffers == BufferPlace::Separate;
     const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
     info.buffer_name = separate ? buffer.filename().string() : std::string();
@@ -96,14 +102,76 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
+/// Plans levels of detail up to `last`, once for all poses of the plant.
+ExitStatus plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t last) {
+    const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
+                         skeleton.objects.size() == run.plant.skeleton.objects.size() &&
+                         skeleton.polygons.size() == run.plant.skeleton.polygons.size();
+    if (!run.levels.levels.empty() && is_pose) {
+        return ExitStatus::Ok;
+    }
+    MeshOptions finest = run.command.mesh;
+    finest.level = 0;
+    const ExportPictures pictures = traits_of(run.format).pictures;
+    const bool shows_pictures =
+        pictures == ExportPictures::Inside ||
+        (pictures != ExportPictures::None && is_regular(run.command.output));
+    return run.console.take(plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton,
+                                              finest, {.last = last, .pictures = shows_pictures},
+                                              run.project),
+                            run.levels);
+}
+
+/// Meshes the wanted level of `skeleton`, or the coarsest.
+ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOptions& options) {
+    const std::uint32_t wanted = run.command.mesh.level;
+    if (wanted == 0) {
+        return run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
+    }
+    const ExitStatus status = plan_levels(run, skeleton, wanted);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t number = std::min<std::size_t>(wanted, run.levels.levels.size() - 1);
+    return run.console.take(
+        mesh_plant_level(run.plant, skeleton, run.levels, number, options, run.project), run.mesh);
+}
+
+ExportInfo export_info(const Export& run) {
+    const ExportCommand& command = run.command;
+    ExportInfo info;
+    info.grammar = std::filesystem::path(command.file).filename().string();
+    // Without the name of a file, nodes have that of any plant.
+    const std::string& named = command.output == "-" ? command.file : command.output;
+    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
+    info.seed = run.plant.seed;
+    info.generations = run.plant.generations;
+    info.generator = "lsc " LSC_VERSION;
+    info.user_meshes = &run.plant.user_meshes;
+    info.threads = command.run.threads;
+    info.wind_data = command.wind_data;
+    info.compression = command.compression.value_or(ExportCompression::None);
+    info.up = command.surface.up;
+    info.both_sides = command.surface.both_sides;
+    info.unit = command.unit;
+    info.collision = command.collision;
+    info.collision_names = command.collision_names;
+    return info;
+}
+
+/// The place of the plant in its files; the pivot is that of the plant at rest.
+PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
+    const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
+    return {pivot_of(rest, run.command.pivot), units_per_metre(run.command.unit)};
+}
+
 /// Makes the mesh of `skeleton`; with `segments` those of its vertices too.
 ExitStatus mesh_frame(Export& run, const Skeleton& skeleton, bool segments) {
     const SteadyClock::time_point start = SteadyClock::now();
     MeshOptions options = run.command.mesh;
     options.segments = segments;
     run.mesh = {};
-    const ExitStatus status =
-        run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
+    const ExitStatus status = mesh_wanted_level(run, skeleton, options);
     run.timing.mesh_seconds += seconds_since(start);
     return status;
 }
@@ -121,29 +189,34 @@ ExitStatus write_mesh(Export& run,
                       const Movement& movement) {
     const ExportCommand& command = run.command;
     const SteadyClock::time_point start = SteadyClock::now();
-    ExportInfo info;
-    info.grammar = std::filesystem::path(command.file).filename().string();
-    info.seed = run.plant.seed;
-    info.generations = run.plant.generations;
-    info.generator = "lsc " LSC_VERSION;
-    info.user_meshes = &run.plant.user_meshes;
+    ExportInfo info = export_info(run);
     info.animation = movement.animation;
     info.film = movement.film;
-    info.wind_data = command.wind_data;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
-    info.threads = command.run.threads;
-    info.compression = command.compression.value_or(ExportCompression::None);
-    info.up = command.surface.up;
-    info.both_sides = command.surface.both_sides;
+    const PlantPlacement placement = placement_of(run, skeleton);
+    const bool stays = placement == PlantPlacement{};
+    Skeleton placed;
+    PlantAnimation placed_animation;
+    if (!stays) {
+        placed = skeleton;
+        place(placement, run.mesh);
+        place(placement, placed);
+        if (movement.animation != nullptr) {
+            placed_animation = *movement.animation;
+            place(placement, placed_animation);
+            info.animation = &placed_animation;
+        }
+    }
+    const Skeleton& written = stays ? skeleton : placed;
     OutputSet files(run.console);
     ExitStatus status = ExitStatus::Ok;
     if (is_regular(path)) {
-        status = add_side_files(run, skeleton, path, info, files);
+        status = add_side_files(run, written, path, info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
-            return export_mesh(run.mesh, skeleton, run.format, info, sink);
+            return export_mesh(run.mesh, written, run.format, info, sink);
         });
     }
     if (status == ExitStatus::Ok) {
@@ -168,6 +241,104 @@ ExitStatus write_plant(Export& run,
         }
     }
     return write_mesh(run, skeleton, path, {animation, nullptr});
+}
+
+/// Writes the levels of detail of `skeleton`: into one file, or a file for each and a list of them.
+ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
+    const ExportCommand& command = run.command;
+    const bool one_file = traits_of(run.format).lods && !command.lod_files;
+    SteadyClock::time_point start = SteadyClock::now();
+    ExitStatus status = plan_levels(run, skeleton, command.lods - 1);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t count = run.levels.levels.size();
+    if (count < command.lods) {
+        run.console.info(
+            fmt::format("the plant has {} {} of detail", count, count == 1 ? "level" : "levels"));
+    }
+    MeshOptions options = command.mesh;
+    options.segments = command.wind_data;
+    std::vector<CoarserMesh> meshes(count);
+    for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+        status = run.console.take(
+            mesh_plant_level(run.plant, skeleton, run.levels, i, options, run.project),
+            meshes[i].mesh);
+    }
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const PlantExtent extent = extent_of(meshes.front().mesh);
+    for (std::size_t i = 0; i < count; ++i) {
+        meshes[i].coverage = screen_coverage(extent, run.levels.levels[i].pixels);
+    }
+    Skeleton placed = skeleton;
+    if (const PlantPlacement placement = placement_of(run, skeleton);
+        placement != PlantPlacement{}) {
+        place(placement, placed);
+        for (CoarserMesh& each : meshes) {
+            place(placement, each.mesh);
+        }
+    }
+    run.mesh = std::move(meshes.front().mesh);
+    run.timing.mesh_seconds += seconds_since(start);
+    start = SteadyClock::now();
+    const ExportInfo origin = export_info(run);
+    OutputSet files(run.console);
+    if (one_file) {
+        meshes.erase(meshes.begin());
+        ExportInfo info = origin;
+        info.coarser = &meshes;
+        status = files.add(command.output, [&](const ByteSink& sink) {
+            return export_mesh(run.mesh, placed, run.format, info, sink);
+        });
+    } else {
+        std::vector<LodFile> list;
+        Mesh finest; // for the statistics
+        for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+            if (i == 1) {
+                finest = std::move(run.mesh);
+            }
+            if (i > 0) {
+                run.mesh = std::move(meshes[i].mesh);
+            }
+            const std::string path = lod_path(command.output, i);
+            ExportInfo info = origin;
+            status = add_side_files(run, placed, path, info, files);
+            if (status == ExitStatus::Ok) {
+                status = files.add(path, [&](const ByteSink& sink) {
+                    return export_mesh(run.mesh, placed, run.format, info, sink);
+                });
+            }
+            list.push_back({.name = std::filesystem::path(path).filename().string(),
+                            .triangles = run.mesh.indices.size() / 3,
+                            .pixels = run.levels.levels[i].pixels,
+                            .coverage = meshes[i].coverage});
+        }
+        if (count > 1) {
+            run.mesh = std::move(finest);
+        }
+        if (status == ExitStatus::Ok) {
+            const std::string text = lods_json(origin, extent, list);
+            status = files.add(lods_json_path(command.output),
+                               [&](const ByteSink& sink) -> Outcome<void> {
+                                   return sink(text) ? Outcome<void>()
+                                                     : Outcome<void>(Stop::Cancelled, Messages{});
+                               });
+        }
+    }
+    if (status == ExitStatus::Ok) {
+        status = files.commit();
+    }
+    run.timing.bytes += files.byte_count();
+    run.timing.write_seconds += seconds_since(start);
+    return status;
+}
+
+/// Writes a plant that does not move.
+ExitStatus write_still(Export& run, const Skeleton& skeleton) {
+    return run.command.lods != 0 ? write_lods(run, skeleton)
+                                 : write_plant(run, skeleton, run.command.output);
 }
 
 /// Stops if `bytes` of an animation are more than the limit.
@@ -261,7 +432,7 @@ ExitStatus write_bent(Export& run) {
     Skeleton bent;
     if (command.frames == 0) {
         physics.pose(bent);
-        return write_plant(run, bent, command.output);
+        return write_still(run, bent);
     }
     if (traits_of(run.format).motion) {
         return write_animation(run, physics);
@@ -377,9 +548,45 @@ ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
     return write_mesh(run, grown, command.output, {nullptr, &film});
 }
 
+/// A message about options of levels of detail that do not go together; empty if there are none.
+std::string find_lod_conflict(const ExportCommand& command, ExportFormat format) {
+    if (command.lod_files && command.lods == 0) {
+        return "--lod-files needs the number of levels: --lods";
+    }
+    if (command.lods == 0) {
+        return {};
+    }
+    if (command.mesh.level != 0) {
+        return "--lods and --level do not go together: --lods writes the levels from 0 on";
+    }
+    if (command.frames != 0) {
+        return "--lods and --frames do not go together";
+    }
+    if (command.mesh.method == MeshMethod::Solid) {
+        return "--lods and --method solid do not go together: a solid has no coarser levels";
+    }
+    if (!traits_of(format).uses_mesh) {
+        return fmt::format("--lods needs a format with triangles, which {} is not",
+                           traits_of(format).name);
+    }
+    const bool one_file = traits_of(format).lods && !command.lod_files;
+    if (one_file && command.buffers == BufferPlace::Separate) {
+        return "--lods with --buffers separate needs --lod-files";
+    }
+    if (!one_file && !is_regular(command.output)) {
+        return fmt::format("--lods writes several files here, which need a file name; {} hold all "
+                           "levels in one",
+                           format_names("and", [](const FormatTraits& each) { return each.lods; }));
+    }
+    return {};
+}
+
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
+    if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+        return conflict;
+    }
     const auto names_with = [](bool FormatTraits::*feature) {
         return format_names("or", [feature](const FormatTraits& each) { return each.*feature; });
     };
@@ -424,6 +631,27 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--wind-data is for shaders, and has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.wind_data; }));
     }
+    if (command.unit != LengthUnit::Metres && !traits_of(format).units) {
+        return fmt::format("--unit is for {}; {}",
+                           format_names("and", [](const auto& each) { return each.units; }),
+                           traits_of(format).collision
+                               ? "glTF is in metres by definition, and importers scale it to the "
+                                 "unit of the engine"
+                               : "this format has a scale of its own");
+    }
+    if (command.collision != CollisionKind::None && !traits_of(format).collision) {
+        return fmt::format(
+            "--collision has a place in {}",
+            format_names("and", [](const FormatTraits& each) { return each.collision; }));
+    }
+    if (command.grow && command.pivot != PlantPivot::Origin) {
+        return "--grow and --pivot do not go together, because base and middle of a plant change "
+               "as "
+               "it grows";
+    }
+    if (command.grow && command.collision != CollisionKind::None) {
+        return "--grow and --collision do not go together, because branches come and go";
+    }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";
     }
@@ -441,7 +669,9 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return fmt::format(
             "--frames writes several files of this format, which do not go to standard "
             "output; {} hold all frames in one",
-            format_names("and", [](const FormatTraits& each) { return each.motion; }));
+            format_names("and", [&](const FormatTraits& each) {
+                return command.grow ? each.film : each.motion;
+            }));
     }
     return {};
 }
@@ -458,7 +688,7 @@ ExitStatus export_growth(const ExportCommand& command,
         return status_of(begun.stop());
     }
     PlantGrowth& growth = begun.value();
-    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}};
+    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}};
     Skeleton grown;
     const ExitStatus status =
         traits_of(format).film ? write_film(run, growth, grown) : write_growth(run, growth, grown);
@@ -507,9 +737,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    Export run{command, *format, grammar, console, project, plant, {}, {}, {}};
+    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}};
     const SteadyClock::time_point start = SteadyClock::now();
-    status = bends ? write_bent(run) : write_plant(run, plant.skeleton, command.output);
+    status = bends ? write_bent(run) : write_still(run, plant.skeleton);
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }

@@ -5,6 +5,7 @@
 #include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/forest_growth.h"
+#include "runtime/pipeline/forest_lods.h"
 #include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/placement/domination.h"
@@ -84,9 +85,20 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "--compress is for " +
                format_names("and", [](const auto& each) { return each.compresses; });
     }
-    if (command.instances == ForestInstances::Trees &&
+    const bool lods = command.instances == ForestInstances::Lods;
+    if (command.instances != ForestInstances::Branches &&
         command.overrides.rho.value_or(0.0F) > 0.0F) {
-        return "--instances trees shows heroes as they are, so --rho does not go with it";
+        return fmt::format("--instances {} shows heroes as they are, so --rho does not go with it",
+                           lods ? "lods" : "trees");
+    }
+    if (command.viewpoint && !lods) {
+        return "--viewpoint is for --instances lods, whose trees have levels by distance";
+    }
+    if (lods && command.frames != 0) {
+        return "--instances lods and --frames do not go together";
+    }
+    if (lods && target.kind == OutputKind::Statistics) {
+        return "--instances lods writes a forest; its statistics are those of --instances trees";
     }
     if (command.mesh.method == MeshMethod::Solid) {
         return "--method solid is for a single plant: the branches of a forest are instances";
@@ -118,10 +130,13 @@ struct Run {
 };
 
 ExitStatus make_meshes(Run& run) {
-    const ExitStatus status =
-        run.console.take(mesh_forest(run.grown, run.command.mesh, run.project), run.meshes);
-    if (status != ExitStatus::Ok) {
-        return status;
+    const bool lods = run.command.instances == ForestInstances::Lods; // make their own
+    if (!lods || run.command.messages.format == MessageFormat::Json) {
+        const ExitStatus status =
+            run.console.take(mesh_forest(run.grown, run.command.mesh, run.project), run.meshes);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
     }
     if (run.scene.terrain.kind != TerrainKind::Flat || run.command.files.size() == 1 ||
         run.grown.ground.colour != nullptr) {
@@ -163,7 +178,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.name = std::filesystem::path(path).stem().string();
     info.generator = "lsc " LSC_VERSION;
     constexpr float kCell = 100.0F;
-    const bool whole_trees = run.command.instances == ForestInstances::Trees;
+    const bool whole_trees = run.command.instances != ForestInstances::Branches;
     info.cell = run.command.cell.value_or(whole_trees ? 0.0F : kCell);
     info.up = run.command.surface.up;
     info.threads = run.command.run.threads;
@@ -237,7 +252,25 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     return status == ExitStatus::Ok ? outputs.commit() : status;
 }
 
+/// Writes whole heroes with levels of detail by distance.
+ExitStatus write_lods(Run& run, const std::string& path) {
+    ForestLods lods;
+    const ExitStatus status = run.console.take(
+        make_forest_lods(run.grown, run.command.mesh, run.command.viewpoint, run.project), lods);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    run.console.detail(fmt::format("levels of detail as seen from {:.4g},{:.4g},{:.4g}",
+                                   lods.viewpoint.x, lods.viewpoint.y, lods.viewpoint.z));
+    const ForestScene scene{lods.forest, lods.meshes, run.ground ? &*run.ground : nullptr};
+    return run.target.kind == OutputKind::Mesh ? write_baked(run, scene, path)
+                                               : write_instances(run, scene, path);
+}
+
 ExitStatus write_forest(Run& run, const std::string& path) {
+    if (run.command.instances == ForestInstances::Lods && run.target.kind != OutputKind::None) {
+        return write_lods(run, path);
+    }
     const ForestScene scene{run.grown.forest, run.meshes, run.ground ? &*run.ground : nullptr};
     switch (run.target.kind) {
     case OutputKind::None:
@@ -405,7 +438,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     }
     const Project project = make_project(console, command.run);
     SceneOverrides overrides = command.overrides;
-    if (command.instances == ForestInstances::Trees) {
+    if (command.instances != ForestInstances::Branches) {
         overrides.rho =
             0.0F; // heroes take no branch from others, so each is an instance as a whole
     }

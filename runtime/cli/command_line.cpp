@@ -2,6 +2,8 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/cli/presets.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
@@ -127,6 +129,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                  "Print the origin of each module or part of the skeleton: production or axiom, "
                  "place, generation");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
     add_base(app, command.run);
@@ -151,6 +154,50 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --from half.lss tree.lsys\n"
                "          lsc dump --stage skeleton --origins tree.lsys\n"
                "          lsc dump --stage heroes --heroes 2 tree.lsys");
+}
+
+void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Preset& preset : presets()) {
+        if (command == PresetCommand::Export || !preset.forests.empty()) {
+            names.emplace_back(preset.name, preset.name);
+        }
+    }
+    add_choice<std::string>(app, "--preset", target, std::move(names),
+                            "Options for the program that the file is for, listed below; an option "
+                            "that is given too wins");
+}
+
+/// Options of the file of a plant.
+void add_placement(CLI::App& app, ExportCommand& command) {
+    const std::string unit =
+        fmt::format("Unit of lengths in {} (default m)",
+                    format_names("and", [](const FormatTraits& format) { return format.units; }));
+    add_choice<LengthUnit>(app, "--unit", command.unit,
+                           {{"m", LengthUnit::Metres},
+                            {"cm", LengthUnit::Centimetres},
+                            {"mm", LengthUnit::Millimetres}},
+                           unit.c_str());
+    add_choice<PlantPivot>(
+        app, "--pivot", command.pivot,
+        {{"origin", PlantPivot::Origin},
+         {"base", PlantPivot::Base},
+         {"centre", PlantPivot::Centre}},
+        "Point that becomes the origin of the file: the start of the turtle, the base of the trunk "
+        "or the middle of the plant (default origin)");
+    add_choice<CollisionKind>(app, "--collision", command.collision,
+                              {{"none", CollisionKind::None},
+                               {"capsules", CollisionKind::Capsules},
+                               {"hulls", CollisionKind::Hulls}},
+                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
+                              "glTF (default none)");
+    add_choice<CollisionNames>(
+        app, "--collision-names", command.collision_names,
+        {{"unreal", CollisionNames::Unreal},
+         {"godot", CollisionNames::Godot},
+         {"unity", CollisionNames::Unity}},
+        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
+        "(default unreal)");
 }
 
 void add_compression(CLI::App& app, std::optional<ExportCompression>& compression) {
@@ -187,6 +234,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
     }
     add_choice(app, "--format", command.format, std::move(formats),
                "Format (default: by the extension of the output)");
+    add_preset(app, PresetCommand::Export, command.preset);
+    add_placement(app, command);
     add_compression(app, command.compression);
     add_choice<std::optional<BufferPlace>>(
         app, "--buffers", command.buffers,
@@ -199,6 +248,19 @@ void add_export(CLI::App& app, ExportCommand& command) {
     app.add_flag("--stats", command.stats,
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
+    describe_detail_levels(app);
+    add_parsed(app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
+               fmt::format(
+                   "Write the first N levels of detail: {} hold them in one file (MSFT_lod), other "
+                   "formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
+                   format_names("and", [](const FormatTraits& format) { return format.lods; }))
+                   .c_str())
+        ->type_name("N")
+        ->group("Mesh");
+    app.add_flag("--lod-files", command.lod_files,
+                 "Write a file for each level in any format, and the list of distances "
+                 "tree.lods.json")
+        ->group("Mesh");
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
@@ -250,8 +312,10 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Units are metres, +Y is up unless --up says otherwise. The output is complete or "
-               "absent. OBJ writes a .mtl "
+    app.footer("Presets:\n" + preset_table(PresetCommand::Export) +
+               "A flag of a preset is taken back by `--wind-data=false`.\n\n"
+               "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
+               "complete or absent. OBJ writes a .mtl "
                "file beside it, OBJ\n"
                "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
                "output. SVG is\n"
@@ -276,6 +340,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
                                                 return format.uses_mesh && !has_instances(format);
                                             })))
         ->type_name("FILE");
+    add_preset(app, PresetCommand::Forest, command.preset);
     app.add_flag("--check", command.check, "Check the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
@@ -285,15 +350,21 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
     add_choice<ForestInstances>(
         app, "--instances", command.instances,
-        {{"branches", ForestInstances::Branches}, {"trees", ForestInstances::Trees}},
+        {{"branches", ForestInstances::Branches},
+         {"trees", ForestInstances::Trees},
+         {"lods", ForestInstances::Lods}},
         "branches: every tree is different; trees: whole heroes, few draw calls and as many "
-        "different trees as --heroes (default branches)");
+        "different trees as --heroes; lods: whole heroes, each with the level of detail for its "
+        "distance from --viewpoint (default branches)");
+    add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
+               "Eye for --instances lods, in m (default: outside the edge of the forest)")
+        ->type_name("X,Y,Z");
     add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,
         [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
         "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
-        "with --instances trees 0)")
+        "with --instances trees or lods 0)")
         ->type_name("METRES");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
@@ -310,7 +381,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
     app.footer(
-        "Options override the scene; -n, -D, --set and the options of instances apply to every "
+        "Presets:\n" + preset_table(PresetCommand::Forest) +
+        "\nOptions override the scene; -n, -D, --set and the options of instances apply to every "
         "species.\n"
         "samples/scenes has example scenes.\n"
         "Examples: lsc forest wood.toml -o wood.glb\n"
@@ -439,9 +511,42 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-} // namespace
+/// The format of a command's output, as the command itself finds it; null: the name tells none.
+const FormatTraits* format_of(const ExportCommand& command) {
+    const std::optional<ExportFormat> format =
+        command.format ? command.format : format_of_path(command.output);
+    return format ? &traits_of(*format) : nullptr;
+}
+const FormatTraits* format_of(const ForestCommand& command) {
+    const std::optional<ExportFormat> format = format_of_path(command.output);
+    return format ? &traits_of(*format) : nullptr;
+}
 
-CommandLine parse_command_line(std::span<const std::string> arguments) {
+/// The options of the command's preset that are not given, or that the preset has no such files.
+/// Nothing without a preset, and where the command itself will not find its format.
+template <typename Command>
+Result<std::vector<std::string>> find_preset_arguments(const Command& command,
+                                                       const CLI::App& app) {
+    constexpr PresetCommand kCommand =
+        std::is_same_v<Command, ExportCommand> ? PresetCommand::Export : PresetCommand::Forest;
+    const FormatTraits* const format = format_of(command);
+    for (const Preset& preset : presets()) {
+        if (preset.name != command.preset || format == nullptr) {
+            continue;
+        }
+        if (!suits(preset, kCommand, *format)) {
+            return Error{unsuitable_text(preset, kCommand, format->name)};
+        }
+        return preset_arguments(preset, kCommand, *format, [&app](std::string_view option) {
+            return app.get_option(std::string(option))->count() > 0;
+        });
+    }
+    return std::vector<std::string>{};
+}
+
+/// Parses the arguments as they are. `implied` becomes the options of their preset.
+CommandLine parse_arguments(std::span<const std::string> arguments,
+                            std::vector<std::string>& implied) {
     CLI::App app("Compiles, derives and exports L-systems, the grammars of plants and curves.",
                  "lsc");
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
@@ -495,7 +600,37 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
             }
         },
         parsed);
-    return mistake ? CommandLine(*mistake) : parsed;
+    if (mistake) {
+        return *mistake;
+    }
+    const Result<std::vector<std::string>> options = std::visit(
+        [&]<typename Command>(const Command& given) -> Result<std::vector<std::string>> {
+            if constexpr (requires { given.preset; }) {
+                return find_preset_arguments(given, *command);
+            } else {
+                return std::vector<std::string>{};
+            }
+        },
+        parsed);
+    if (!options) {
+        return UsageError{options.error().message,
+                          fmt::format("`lsc {} --help` lists the presets", command->get_name())};
+    }
+    implied = options.value();
+    return parsed;
+}
+
+} // namespace
+
+CommandLine parse_command_line(std::span<const std::string> arguments) {
+    std::vector<std::string> options;
+    CommandLine parsed = parse_arguments(arguments, options);
+    if (options.empty()) {
+        return parsed;
+    }
+    std::vector<std::string> whole(arguments.begin(), arguments.end());
+    whole.insert(whole.begin() + 1, options.begin(), options.end());
+    return parse_arguments(whole, options);
 }
 
 } // namespace lsys::lsc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/grammar.h"
@@ -94,6 +95,11 @@ struct ExportCommand {
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
     SurfaceOptions surface;
+    std::string preset; // of presets.def; empty: none
+    LengthUnit unit = LengthUnit::Metres;
+    PlantPivot pivot = PlantPivot::Origin;
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
@@ -107,16 +113,19 @@ struct ExportCommand {
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
+    std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
+    bool lod_files = false; // a file for each level
     bool stats = false;
 };
 
 /// Parts of a forest that its file repeats.
-enum class ForestInstances : std::uint8_t { Branches, Trees };
+enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
 struct ForestCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or grammars
     std::string output;             // empty: none
+    std::string preset;             // of presets.def; empty: none
     SceneOverrides overrides;
     RunOptions run;
     std::optional<ExportCompression> compression; // default: none
@@ -124,6 +133,7 @@ struct ForestCommand {
     bool bake = false;
     SurfaceOptions surface;
     ForestInstances instances = ForestInstances::Branches;
+    std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
     std::optional<float> cell;
     std::uint32_t frames = 0;

@@ -69,6 +69,18 @@ std::string format_names(std::string_view conjunction,
     return text;
 }
 
+float units_per_metre(LengthUnit unit) {
+    switch (unit) {
+    case LengthUnit::Centimetres:
+        return 100.0F;
+    case LengthUnit::Millimetres:
+        return 1000.0F;
+    case LengthUnit::Metres:
+        break;
+    }
+    return 1.0F;
+}
+
 std::uint64_t triangle_count(const Mesh& mesh) {
     std::uint64_t count = 0;
     for (const MeshPart& part : mesh.parts) {

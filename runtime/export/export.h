@@ -39,6 +39,17 @@ enum class ExportPictures : std::uint8_t {
 /// at (x, -z, y).
 enum class UpAxis : std::uint8_t { Y, Z };
 
+/// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
+enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
+/// Names by which an importer knows such a node: `UCP_tree_00`, `UCX_tree_00`;
+/// `tree_00-convcolonly`; `tree_collider_00`.
+enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
+
+/// Unit of the lengths in a file. The mesh is in it already; the formats that can say so state it.
+enum class LengthUnit : std::uint8_t { Metres, Centimetres, Millimetres };
+/// Units in a metre.
+[[nodiscard]] float units_per_metre(LengthUnit unit);
+
 struct ExportJob;
 struct ForestExportJob;
 class PieceWriter;
@@ -55,11 +66,14 @@ struct FormatTraits {
     bool has_mtl = false;    // materials in a file beside it, by write_mtl()
     bool motion = false;     // one file holds all frames of an animation
     bool film = false;       // one file holds all frames of a growth
+    bool lods = false;       // one file holds all levels of detail
     bool compresses = false; // takes ExportInfo::compression
     bool separates = false;  // takes ExportInfo::buffer_name
     bool wind_data = false;  // takes ExportInfo::wind_data
     bool up_axes = false;    // takes ExportInfo::up
     bool back_faces = false; // takes ExportInfo::both_sides
+    bool units = false;      // takes ExportInfo::unit
+    bool collision = false;  // takes ExportInfo::collision
     /// Writes trees as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
@@ -90,14 +104,23 @@ enum class ExportCompression : std::uint8_t {
 /// Subject of a file in messages.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
 
+/// A coarser level of detail in a file.
+struct CoarserMesh {
+    Mesh mesh;
+    /// The part of the screen, 0 to 1, that the box of the plant covers where this level begins.
+    double coverage = 0.0;
+};
+
 /// Origin and contents of a file.
 struct ExportInfo {
     ExportSubject subject = ExportSubject::Plant;
-    std::string grammar; // name of the grammar
+    std::string grammar;   // name of the grammar
+    std::string name = {}; // of the plant, for nodes and meshes; empty: `plant`
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
-    std::string generator; // the program and its version
-    std::string mtl_name;  // the file of write_mtl() beside an OBJ; empty: none
+    std::string generator;                // the program and its version
+    LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
+    std::string mtl_name;                 // the file of write_mtl() beside an OBJ; empty: none
     /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
     /// colours.
     std::string picture_prefix;
@@ -127,6 +150,12 @@ struct ExportInfo {
     /// Triangles of two-sided materials are written a second time, reversed, with normals of their
     /// own, for readers that draw front faces only; for FormatTraits::back_faces.
     bool both_sides = false;
+    /// Of the skeleton at rest, in glTF.
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
+    /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:
+    /// none. Not together with an animation.
+    const std::vector<CoarserMesh>* coarser = nullptr;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

@@ -87,6 +87,9 @@ struct MeshOptions {
     /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides that
     /// keep it, at most those of their level. 0: rings have the sides of their level.
     float deviation = 0.0F;
+    /// Tubes: metres by which the edge that replaces several joints may miss them, whatever their
+    /// radius. 0: by `level` alone.
+    float axis_error = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;

@@ -180,21 +180,19 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     return step.done(std::move(plant));
 }
 
-Outcome<Mesh> mesh_plant(const Plant& plant,
-                         const Skeleton& skeleton,
-                         const MeshOptions& options,
-                         const Project& project) {
-    Step step(project);
+namespace {
+
+MeshOptions limited_options(const MeshOptions& options, const Project& project) {
     MeshOptions limited = options;
     limited.threads = project.threads;
     limited.max_bytes = project.limits.max_bytes;
-    Mesh mesh;
-    const std::optional<Stop> stop = make_mesh(skeleton, plant.user_meshes, limited, mesh);
-    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
-        return step.end(Stop::Diagnosed);
-    }
+    return limited;
+}
+
+template <typename Value>
+Outcome<Value> finish_mesh(Step& step, std::optional<Stop> stop, Value value) {
     if (!stop) {
-        return step.done(std::move(mesh));
+        return step.done(std::move(value));
     }
     if (stop != Stop::Failed) {
         return step.end_too_large(*stop, "the mesh");
@@ -204,6 +202,50 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
                                          "`--level`, or for fewer generations with `-n`"),
                   nullptr);
     return step.end(Stop::Limit);
+}
+
+} // namespace
+
+Outcome<Mesh> mesh_plant(const Plant& plant,
+                         const Skeleton& skeleton,
+                         const MeshOptions& options,
+                         const Project& project) {
+    Step step(project);
+    Mesh mesh;
+    const std::optional<Stop> stop =
+        make_mesh(skeleton, plant.user_meshes, limited_options(options, project), mesh);
+    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
+        return step.end(Stop::Diagnosed);
+    }
+    return finish_mesh(step, stop, std::move(mesh));
+}
+
+Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
+                                        const Skeleton& skeleton,
+                                        const MeshOptions& options,
+                                        const DetailChain& chain,
+                                        const Project& project) {
+    Step step(project);
+    DetailLevels levels;
+    const std::optional<Stop> stop = plan_detail_levels(
+        skeleton, plant.user_meshes, limited_options(options, project), chain, levels);
+    return finish_mesh(step, stop, std::move(levels));
+}
+
+Outcome<Mesh> mesh_plant_level(const Plant& plant,
+                               const Skeleton& skeleton,
+                               const DetailLevels& levels,
+                               std::size_t number,
+                               const MeshOptions& options,
+                               const Project& project) {
+    Step step(project);
+    Mesh mesh;
+    const std::optional<Stop> stop = make_detail_mesh(skeleton, plant.user_meshes, levels, number,
+                                                      limited_options(options, project), mesh);
+    if (!stop && mesh.shells > 1 && !step.diagnose(separate_pieces(mesh.shells), nullptr)) {
+        return step.end(Stop::Diagnosed);
+    }
+    return finish_mesh(step, stop, std::move(mesh));
 }
 
 } // namespace lsys

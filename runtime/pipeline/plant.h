@@ -3,6 +3,7 @@
 
 #include "grammar/base/outcome.h"
 #include "runtime/derive/derive.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
@@ -53,6 +54,21 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                        const Skeleton& skeleton,
                                        const MeshOptions& options,
                                        const Project& project);
+
+/// Plans the levels of detail 0 to `last` of `skeleton`; `options` are those of level 0.
+[[nodiscard]] Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
+                                                      const Skeleton& skeleton,
+                                                      const MeshOptions& options,
+                                                      const DetailChain& chain,
+                                                      const Project& project);
+/// Meshes level `number` of `skeleton`, the planned one or a pose of it, with the arrays that
+/// `options` ask for. Precondition: number < levels.levels.size().
+[[nodiscard]] Outcome<Mesh> mesh_plant_level(const Plant& plant,
+                                             const Skeleton& skeleton,
+                                             const DetailLevels& levels,
+                                             std::size_t number,
+                                             const MeshOptions& options,
+                                             const Project& project);
 
 /// The diagnostic of a derivation that a Stop other than Stop::Cancelled ended.
 [[nodiscard]] Diagnostic

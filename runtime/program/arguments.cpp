@@ -68,6 +68,22 @@ Result<Wind> parse_wind(std::string_view text) {
     return Wind{{values[0], values[1], values[2]}, values[3]};
 }
 
+Result<glm::vec3> parse_place(std::string_view text) {
+    glm::vec3 place(0.0F);
+    std::string_view rest = text;
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
+        const Parsed<float> parsed = parse_all<float>(rest.substr(0, comma));
+        if (comma == std::string_view::npos || parsed.error != std::errc() ||
+            !std::isfinite(parsed.value)) {
+            return Error{fmt::format("`{}` is not a place such as 0,2,50", text)};
+        }
+        place[i] = parsed.value;
+        rest = i < 2 ? rest.substr(comma + 1) : std::string_view();
+    }
+    return place;
+}
+
 Result<std::uint64_t> parse_size(std::string_view text) {
     std::string_view digits = text;
     double unit = 1.0;

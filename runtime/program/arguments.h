@@ -24,6 +24,9 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// `x,y,z` or `x,y,z,gust`: velocity in metres per second, and amplitude of gusts relative to it.
 [[nodiscard]] Result<Wind> parse_wind(std::string_view text);
 
+/// `X,Y,Z`: a place in metres.
+[[nodiscard]] Result<glm::vec3> parse_place(std::string_view text);
+
 /// Bytes: a whole number, or a number with a suffix K, M, G or T (powers of 1024; also `KiB`,
 /// `KB`).
 [[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/meshing/detail_levels.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/turtle/turtle.h"
@@ -190,6 +191,12 @@ void add_run_limits(CLI::App& app, RunOptions& run) {
         ->group("Limits");
 }
 
+void describe_detail_levels(CLI::App& app) {
+    app.get_option("--level")->description(
+        "Level of detail: 0 is the finest, each further one has a half to a third of the "
+        "triangles, down to 50: fewer sides, then fewer twigs and leaves (default 0)");
+}
+
 void add_mesh(CLI::App& app, MeshOptions& mesh) {
     add_choice<MeshMethod>(
         app, "--method", mesh.method,
@@ -205,8 +212,7 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Sides of each cross-section (default: the grammar's)")
         ->type_name("N")
         ->group("Mesh");
-    constexpr std::uint64_t kMaxLevel = 8;
-    add_parsed(app, "--level", mesh.level, integer(0, kMaxLevel),
+    add_parsed(app, "--level", mesh.level, integer(0, kMaxDetailLevel),
                "Level of detail: 0 is the finest, each further level halves the sides (default 0)")
         ->type_name("K")
         ->group("Mesh");

@@ -99,6 +99,8 @@ void add_height(CLI::App& app, std::optional<float>& height);
 void add_tree_height(CLI::App& app, std::optional<HeightRange>& height);
 /// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
+/// Describes `--level` of add_mesh() as a number of DetailLevels.
+void describe_detail_levels(CLI::App& app);
 void add_run_limits(CLI::App& app, RunOptions& run);
 
 /// Options that override a scene: key, placement, instances. `size`: the name of the option for the

@@ -22,6 +22,9 @@ export function primitivesOf(document) {
                 material.getNormalTextureInfo()?.getExtension('KHR_texture_transform');
             found.push({
                 primitive,
+                // As floats, by which the file was written; its text has fewer digits.
+                scale: Math.fround(scale),
+                shift: shift.map(Math.fround),
                 material,
                 indices: [...primitive.getIndices().getArray()],
                 POSITION: items('POSITION').map(p => p.map((x, axis) => shift[axis] + scale * x)),
@@ -38,18 +41,38 @@ export function primitivesOf(document) {
     return found;
 }
 
-/// Whether each triangle has the corners of the other list's, in the same order, beginning with any.
-export function sameTriangles(a, b) {
-    if (a.length !== b.length) {
-        return false;
+/// Triangles of a primitive by the cells of a grid that their corners are in, beginning with the
+/// first in order: the same triangles of two files have the same keys, in any order of vertices.
+function trianglesByKey(primitive, cellOf) {
+    const found = new Map();
+    const cells = primitive.POSITION.map(cellOf);
+    for (let i = 0; i < primitive.indices.length; i += 3) {
+        const corners = [0, 1, 2].map(c => primitive.indices[i + c]);
+        const turns = [0, 1, 2].map(k => [0, 1, 2].map(c => corners[(c + k) % 3]));
+        const keys = turns.map(turn => turn.map(corner => cells[corner]).join(' '));
+        const first = keys.indexOf(keys.slice().sort()[0]);
+        const same = turns.filter((_, k) => keys[k] === keys[first]);
+        found.set(keys[first], [...(found.get(keys[first]) ?? []), ...same.slice(0, 1)]);
     }
-    for (let i = 0; i < a.length; i += 3) {
-        const turns = [0, 1, 2].some(k => [0, 1, 2].every(c => a[i + c] === b[i + (c + k) % 3]));
-        if (!turns) {
-            return false;
-        }
+    return found;
+}
+
+/// Compares two primitives triangle by triangle. `tolerances`: by attribute. Returns the count of
+/// triangles that only one has, and of those whose numbers are off.
+export function comparePrimitives(one, other, cellOf, tolerances) {
+    const found = trianglesByKey(one, cellOf);
+    const wanted = trianglesByKey(other, cellOf);
+    const result = { missing: 0, off: 0 };
+    const near = (a, b) => Object.entries(tolerances).every(([attribute, most]) =>
+        one[attribute] === undefined || a.every((corner, c) => one[attribute][corner].every(
+            (x, k) => Math.abs(x - other[attribute][b[c]][k]) <= most)));
+    const turned = b => [0, 1, 2].map(k => [0, 1, 2].map(c => b[(c + k) % 3]));
+    for (const key of new Set([...found.keys(), ...wanted.keys()])) {
+        const [mine, theirs] = [found.get(key) ?? [], wanted.get(key) ?? []];
+        result.missing += Math.abs(mine.length - theirs.length);
+        result.off += mine.filter(a => !theirs.some(b => turned(b).some(t => near(a, t)))).length;
     }
-    return true;
+    return result;
 }
 
 /// The greatest difference of two lists of items.

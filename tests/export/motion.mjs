@@ -40,6 +40,30 @@ export function posedVertices(three, gltf, time) {
     return vertices;
 }
 
+/// Where three.js has each corner of the triangles that a film shows at `time`.
+export function shownCorners(three, gltf, time) {
+    const mixer = new three.AnimationMixer(gltf.scene);
+    const action = mixer.clipAction(gltf.animations[0]);
+    action.setLoop(three.LoopOnce);
+    action.clampWhenFinished = true; // the last key is not the first one again
+    action.play();
+    mixer.setTime(time);
+    gltf.scene.updateMatrixWorld(true);
+    const corners = [];
+    const scale = new three.Vector3();
+    gltf.scene.traverse(object => {
+        if (!object.isMesh || object.getWorldScale(scale).x === 0) {
+            return;
+        }
+        const { index } = object.geometry;
+        for (let i = 0; i < index.count; ++i) {
+            const at = object.getVertexPosition(index.getX(i), new three.Vector3());
+            corners.push(at.applyMatrix4(object.matrixWorld).toArray());
+        }
+    });
+    return corners;
+}
+
 export function distance(a, b) {
     return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }

@@ -1,5 +1,5 @@
 // Holds exported files against readers in JavaScript. Usage:
-//   node read_files.mjs MODULES (validator | three | compressed | motion | obj | svg | off+ | usda |
+//   node read_files.mjs MODULES (validator | three | compressed | motion | growth | obj | svg | off+ | usda |
 //                              usdz | usd-three | usd-motion | tinyusdz |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
@@ -8,8 +8,8 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { distance, posedVertices, readPlyPositions } from './motion.mjs';
-import { extentOf, greatestDifference, primitivesOf, sameTriangles } from './compressed.mjs';
+import { distance, posedVertices, readPlyPositions, shownCorners } from './motion.mjs';
+import { comparePrimitives, extentOf, primitivesOf } from './compressed.mjs';
 import { instancedForest, readAccessors } from './forest.mjs';
 import { readOffPlus, readUsda, readUsdaForest, readUsdz } from './own_readers.mjs';
 import { instancedBox, posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';
@@ -17,7 +17,7 @@ import { instancedBox, posedCorners, readPlyTriangles, tinyUsdz, usdLoader } fro
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
 if (!folder) {
-    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|obj|svg|off+|usda|usdz|usd-three|usd-motion|tinyusdz|forest-three|forest-transform|forest-usda) FOLDER');
+    console.error('usage: node read_files.mjs MODULES (validator|three|compressed|motion|growth|obj|svg|off+|usda|usdz|usd-three|usd-motion|tinyusdz|forest-three|forest-transform|forest-usda) FOLDER');
     process.exit(2);
 }
 if (!existsSync(join(modules, 'three'))) {
@@ -240,27 +240,31 @@ const checks = {
                 expect(file, 'number of primitives', found.length, plain.length);
                 found.forEach((one, i) => {
                     const other = plain[i];
-                    expect(file, `triangles of primitive ${i}`,
-                           sameTriangles(one.indices, other.indices), true);
-                    const within = (attribute, most) => {
-                        if (one[attribute] === undefined && attribute === 'TEXCOORD_0' &&
-                            one.material.getBaseColorTexture() === null &&
-                            one.material.getNormalTexture() === null && ending !== 'separate.gltf') {
-                            return; // no texture is read
-                        }
-                        expect(file, `${attribute} of primitive ${i}`, one[attribute]?.length,
-                               other[attribute]?.length);
-                        const off = one[attribute] === undefined
-                            ? 0 : greatestDifference(one[attribute], other[attribute]);
-                        expect(file, `${attribute} of primitive ${i} off by ${off} of ${most}`,
-                               off <= most, true);
+                    const tolerances = {
+                        // A float of the node's scale and shift rounds too.
+                        POSITION: positionStep * extent + (positionStep > 0 ? 3e-7 * largest : 0),
+                        NORMAL: directionStep + (directionStep > 0 ? 5e-4 : 0),
+                        TANGENT: directionStep + (directionStep > 0 ? 5e-4 : 0),
+                        TEXCOORD_0: textureStep,
+                        COLOR_0: 0,
                     };
-                    // A float of the node's scale and shift rounds too.
-                    within('POSITION', positionStep * extent + (positionStep > 0 ? 3e-7 * largest : 0));
-                    within('NORMAL', directionStep + (directionStep > 0 ? 5e-4 : 0));
-                    within('TANGENT', directionStep + (directionStep > 0 ? 5e-4 : 0));
-                    within('TEXCOORD_0', textureStep);
-                    within('COLOR_0', 0);
+                    for (const attribute of Object.keys(tolerances)) {
+                        const unread = attribute === 'TEXCOORD_0' && ending !== 'separate.gltf' &&
+                            one.material.getBaseColorTexture() === null &&
+                            one.material.getNormalTexture() === null;
+                        expect(file, `${attribute} in primitive ${i}`, one[attribute] !== undefined,
+                               other[attribute] !== undefined && !unread);
+                    }
+                    // The place in the grid of steps, or of the file's floats.
+                    const cellOf = position => position.map((x, axis) => positionStep === 0
+                        ? x : Math.floor((x - one.shift[axis]) / one.scale + 0.5)).join(',');
+                    const { missing, off } = comparePrimitives(one, other, cellOf, tolerances);
+                    expect(file, `triangles of primitive ${i} that only one file has`, missing, 0);
+                    expect(file, `triangles of primitive ${i} that are off`, off, 0);
+                    if (!ending.startsWith('meshopt')) {
+                        expect(file, `vertices of primitive ${i}`, one.POSITION.length,
+                               other.POSITION.length);
+                    }
                     expect(file, `colour of primitive ${i}`, `${one.material.getBaseColorFactor()}`,
                            `${other.material.getBaseColorFactor()}`);
                 });
@@ -347,24 +351,36 @@ const checks = {
             const step = extentOf(plain) / (meshopt ? 16383 : 65535);
             const gltf = await load(file);
             const other = await load(`${mesh.name}.glb`);
+            // Vertices of the plain file by their places in the grid of the other one.
+            const [skin] = document.getRoot().listSkins();
+            const decode = skin.getInverseBindMatrices().getElement(0, []);
+            const cellOf = place => place.map(
+                (x, axis) => Math.floor((x - decode[12 + axis]) / decode[0] + 0.5)).join(',');
+            const rest = plain.flatMap(primitive => primitive.POSITION);
+            const at = new Map();
+            rest.forEach((place, i) => {
+                at.set(cellOf(place), [...(at.get(cellOf(place)) ?? []), i]);
+            });
+            const leastOff = (items, wanted, off) => Math.max(...items.map(item =>
+                Math.min(Infinity, ...(at.get(`${item.rest}`) ?? []).map(i => off(item, wanted[i])))));
             for (const number of [0, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const expected = posedVertices(three, other, number / mesh.fps);
                 const found = posedVertices(three, gltf, number / mesh.fps);
-                expect(file, 'number of vertices', found.length, expected.length);
-                const off = Math.max(...found.map((v, i) => distance(v.at, expected[i].at)));
+                const off = leastOff(found, expected, (a, b) => distance(a.at, b.at));
                 expect(file, `frame ${number}: off by ${off}, steps are ${step}`,
                        off <= 0.87 * step + 1e-5, true); // half a step along each axis
             }
-            primitivesOf(document).forEach((one, i) => {
-                for (const [attribute, most] of [['TEXCOORD_1', meshopt ? 0.5 * step : 0],
-                                                 ['TEXCOORD_2', 0.501 / 65535]]) {
-                    expect(file, `${attribute} of primitive ${i}`, one[attribute]?.length,
-                           plain[i][attribute]?.length);
-                    const off = greatestDifference(one[attribute] ?? [], plain[i][attribute] ?? []);
-                    expect(file, `${attribute} of primitive ${i} off by ${off} of ${most}`,
-                           off <= most, true);
-                }
-            });
+            const small = primitivesOf(document);
+            for (const [attribute, most] of [['TEXCOORD_1', meshopt ? 0.5 * step : 0],
+                                             ['TEXCOORD_2', 0.501 / 65535]]) {
+                const wanted = plain.flatMap(primitive => primitive[attribute] ?? []);
+                const found = small.flatMap(primitive => (primitive[attribute] ?? []).map(
+                    (value, i) => ({ rest: primitive.POSITION[i], value })));
+                expect(file, `it has ${attribute}`, found.length > 0, wanted.length > 0);
+                const off = found.length === 0 ? 0 : leastOff(found, wanted, (a, b) =>
+                    Math.max(...a.value.map((x, k) => Math.abs(x - b[k]))));
+                expect(file, `${attribute} off by ${off} of ${most}`, off <= most, true);
+            }
             if (meshopt) {
                 await expectValidDecoded(file, document);
             } else {
@@ -499,6 +515,37 @@ const checks = {
             });
             expect(file, 'number of triangles', corners / 3, mesh.triangles);
             expect(file, 'finite bounds', Number.isFinite(box.min.length() + box.max.length()), true);
+        });
+    },
+
+    // At the time of each frame, the meshes that are shown have the triangles of that frame.
+    async growth() {
+        const { three, GLTFLoader } = await threeAndLoader();
+        await eachMesh(['glb', 'gltf'], async (file, mesh) => {
+            const loader = new GLTFLoader();
+            loader.register(() => ({ name: 'images', loadTexture: async () => new three.Texture() }));
+            const gltf = await loader.parseAsync(arrayBuffer(file), '');
+            expect(file, 'number of animations', gltf.animations.length, 1);
+            expect(file, 'duration in frames',
+                   Math.round(gltf.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
+            let shapes = 0;
+            gltf.scene.traverse(object => { shapes += object.isMesh && object.visible ? 1 : 0; });
+            expect(file, 'several shapes', shapes > 1, true);
+            let triangles = 0;
+            for (let number = 0; number < mesh.frames; ++number) {
+                const ply = readFileSync(
+                    join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`));
+                const positions = readPlyPositions(ply);
+                const expected = readPlyTriangles(ply).map(vertex => positions[vertex]);
+                const found = shownCorners(three, gltf, number / mesh.fps);
+                expect(file, `corners in frame ${number}`, found.length, expected.length);
+                const size = Math.max(...expected.flat().map(Math.abs));
+                const off = expected.map((at, i) => distance(at, found[i] ?? [NaN, NaN, NaN]));
+                expect(file, `frame ${number}: corners that are off`,
+                       off.filter(d => !(d <= 1e-5 * size)).length, 0);
+                triangles = Math.max(triangles, expected.length / 3);
+            }
+            expect(file, 'it grows', triangles > 100, true);
         });
     },
 

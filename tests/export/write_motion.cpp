@@ -1,7 +1,7 @@
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
 // motion, and a PLY for every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME
 // FRAMES FPS METRES` for each plant: how far a light skeleton may take a vertex from its place, 0 for
-// a skin of all segments.
+// a skin of all segments. FOLDER/growth has plants that grow, in the same manner.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 
@@ -48,6 +48,13 @@ const std::array kCases{
 };
 constexpr const char* kFrames = "13";
 constexpr const char* kRate = "10";
+
+/// From an axiom that draws something, since a series begins after one that does not.
+const std::array kGrowths{
+    Case{"tree", kTree, {"--grow", "-n", "3"}},
+    Case{"boxes", kTree, {"--grow", "-n", "2", "--method", "boxes", "--subdivisions", "1"}},
+    Case{"carpet", "#n = 3; #w : F; #p : F : * : F [ +(60) F ] F;", {"--grow"}},
+};
 
 bool write_file(const Case& motion, const fs::path& path, const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"export",   "-",     "-o",    path.string(),
@@ -97,6 +104,16 @@ bool write_case(const Case& motion, const fs::path& folder, std::ofstream& count
     return true;
 }
 
+bool write_growth(const Case& growth, const fs::path& folder, std::ofstream& counts) {
+    for (const char* const format : {"glb", "gltf", "ply"}) {
+        if (!write_file(growth, folder / fmt::format("{}.{}", growth.name, format), {})) {
+            return false;
+        }
+    }
+    counts << growth.name << ' ' << kFrames << ' ' << kRate << " 0\n";
+    return true;
+}
+
 } // namespace
 
 int main(int argument_count, char** arguments) {
@@ -112,5 +129,10 @@ int main(int argument_count, char** arguments) {
     for (const Case& motion : kCases) {
         fine = write_case(motion, folder, counts) && fine;
     }
-    return fine && counts.good() ? 0 : 1;
+    fs::create_directories(folder / "growth");
+    std::ofstream growth_counts(folder / "growth" / "counts.txt");
+    for (const Case& growth : kGrowths) {
+        fine = write_growth(growth, folder / "growth", growth_counts) && fine;
+    }
+    return fine && counts.good() && growth_counts.good() ? 0 : 1;
 }

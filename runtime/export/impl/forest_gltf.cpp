@@ -137,7 +137,7 @@ void ForestDocument::plan_texture_forms() {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const MaterialPictures& shown = pictures_.of_materials[i];
         if ((shown.colour || shown.relief) && ranges[i].low.x <= ranges[i].high.x) {
-            texture_forms_[i] = texture_form_of(ranges[i].low, ranges[i].high);
+            texture_forms_[i] = texture_form_of(info_.compression, ranges[i].low, ranges[i].high);
         }
     }
 }

@@ -3,10 +3,13 @@
 // colour only. glTF is in metres and +Y up by definition.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/gltf_collision.h"
+#include "runtime/export/impl/gltf_levels.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/gltf_streams.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
+#include "runtime/export/impl/text.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +30,9 @@ struct Contents {
     std::optional<WindData> wind;
     Pictures pictures;
     GltfStreams streams;
+    GltfCollision collision;
 
+    [[nodiscard]] std::uint64_t bytes() const { return streams.bytes + collision.byte_count(); }
     [[nodiscard]] const GltfMotion* moving() const { return motion ? &*motion : nullptr; }
     [[nodiscard]] GltfPlant plant(const ExportJob& job) const {
         return {job.mesh, moving(), wind ? &*wind : nullptr, job.info.film};
@@ -39,7 +44,8 @@ class Document {
 public:
     Document(const ExportJob& job, const Contents& contents, JsonWriter& json)
         : mesh_(job.mesh), info_(job.info), motion_(contents.moving()), film_(job.info.film),
-          pictures_(contents.pictures), streams_(contents.streams), json_(json) {
+          pictures_(contents.pictures), streams_(contents.streams), collision_(contents.collision),
+          json_(json) {
         number_materials();
     }
 
@@ -65,6 +71,7 @@ public:
         for (const GltfStream& stream : streams_.list) {
             put_stream_view(json_, stream);
         }
+        put_collision_views(json_, collision_, streams_.bytes);
         json_.end();
     }
 
@@ -119,18 +126,11 @@ private:
             json_.value(first_joint());
         }
         json_.end().end().end();
-        json_.array("nodes").object().member("name", "plant");
-        if (film_ != nullptr) {
-            json_.array("children");
-            for (std::size_t i = 0; i < drawn_shapes(*film_).size(); ++i) {
-                json_.value(1 + i);
-            }
-            json_.end();
-        } else if (has_decoding_node()) {
-            json_.array("children").value(1).end();
-        } else {
+        json_.array("nodes").object().member("name", plant_name(info_));
+        if (film_ == nullptr && !has_decoding_node()) {
             json_.member("mesh", 0);
         }
+        put_children();
         if (motion_ != nullptr) {
             json_.member("skin", 0);
         }
@@ -147,6 +147,31 @@ private:
         }
         if (film_ != nullptr) {
             put_film_nodes(json_, *film_);
+        }
+        put_collision_nodes(json_, collision_, mesh_count());
+        json_.end();
+    }
+
+    /// Meshes but those of the shapes of collision.
+    [[nodiscard]] std::size_t mesh_count() const {
+        return film_ != nullptr ? drawn_shapes(*film_).size() : 1;
+    }
+
+    /// The children of the node of the plant: the shapes of a film or the node that decodes, and the
+    /// shapes of collision, which are the last nodes.
+    void put_children() {
+        std::size_t own = has_decoding_node() ? 1 : 0;
+        own = film_ != nullptr ? drawn_shapes(*film_).size() : own;
+        if (own + collision_.shapes.size() == 0) {
+            return;
+        }
+        json_.array("children");
+        for (std::size_t i = 0; i < own; ++i) {
+            json_.value(1 + i);
+        }
+        const std::size_t joints = motion_ != nullptr ? motion_->joint_count() : 0;
+        for (std::size_t i = 0; i < collision_.shapes.size(); ++i) {
+            json_.value(1 + own + joints + i);
         }
         json_.end();
     }
@@ -172,13 +197,14 @@ private:
             if (film_ != nullptr) {
                 put_target_names(streams_.primitives.list[streams_.list[first].item].shape);
             } else {
-                json_.member("name", "plant");
+                json_.member("name", plant_name(info_));
             }
             json_.array("primitives");
             put_primitives(first, end);
             json_.end().end();
             first = end;
         }
+        put_collision_meshes(json_, collision_, streams_.first_motion);
         json_.end();
     }
 
@@ -246,6 +272,7 @@ private:
         for (std::size_t i = 0; i < streams_.first_motion; ++i) {
             put_stream_accessor(json_, streams_, streams_.list[i], i);
         }
+        put_collision_accessors(json_, collision_, streams_.list.size());
         if (motion_ != nullptr) {
             put_motion_accessors(json_, *motion_, streams_.first_motion);
         }
@@ -253,7 +280,7 @@ private:
             put_film_accessors(json_, *film_, streams_.first_motion);
         }
         json_.end();
-        return streams_.first_motion;
+        return streams_.first_motion + collision_.accessor_count();
     }
 
     const Mesh& mesh_;
@@ -262,12 +289,12 @@ private:
     const MeshFilm* film_;
     const Pictures& pictures_;
     const GltfStreams& streams_;
+    const GltfCollision& collision_;
     JsonWriter& json_;
     std::vector<std::size_t> materials_; // by primitive
 };
 
-Outcome<Contents> refuse_size(ExportSubject subject) {
-    Outcome<void> refusal = too_large_for_format(subject);
+Outcome<Contents> refused(Outcome<void> refusal) {
     return {refusal.stop(), std::move(refusal.messages())};
 }
 
@@ -279,7 +306,7 @@ Outcome<Contents> plan(const ExportJob& job) {
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;
     if (job.mesh.positions.size() * vertex_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+        return refused(too_large_for_format(info.subject));
     }
     if (info.animation != nullptr && info.max_joints != 0) {
         contents.motion.emplace(GltfMotion{
@@ -287,7 +314,7 @@ Outcome<Contents> plan(const ExportJob& job) {
     } else if (info.animation != nullptr) {
         std::optional<Skin> skin = make_skin(job.mesh, job.skeleton, *info.animation);
         if (!skin) {
-            return too_many_joints();
+            return refused(too_many_joints());
         }
         contents.motion.emplace(GltfMotion{std::move(*skin), *info.animation, {}});
     }
@@ -301,13 +328,19 @@ Outcome<Contents> plan(const ExportJob& job) {
     }
     contents.streams =
         plan_gltf_streams(contents.plant(job), contents.pictures, std::move(images), info);
-    if (contents.streams.bytes > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
-        return refuse_size(info.subject);
+    if (info.film == nullptr) {
+        contents.collision.shapes = make_collision(job.skeleton, info);
+    }
+    if (contents.bytes() > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
+        return refused(too_large_for_format(info.subject));
     }
     return {std::move(contents), {}};
 }
 
 Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
+    if (job.info.coarser != nullptr) {
+        return write_gltf_levels(job, binary, out);
+    }
     Outcome<Contents> planned = plan(job);
     if (!planned) {
         return {planned.stop(), std::move(planned.messages())};
@@ -320,11 +353,12 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     GltfFile file;
     file.binary = binary;
     file.put_members = [&members](JsonWriter& to) { to.literal(members); };
-    file.data_bytes = streams.bytes;
+    file.data_bytes = contents.bytes();
     file.data_name = job.info.buffer_name;
     file.decoded_bytes = streams.decoded_bytes;
     file.put_data = [&](const GltfSink& write_bytes) {
         write_gltf_streams(contents.plant(job), streams, write_bytes);
+        write_collision(contents.collision, write_bytes);
     };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
 }
@@ -352,11 +386,13 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
             return {planned.stop(), std::move(planned.messages())};
         }
         PieceWriter out(sink);
+        const GltfSink write_bytes = [&out](std::span<const std::byte> bytes) {
+            out.put_bytes(bytes);
+            return !out.stopped();
+        };
         write_gltf_streams(planned.value().plant({mesh, skeleton, info}), planned.value().streams,
-                           [&out](std::span<const std::byte> bytes) {
-                               out.put_bytes(bytes);
-                               return !out.stopped();
-                           });
+                           write_bytes);
+        write_collision(planned.value().collision, write_bytes);
         return finish(out);
     });
 }

@@ -132,11 +132,15 @@ void write_quantized(const Mesh& mesh,
 
 } // namespace
 
-GltfTextureForm texture_form_of(const glm::vec2& low, const glm::vec2& high) {
+GltfTextureForm
+texture_form_of(ExportCompression compression, const glm::vec2& low, const glm::vec2& high) {
     GltfTextureForm form;
     form.bits = kMinTextureBits;
     if (low.x >= 0.0F && low.y >= 0.0F && high.x <= 1.0F && high.y <= 1.0F) {
         form.quantized = true;
+        if (compression == ExportCompression::Meshopt) {
+            form.transform = {glm::vec2(0.0F), glm::vec2(65535.0F / max_value(form.bits))};
+        }
         return form;
     }
     const glm::vec2 extent = high - low;

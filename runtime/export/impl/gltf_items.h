@@ -43,8 +43,10 @@ struct GltfTextureForm {
     glm::vec2 low{0.0F};                           // of the coordinates that become 0
     glm::vec2 extent{1.0F};
 };
-/// The form of quantised coordinates from `low` to `high`: floats where 16 bits are too few.
-[[nodiscard]] GltfTextureForm texture_form_of(const glm::vec2& low, const glm::vec2& high);
+/// The form of quantised coordinates from `low` to `high`: floats where 16 bits are too few. Those
+/// within 0 to 1 need no transform, but with one they compress better.
+[[nodiscard]] GltfTextureForm
+texture_form_of(ExportCompression compression, const glm::vec2& low, const glm::vec2& high);
 
 /// The form of the arrays of vertices.
 struct GltfForm {

@@ -1,10 +1,13 @@
 #include "runtime/export/impl/gltf_primitives.h"
 
+#include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_data.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <utility>
 
 namespace lsys {
@@ -88,6 +91,84 @@ group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count
     return list;
 }
 
+/// Whether an edge of one triangle is one of the other in the other direction.
+bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
+    const auto has = [b](std::uint32_t from, std::uint32_t to) {
+        return (b[0] == from && b[1] == to) || (b[1] == from && b[2] == to) ||
+               (b[2] == from && b[0] == to);
+    };
+    return has(a[1], a[0]) || has(a[2], a[1]) || has(a[0], a[2]);
+}
+
+/// Orders the triangles of parts for compression and numbers their vertices.
+class PartOrderer {
+public:
+    /// `users`: the part that used a vertex last. `vertices`: those of the file so far.
+    PartOrderer(const Mesh& mesh,
+                const GltfVertexUse& use,
+                LargeVector<std::uint32_t>& users,
+                LargeVector<std::uint32_t>& vertices)
+        : mesh_(mesh), use_(use), users_(users), vertices_(vertices),
+          numbers_(mesh.positions.size()) {}
+
+    void add(GltfPrimitive& primitive, GltfPart& part) {
+        const MeshPart& drawn = mesh_.parts[part.part];
+        LargeVector<std::uint32_t> triangles(drawn.index_count / 3 * 3);
+        mesh_.indices.read(drawn.first_index, triangles);
+        order_triangles(triangles, part.indices);
+        const MaterialPictures& shown = use_.pictures.of_materials[drawn.material];
+        textured_ = (shown.colour || shown.relief || use_.segments) &&
+                    is_complete(mesh_, mesh_.texture_coordinates);
+        tangents_ = shown.relief && is_complete(mesh_, mesh_.tangents);
+        coloured_ = primitive.colours == GltfColours::Palette;
+        std::array<std::uint32_t, kSlots> near; // numbers of vertices by their positions
+        near.fill(kUnused);
+        for (std::uint32_t& index : part.indices) {
+            const std::uint32_t vertex = index;
+            if (users_[vertex] != part.part) {
+                users_[vertex] = part.part;
+                std::uint32_t& known = near[slot_of(mesh_.positions[vertex])];
+                if (known == kUnused || !are_equal(vertices_[part.first_vertex + known], vertex)) {
+                    known = static_cast<std::uint32_t>(vertices_.size() - part.first_vertex);
+                    vertices_.push_back(vertex);
+                    primitive.bounds.add(mesh_.positions[vertex]);
+                }
+                numbers_[vertex] = known;
+            }
+            index = numbers_[vertex];
+        }
+    }
+
+private:
+    static constexpr std::size_t kSlots = 1024;
+
+    static std::size_t slot_of(const glm::vec3& position) {
+        std::uint32_t hash = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(position[axis])) * 0x9E3779B1U;
+            hash ^= hash >> 15;
+        }
+        return hash % kSlots;
+    }
+
+    [[nodiscard]] bool are_equal(std::uint32_t a, std::uint32_t b) const {
+        return mesh_.positions[a] == mesh_.positions[b] && mesh_.normals[a] == mesh_.normals[b] &&
+               (!textured_ || mesh_.texture_coordinates[a] == mesh_.texture_coordinates[b]) &&
+               (!tangents_ || mesh_.tangents[a] == mesh_.tangents[b]) &&
+               (!coloured_ || mesh_.colours[a] == mesh_.colours[b]) &&
+               (!use_.segments || mesh_.segments[a] == mesh_.segments[b]);
+    }
+
+    const Mesh& mesh_;
+    const GltfVertexUse& use_;
+    LargeVector<std::uint32_t>& users_;
+    LargeVector<std::uint32_t>& vertices_;
+    LargeVector<std::uint32_t> numbers_; // in the part that used the vertex last
+    bool textured_ = false;
+    bool tangents_ = false;
+    bool coloured_ = false;
+};
+
 } // namespace
 
 Bounds GltfPrimitives::bounds() const {
@@ -103,7 +184,70 @@ const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive) {
     return mesh.materials[mesh.parts[primitive.parts.front().part].material];
 }
 
-GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film) {
+void order_triangles(std::span<const std::uint32_t> triangles,
+                     LargeVector<std::uint32_t>& ordered) {
+    const std::uint32_t* const corners = triangles.data();
+    const std::size_t count = triangles.size() / 3;
+    ordered.clear();
+    ordered.reserve(triangles.size());
+    std::vector<std::uint32_t> run; // triangles each of which shares an edge with the one before
+    const auto meet = [corners](std::size_t a, std::size_t b) {
+        return share_edge(corners + 3 * a, corners + 3 * b);
+    };
+    const auto end_run = [&] {
+        // The last triangle may have been the first of a quad: looks at the one before, too.
+        const auto meets_last = [&](std::uint32_t triangle) {
+            const std::size_t back = std::min<std::size_t>(ordered.size() / 3, 2);
+            for (std::size_t i = 1; i <= back; ++i) {
+                if (share_edge(ordered.data() + ordered.size() - 3 * i, corners + 3 * triangle)) {
+                    return true;
+                }
+            }
+            return false;
+        };
+        if (!meets_last(run.front()) && meets_last(run.back())) {
+            std::reverse(run.begin(), run.end());
+        }
+        for (const std::uint32_t triangle : run) {
+            ordered.insert(ordered.end(), corners + 3 * std::size_t{triangle},
+                           corners + 3 * std::size_t{triangle} + 3);
+        }
+        run.clear();
+    };
+    const auto add = [&run](std::size_t triangle) {
+        run.push_back(static_cast<std::uint32_t>(triangle));
+    };
+    for (std::size_t i = 0; i < count;) {
+        const bool pair = i + 1 < count && meet(i, i + 1);
+        const bool begins = run.empty() || !meet(run.back(), i);
+        bool swapped = false;
+        if (pair && begins && !run.empty()) {
+            swapped = meet(run.back(), i + 1);
+        }
+        if (begins && !swapped) {
+            if (!run.empty()) {
+                end_run();
+            }
+            // The first quad of a run, whose second triangle does not lead on.
+            swapped = pair && i + 2 < count && !meet(i + 1, i + 2) &&
+                      (meet(i, i + 2) || (i + 3 < count && meet(i, i + 3)));
+        }
+        if (swapped) {
+            add(i + 1);
+            add(i);
+            i += 2;
+        } else {
+            add(i++);
+        }
+    }
+    if (!run.empty()) {
+        end_run();
+    }
+}
+
+GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
+                                    const std::optional<GltfVertexUse>& compressed,
+                                    const MeshFilm* film) {
     GltfPrimitives primitives;
     if (film == nullptr) {
         primitives.list = group_parts(mesh, 0, static_cast<std::uint32_t>(mesh.parts.size()));
@@ -121,13 +265,20 @@ GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film) {
     LargeVector<std::uint32_t> users(mesh.positions.size());
     std::fill(users.begin(), users.end(), kUnused);
     TriangleReader indices(mesh.indices);
+    std::optional<PartOrderer> orderer;
+    if (compressed) {
+        orderer.emplace(mesh, *compressed, users, primitives.vertices);
+    }
     for (GltfPrimitive& primitive : primitives.list) {
         primitive.first_vertex = primitives.vertices.size();
         for (GltfPart& part : primitive.parts) {
             part.first_vertex = primitives.vertices.size();
             const MeshPart& triangles = mesh.parts[part.part];
             const std::uint64_t count = triangles.index_count / 3 * 3;
-            for (std::uint64_t i = 0; i < count; ++i) {
+            if (orderer) {
+                orderer->add(primitive, part);
+            }
+            for (std::uint64_t i = 0; !orderer && i < count; ++i) {
                 const std::uint32_t vertex = indices[triangles.first_index + i];
                 if (users[vertex] != part.part) {
                     users[vertex] = part.part;

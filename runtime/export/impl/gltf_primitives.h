@@ -4,11 +4,14 @@
 // caches of GPUs and EXT_meshopt_compression favour. Made from a Mesh; read by gltf_streams.
 #pragma once
 
+#include "runtime/export/impl/pictures.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/meshing/mesh_film.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +22,8 @@ struct GltfPart {
     std::uint32_t part = 0;         // in Mesh::parts
     std::uint64_t first_vertex = 0; // in GltfPrimitives::vertices
     std::uint64_t vertex_count = 0;
+    /// Indices that count from the first vertex of the part; empty: those of the mesh.
+    LargeVector<std::uint32_t> indices = {};
 };
 
 /// Source of the colours of vertices.
@@ -56,10 +61,24 @@ struct GltfPrimitives {
 /// vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
+/// What the vertices of a file have beside position and normal.
+struct GltfVertexUse {
+    const Pictures& pictures; // of materials
+    bool segments = false;    // joints or wind data
+};
+
 /// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
-/// only become one primitive from kMinMergedMaterials on. `film`: the parts are those of its
-/// shapes, each of which has primitives of its own; may be null.
-[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh, const MeshFilm* film = nullptr);
+/// only become one primitive from kMinMergedMaterials on. With `compressed`, triangles are in an
+/// order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that are near
+/// one another become one. `film`: the parts are those of its shapes, each of which has primitives
+/// of its own; may be null.
+[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
+                                                  const std::optional<GltfVertexUse>& compressed,
+                                                  const MeshFilm* film = nullptr);
+/// Orders triangles so that most share an edge with the one before, which takes a byte: the two of
+/// a quad change places where that joins them to the last one, and every other ring of a tube is
+/// gone round backwards. Time is linear.
+void order_triangles(std::span<const std::uint32_t> triangles, LargeVector<std::uint32_t>& ordered);
 
 /// The material of a primitive, which gives all but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
@@ -73,9 +92,22 @@ void for_each_index(const Mesh& mesh,
                     const Visit& visit) {
     constexpr std::uint64_t kChunk = 24576;
     std::vector<std::uint32_t> chunk;
-    LargeVector<std::uint32_t> numbers(mesh.positions.size());
+    LargeVector<std::uint32_t> numbers;
     for (const GltfPart& part : primitive.parts) {
         const std::uint64_t base = part.first_vertex - primitive.first_vertex;
+        for (std::uint64_t first = 0; first < part.indices.size(); first += kChunk) {
+            const auto some = std::span(part.indices)
+                                  .subspan(first, std::min(kChunk, part.indices.size() - first));
+            chunk.assign(some.begin(), some.end());
+            for (std::uint32_t& index : chunk) {
+                index += static_cast<std::uint32_t>(base);
+            }
+            visit(std::span<const std::uint32_t>(chunk));
+        }
+        if (!part.indices.empty()) {
+            continue;
+        }
+        numbers.resize(mesh.positions.size());
         for (std::uint64_t i = 0; i < part.vertex_count; ++i) {
             numbers[primitives.vertices[part.first_vertex + i]] =
                 static_cast<std::uint32_t>(base + i);

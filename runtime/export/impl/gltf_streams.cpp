@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace lsys {
@@ -14,14 +15,16 @@ namespace lsys {
 namespace {
 
 /// The form of the texture coordinates of some vertices.
-GltfTextureForm plan_texture_form(const Mesh& mesh, std::span<const std::uint32_t> vertices) {
+GltfTextureForm plan_texture_form(const Mesh& mesh,
+                                  std::span<const std::uint32_t> vertices,
+                                  ExportCompression compression) {
     glm::vec2 low = mesh.texture_coordinates[vertices.front()];
     glm::vec2 high = low;
     for (const std::uint32_t vertex : vertices) {
         low = glm::min(low, mesh.texture_coordinates[vertex]);
         high = glm::max(high, mesh.texture_coordinates[vertex]);
     }
-    return texture_form_of(low, high);
+    return texture_form_of(compression, low, high);
 }
 
 /// Colours of the materials of a primitive's parts.
@@ -139,7 +142,8 @@ public:
         if (is_complete(mesh, mesh.texture_coordinates) &&
             (shown || plant_.wind != nullptr || !form.quantized())) {
             if (form.quantized() && shown) {
-                form.texture = plan_texture_form(mesh, streams_.primitives.vertices_of(primitive));
+                form.texture = plan_texture_form(mesh, streams_.primitives.vertices_of(primitive),
+                                                 form.compression);
             } else if (form.quantized()) {
                 form.texture.quantized = true;
             }
@@ -268,7 +272,12 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
                               const ExportInfo& info) {
     const Mesh& mesh = plant.mesh;
     GltfStreams streams;
-    streams.primitives = plan_gltf_primitives(mesh, plant.film);
+    std::optional<GltfVertexUse> compressed;
+    if (info.compression == ExportCompression::Meshopt) {
+        compressed.emplace(
+            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr});
+    }
+    streams.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
     streams.images = std::move(images);
     streams.forms.assign(streams.primitives.list.size(),
                          form_of(info.compression, streams.primitives.bounds()));

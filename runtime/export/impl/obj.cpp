@@ -121,13 +121,13 @@ void put_back_faces(TriangleReader& indices,
 
 Outcome<void> write_obj(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
-    out.put(fmt::format("# {}\n# {}\n# metres, {}\n", one_line(job.info.generator),
-                        origin_line(job.info), axis_text(job.info.up)));
+    out.put(fmt::format("# {}\n# {}\n# {}, {}\n", one_line(job.info.generator),
+                        origin_line(job.info), unit_text(job.info.unit), axis_text(job.info.up)));
     if (!job.info.mtl_name.empty()) {
         // Readers take the rest of the line as the name, blanks included.
         out.put(fmt::format("mtllib {}\n", one_line(job.info.mtl_name)));
     }
-    out.put("o plant\n");
+    out.put(fmt::format("o {}\n", obj_identifier(plant_name(job.info))));
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
         const glm::vec3 p = turned(job.info.up, mesh.positions[i]);
         put_line<3>(out, "v", {p.x, p.y, p.z});

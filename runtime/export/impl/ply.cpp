@@ -47,16 +47,17 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
     const bool coloured = is_complete(mesh, mesh.colours);
     // `int` where it suffices: some readers do not know `uint`.
     const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
-    out.put(fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
-        "comment metres, {}\nelement vertex {}\n"
-        "property float x\nproperty float y\nproperty float z\n"
-        "property float nx\nproperty float ny\nproperty float nz\n{}{}"
-        "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-        one_line(job.info.generator), origin_line(job.info), axis_text(job.info.up),
-        mesh.positions.size(), textured ? "property float s\nproperty float t\n" : "",
-        coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
-        triangle_count(mesh), small ? "int" : "uint"));
+    out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
+                        "comment {}, {}\nelement vertex {}\n"
+                        "property float x\nproperty float y\nproperty float z\n"
+                        "property float nx\nproperty float ny\nproperty float nz\n{}{}"
+                        "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
+                        one_line(job.info.generator), origin_line(job.info),
+                        unit_text(job.info.unit), axis_text(job.info.up), mesh.positions.size(),
+                        textured ? "property float s\nproperty float t\n" : "",
+                        coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                 : "",
+                        triangle_count(mesh), small ? "int" : "uint"));
 
     const std::vector<std::array<std::uint8_t, 3>> palette =
         coloured ? palette_bytes(mesh) : std::vector<std::array<std::uint8_t, 3>>{};

@@ -23,8 +23,9 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     // Not `solid`: readers take files that begin with it for text.
-    std::string header = fmt::format("STL in metres, {}. {}: {}", axis_text(job.info.up),
-                                     one_line(job.info.generator), origin_line(job.info));
+    std::string header =
+        fmt::format("STL in {}, {}. {}: {}", unit_text(job.info.unit), axis_text(job.info.up),
+                    one_line(job.info.generator), origin_line(job.info));
     header.resize(kHeaderBytes, ' ');
     out.put(header);
     const auto count = static_cast<std::uint32_t>(triangle_count(mesh));

@@ -52,6 +52,34 @@ std::size_t character_length(std::string_view text) {
 
 } // namespace
 
+std::string_view unit_text(LengthUnit unit) {
+    switch (unit) {
+    case LengthUnit::Centimetres:
+        return "centimetres";
+    case LengthUnit::Millimetres:
+        return "millimetres";
+    case LengthUnit::Metres:
+        break;
+    }
+    return "metres";
+}
+
+std::string_view metres_per_unit(LengthUnit unit) {
+    switch (unit) {
+    case LengthUnit::Centimetres:
+        return "0.01";
+    case LengthUnit::Millimetres:
+        return "0.001";
+    case LengthUnit::Metres:
+        break;
+    }
+    return "1";
+}
+
+std::string plant_name(const ExportInfo& info) {
+    return info.name.empty() ? "plant" : one_line(info.name);
+}
+
 std::string valid_utf8(std::string_view text) {
     std::string valid;
     while (!text.empty()) {

@@ -34,6 +34,12 @@ inline char* put_text(char* at, std::string_view text) {
 [[nodiscard]] std::string one_line(std::string_view text);
 /// Grammar, seed and generations in one line, for comments.
 [[nodiscard]] std::string origin_line(const ExportInfo& info);
+/// `metres`, `centimetres` or `millimetres`.
+[[nodiscard]] std::string_view unit_text(LengthUnit unit);
+/// `1`, `0.01` or `0.001`.
+[[nodiscard]] std::string_view metres_per_unit(LengthUnit unit);
+/// ExportInfo::name, or `plant`.
+[[nodiscard]] std::string plant_name(const ExportInfo& info);
 /// Valid UTF-8: invalid bytes become U+FFFD.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 /// Escaped for a JSON string, without its quotes.

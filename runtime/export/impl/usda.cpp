@@ -43,10 +43,10 @@ void put_header(const ExportInfo& info, const UsdaMotion* motion, PieceWriter& o
                         "(\n"
                         "    defaultPrim = \"Plant\"\n"
                         "    doc = \"{}: {}\"\n"
-                        "    metersPerUnit = 1\n"
+                        "    metersPerUnit = {}\n"
                         "    upAxis = \"{}\"\n",
                         json_text(one_line(info.generator)), json_text(origin_line(info)),
-                        usda_axis(info.up)));
+                        metres_per_unit(info.unit), usda_axis(info.up)));
     if (motion != nullptr) {
         put_usda_times(motion->poses, out);
     }

@@ -10,14 +10,16 @@ namespace lsys {
 
 namespace {
 
-// Joints that one edge may replace: keeps the search linear.
+// Joints that one edge may replace: keeps the search linear. More of them within an error in metres.
 constexpr std::size_t kMaxLeftOut = 32;
+constexpr std::size_t kMaxLeftOutByError = 256;
 
 /// Whether the edge from joint `first` to joint `last` may replace the joints between.
 bool stands_for(const LargeVector<Joint>& joints,
                 std::size_t first,
                 std::size_t last,
-                float tolerance) {
+                float tolerance,
+                float error) {
     double whole = 0.0;
     for (std::size_t k = first; k < last; ++k) {
         whole += static_cast<double>(joints[k].length);
@@ -29,13 +31,13 @@ bool stands_for(const LargeVector<Joint>& joints,
         length += static_cast<double>(joints[k - 1].length);
         const Joint& joint = joints[k];
         const float part = static_cast<float>(length / whole);
-        const float bound = tolerance * joint.radius;
+        const float bound = std::max(tolerance * joint.radius, error);
         const glm::vec3 off = joint.centre - (a.centre + part * (b.centre - a.centre));
         const float thicker = joint.radius - (a.radius + part * (b.radius - a.radius));
         // Compared by coordinate: squares of huge numbers are infinite.
         if (!(std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z), std::abs(thicker)}) <=
               bound) ||
-            joint.colour != a.colour || joint.sides != a.sides) {
+            joint.colour != a.colour || (joint.sides != a.sides && error == 0.0F)) {
             return false;
         }
     }
@@ -52,14 +54,18 @@ void aim(Joint& from, const glm::vec3& to) {
         std::min(length, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-void leave_out_joints(LargeVector<Joint>& joints, LargeVector<Joint>& scratch, float tolerance) {
+void leave_out_joints(LargeVector<Joint>& joints,
+                      LargeVector<Joint>& scratch,
+                      float tolerance,
+                      float error) {
+    const std::size_t max_left_out = error > 0.0F ? kMaxLeftOutByError : kMaxLeftOut;
     scratch.clear();
     std::size_t first = 0;
     while (first + 1 < joints.size()) {
         scratch.push_back(joints[first]);
         std::size_t last = first + 1;
-        while (last + 1 < joints.size() && last + 1 - first <= kMaxLeftOut &&
-               stands_for(joints, first, last + 1, tolerance)) {
+        while (last + 1 < joints.size() && last + 1 - first <= max_left_out &&
+               stands_for(joints, first, last + 1, tolerance, error)) {
             ++last;
         }
         if (last > first + 1) {

@@ -176,10 +176,11 @@ bool AxisReader::read(Run& run) {
     if (options_.smooth_joints && bend_edges(joints_, spare_, start)) {
         rings_final_ = false;
     }
-    if (options_.level > 0) {
+    const bool leaves_out = options_.level > 0 || options_.axis_error > 0.0F;
+    if (leaves_out) {
         const float tolerance =
             std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
-        leave_out_joints(joints_, spare_, tolerance);
+        leave_out_joints(joints_, spare_, tolerance, options_.axis_error);
     }
     const bool has_relief = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
     if (has_relief) {
@@ -191,7 +192,7 @@ bool AxisReader::read(Run& run) {
             open ? std::min(joints_.front().radius, max_base_radius_) : joints_.front().radius;
         run.radii = radii_;
     }
-    if (!rings_final_ || counts_ || options_.level > 0 || has_relief) {
+    if (!rings_final_ || counts_ || leaves_out || has_relief) {
         set_rings();
     }
     run.joints = joints_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lsys {
 
@@ -20,35 +21,31 @@ double nearest_ball(const SolidShape& cone, double along, double across) {
     return std::clamp(along - across * cone.foot, 0.0, cone.length);
 }
 
-glm::dvec3 nearest_on_line(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& point) {
-    const glm::dvec3 line = to - from;
-    const double square = glm::dot(line, line);
-    const double t =
-        square > 0.0 ? std::clamp(glm::dot(point - from, line) / square, 0.0, 1.0) : 0.0;
-    return from + t * line;
+/// The distance of a point from a triangle. The nearest point of a triangle is on a side that faces
+/// the point, or below it.
+double distance_from(const SolidShape& triangle, const glm::dvec3& point) {
+    const glm::dvec3 offset = point - triangle.corners[0];
+    const glm::dvec2 at(glm::dot(offset, triangle.axes[0]), glm::dot(offset, triangle.axes[1]));
+    const double above = glm::dot(offset, triangle.axes[2]);
+    double nearest = std::numeric_limits<double>::max(); // square, within the plane
+    bool outside = triangle.is_flat;
+    for (const SolidShape::Side& side : triangle.sides) {
+        const glm::dvec2 arm = at - side.from;
+        const bool faces = side.along.x * arm.y - side.along.y * arm.x < 0.0;
+        outside = outside || faces;
+        if (faces || triangle.is_flat) {
+            const double t = std::clamp(glm::dot(arm, side.along), 0.0, side.length);
+            const glm::dvec2 away = arm - t * side.along;
+            nearest = std::min(nearest, glm::dot(away, away));
+        }
+    }
+    return outside ? std::sqrt(nearest + above * above) : std::abs(above);
 }
 
-glm::dvec3 nearest_on_triangle(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
-    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const double square = glm::dot(normal, normal);
-    if (square > 0.0) {
-        bool above = true;
-        for (std::size_t i = 0; i < 3 && above; ++i) {
-            const glm::dvec3 side = corners[(i + 1) % 3] - corners[i];
-            above = glm::dot(glm::cross(normal, side), point - corners[i]) >= 0.0;
-        }
-        if (above) {
-            return point - normal * (glm::dot(point - corners[0], normal) / square);
-        }
-    }
-    glm::dvec3 best = nearest_on_line(corners[2], corners[0], point);
-    for (std::size_t i = 0; i < 2; ++i) {
-        const glm::dvec3 other = nearest_on_line(corners[i], corners[i + 1], point);
-        if (glm::dot(other - point, other - point) < glm::dot(best - point, best - point)) {
-            best = other;
-        }
-    }
-    return best;
+/// A unit vector across a unit vector.
+glm::dvec3 across(const glm::dvec3& axis) {
+    const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return glm::normalize(glm::cross(axis, other));
 }
 
 } // namespace
@@ -77,13 +74,36 @@ SolidShape make_plate(const std::array<glm::dvec3, 3>& corners, double radius) {
     plate.corners = corners;
     plate.base_radius = radius;
     plate.tip_radius = radius;
+    // The longest side is the first axis, which has a direction also where the triangle has none.
+    glm::dvec3 longest(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 side = corners[(i + 1) % 3] - corners[i];
+        longest = glm::dot(side, side) > glm::dot(longest, longest) ? side : longest;
+    }
+    const double length = glm::length(longest);
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double size = glm::length(normal);
+    plate.is_flat = !(size > 1e-12 * length * length) || !(length > 0.0);
+    plate.axes[0] = length > 0.0 ? longest / length : glm::dvec3(1, 0, 0);
+    plate.axes[2] = plate.is_flat ? across(plate.axes[0]) : normal / size;
+    plate.axes[1] = glm::cross(plate.axes[2], plate.axes[0]);
+    const auto in_plane = [&](const glm::dvec3& point) {
+        const glm::dvec3 offset = point - corners[0];
+        return glm::dvec2(glm::dot(offset, plate.axes[0]), glm::dot(offset, plate.axes[1]));
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        SolidShape::Side& side = plate.sides[i];
+        side.from = in_plane(corners[i]);
+        const glm::dvec2 line = in_plane(corners[(i + 1) % 3]) - side.from;
+        side.length = glm::length(line);
+        side.along = side.length > 0.0 ? line / side.length : glm::dvec2(1, 0);
+    }
     return plate;
 }
 
 ShapeProbe probe(const SolidShape& shape, const glm::dvec3& point) {
     if (shape.is_triangle) {
-        const glm::dvec3 nearest = nearest_on_triangle(shape.corners, point);
-        return {glm::length(point - nearest) - shape.base_radius, shape.base_radius};
+        return {distance_from(shape, point) - shape.base_radius, shape.base_radius};
     }
     const glm::dvec3 offset = point - shape.corners[0];
     const double along = glm::dot(offset, shape.axis);

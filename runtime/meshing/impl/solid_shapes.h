@@ -4,6 +4,7 @@
 
 #include "runtime/meshing/mesh.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -27,6 +28,16 @@ struct SolidShape {
     double taper = 0.0;      // loss of radius per length
     double foot = 0.0;       // distance from a point to its nearest ball along the axis, per radius
     double min_radius = 0.0; // radius at the thin end
+    /// Of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
+    /// counter-clockwise.
+    struct Side {
+        glm::dvec2 from{};
+        glm::dvec2 along{}; // unit length
+        double length = 0.0;
+    };
+    std::array<glm::dvec3, 3> axes{}; // two in the plane, one across; unit length
+    std::array<Side, 3> sides{};
+    bool is_flat = false; // it has no area
 };
 
 /// `distance`: from the surface of the shape, negative within; changes by at most 1 per metre.

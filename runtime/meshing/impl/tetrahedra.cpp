@@ -42,6 +42,8 @@ constexpr double kSlope = 1.02;
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
 /// Distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
 constexpr double kEdgeMargin = 0.02;
+/// Distance from the surface, per length of the edge, at which a vertex is on it.
+constexpr double kExact = 1e-6;
 
 struct Tetrahedron {
     std::array<Node, 4> nodes{};
@@ -96,6 +98,33 @@ Grid make_grid(const Solid& solid) {
     return grid;
 }
 
+/// A ball around a shape, with the size of its smallest cells.
+struct Ball {
+    glm::dvec3 centre{};
+    double radius = 0.0;
+    double cell = 0.0;
+};
+
+std::vector<Ball> make_balls(const Solid& solid) {
+    std::vector<Ball> balls;
+    balls.reserve(solid.shapes.size());
+    for (const SolidShape& shape : solid.shapes) {
+        Ball ball;
+        const auto& [a, b, c] = shape.corners;
+        ball.centre = shape.is_triangle ? (a + b + c) / 3.0 : 0.5 * (a + b);
+        for (const glm::dvec3& corner : shape.corners) {
+            ball.radius = std::max(ball.radius, glm::length(corner - ball.centre));
+        }
+        const double thickest = std::max(shape.base_radius, shape.tip_radius);
+        const double thinnest = std::min(shape.base_radius, shape.tip_radius);
+        // The surface is moved outwards by kChord, and above a base cells are smaller.
+        ball.radius += (1.0 + kChord) * thickest;
+        ball.cell = solid.cell * thinnest * (solid.ground ? kBaseCells : 1.0);
+        balls.push_back(ball);
+    }
+    return balls;
+}
+
 struct Probe {
     double distance = std::numeric_limits<double>::max();
     std::uint32_t shape = 0;
@@ -123,8 +152,11 @@ bool is_positive(const std::array<Node, 4>& nodes) {
 /// The surface within one tetrahedron and its descendants.
 class Cutter {
 public:
-    Cutter(const Solid& solid, const Grid& grid, std::atomic<std::uint64_t>& bytes_left)
-        : solid_(solid), grid_(grid), bytes_left_(bytes_left) {}
+    Cutter(const Solid& solid,
+           const std::vector<Ball>& balls,
+           const Grid& grid,
+           std::atomic<std::uint64_t>& bytes_left)
+        : solid_(solid), balls_(balls), grid_(grid), bytes_left_(bytes_left) {}
 
     using Visit = std::function<void(const Tetrahedron&, std::span<const std::uint32_t>)>;
 
@@ -209,37 +241,77 @@ private:
         for (const Node& node : tetrahedron.nodes) {
             reach = std::max(reach, glm::length(grid_.position(node) - middle));
         }
-        probes_.resize(last - first);
-        double nearest = std::numeric_limits<double>::max();
-        double size = std::numeric_limits<double>::max();
-        for (std::size_t i = first; i < last; ++i) {
-            const Size at = measure(solid_.shapes[near_[i]], middle);
-            probes_[i - first] = at;
-            nearest = std::min(nearest, at.distance);
-            size = std::min(size, at.size);
+        // Some six tetrahedra are bisected at this middle. Most of them need its distance only, not
+        // the shapes near it.
+        const std::uint64_t key = key_of(from, to);
+        const auto known = middles_.find(key);
+        const bool is_new = known == middles_.end();
+        const Size at_middle = is_new ? measure_all(first, last, middle) : known->second;
+        if (is_new) {
+            if (middles_.size() >= kMaxMiddles) {
+                middles_.clear();
+            }
+            middles_.emplace(key, at_middle);
         }
-        const double distance = above_ground(nearest, middle);
+        const double distance = above_ground(at_middle.distance, middle);
         if (std::abs(distance) > kSlope * reach) {
             return;
         }
+        const double size = at_middle.size;
         const bool is_leaf =
             tetrahedron.generation == kMaxGeneration || grid_.step(tetrahedron.generation) <= size;
-        const double next = is_leaf ? 0.0 : grid_.step(tetrahedron.generation + 1);
+        if (is_leaf) {
+            visit(tetrahedron, std::span(near_).subspan(first));
+            return;
+        }
+        if (!is_new) {
+            measure_all(first, last, middle);
+        }
+        const double next = grid_.step(tetrahedron.generation + 1);
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
-            if (at.distance <= nearest + 2.0 * kSlope * reach ||
-                at.size - kMaxGrowth * reach < next) {
+            // A shape whose cells are nowhere the smallest here does not matter for their size: of
+            // many leaves all but the nearest.
+            const bool may_be_nearest = at.distance <= at_middle.distance + 2.0 * kSlope * reach;
+            const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
+            if (may_be_nearest || (may_be_smallest && at.size - kMaxGrowth * reach < next)) {
                 near_.push_back(near_[i]);
             }
         }
-        if (is_leaf) {
-            visit(tetrahedron, std::span(near_).subspan(last));
-        } else {
-            const Node node = (from + to) / 2;
-            descend(half_of(tetrahedron, node, distance, true), last, end, visit);
-            descend(half_of(tetrahedron, node, distance, false), last, end, visit);
-        }
+        const Node node = (from + to) / 2;
+        descend(half_of(tetrahedron, node, distance, true), last, end, visit);
+        descend(half_of(tetrahedron, node, distance, false), last, end, visit);
         near_.resize(last);
+    }
+
+    /// The distance and size of cells at a point, of the shapes near_[first, last). probes_ becomes
+    /// those of each shape, or lower bounds of them where the shape is too far to be the least.
+    Size measure_all(std::size_t first, std::size_t last, const glm::dvec3& point) {
+        constexpr double kFar = std::numeric_limits<double>::max();
+        probes_.resize(last - first);
+        std::size_t nearest = 0;
+        for (std::size_t i = 0; i < probes_.size(); ++i) {
+            const Ball& ball = balls_[near_[first + i]];
+            const double distance = glm::length(point - ball.centre) - ball.radius;
+            probes_[i] = {distance, ball.cell + kGrowth * std::max(distance, 0.0)};
+            nearest = distance < probes_[nearest].distance ? i : nearest;
+        }
+        Size all{kFar, kFar};
+        const auto measure_one = [&](std::size_t i) {
+            probes_[i] = measure(solid_.shapes[near_[first + i]], point);
+            all.distance = std::min(all.distance, probes_[i].distance);
+            all.size = std::min(all.size, probes_[i].size);
+        };
+        if (!probes_.empty()) {
+            measure_one(nearest);
+        }
+        for (std::size_t i = 0; i < probes_.size(); ++i) {
+            if (i != nearest &&
+                (probes_[i].distance < all.distance || probes_[i].size < all.size)) {
+                measure_one(i);
+            }
+        }
+        return all;
     }
 
     static Tetrahedron
@@ -255,6 +327,22 @@ private:
         half.tag = whole.tag > 1 ? whole.tag - 1 : 3;
         half.generation = whole.generation + 1;
         return half;
+    }
+
+    /// Finds the shapes that may be the nearest of a point within `reach` of `middle`.
+    void keep_nearest(const glm::dvec3& middle, double reach, std::span<const std::uint32_t> near) {
+        probes_.resize(near.size());
+        double nearest = std::numeric_limits<double>::max();
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            probes_[i] = measure(solid_.shapes[near[i]], middle);
+            nearest = std::min(nearest, probes_[i].distance);
+        }
+        nearest_.clear();
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            if (probes_[i].distance <= nearest + 2.0 * kSlope * reach) {
+                nearest_.push_back(near[i]);
+            }
+        }
     }
 
     /// The vertex on the edge between a node within and one outside.
@@ -276,13 +364,18 @@ private:
         double high = 1.0;
         double at_low = tetrahedron.distances[within];
         double at_high = tetrahedron.distances[outside];
+        const double length = glm::length(to - from);
+        keep_nearest(0.5 * (from + to), 0.5 * length, near);
         // Regula falsi, with the weight of an end halved when it stays (Dowell and Jarratt 1971).
         constexpr int kRounds = 8;
         double t = 0.5;
         int side = 0;
         for (int round = 0; round < kRounds; ++round) {
             t = low + (high - low) * (at_low / (at_low - at_high));
-            const double at = probe(from + t * (to - from), near).distance;
+            const double at = probe(from + t * (to - from), nearest_).distance;
+            if (std::abs(at) <= kExact * length) {
+                break;
+            }
             if (at < 0.0) {
                 low = t;
                 at_low = at;
@@ -298,7 +391,7 @@ private:
         t = std::clamp(t, kEdgeMargin, 1.0 - kEdgeMargin);
         SolidVertex made;
         made.position = from + t * (to - from);
-        const Probe at = probe(made.position, near);
+        const Probe at = probe(made.position, nearest_);
         made.shape = at.shape;
         made.on_ground = at.on_ground;
         if (made.on_ground) {
@@ -372,11 +465,15 @@ private:
     static constexpr std::uint64_t kTriangleBytes = 24;
 
     const Solid& solid_;
+    const std::vector<Ball>& balls_; // of the shapes
     const Grid& grid_;
     std::atomic<std::uint64_t>& bytes_left_;
     bool overflow_ = false;
     std::vector<std::uint32_t> near_; // numbers of shapes, those of an ancestor before its child's
     std::vector<Size> probes_;
+    std::vector<std::uint32_t> nearest_; // of near_, those of an edge
+    static constexpr std::size_t kMaxMiddles = 1 << 20;
+    std::unordered_map<std::uint64_t, Size> middles_; // of edges
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
     std::vector<std::uint64_t> keys_; // of the vertices
     SolidSurface surface_;
@@ -391,11 +488,13 @@ struct Piece {
 };
 
 /// The six tetrahedra around the diagonal of the root cube, bisected into pieces.
-std::vector<Piece>
-make_pieces(const Solid& solid, const Grid& grid, std::atomic<std::uint64_t>& bytes_left) {
+std::vector<Piece> make_pieces(const Solid& solid,
+                               const std::vector<Ball>& balls,
+                               const Grid& grid,
+                               std::atomic<std::uint64_t>& bytes_left) {
     std::vector<std::uint32_t> all(solid.shapes.size());
     std::iota(all.begin(), all.end(), 0U);
-    Cutter cutter(solid, grid, bytes_left);
+    Cutter cutter(solid, balls, grid, bytes_left);
     std::vector<Piece> pieces;
     std::array<int, 3> axes{0, 1, 2};
     do {
@@ -446,16 +545,17 @@ extract_surface(const Solid& solid, std::uint64_t max_bytes, std::uint32_t threa
         return SolidSurface{};
     }
     const Grid grid = make_grid(solid);
+    const std::vector<Ball> balls = make_balls(solid);
     std::atomic<std::uint64_t> bytes_left{max_bytes};
     std::atomic<bool> overflow{false};
-    std::vector<Piece> pieces = make_pieces(solid, grid, bytes_left);
+    std::vector<Piece> pieces = make_pieces(solid, balls, grid, bytes_left);
     Workers workers(threads);
     workers.for_each(pieces.size(), [&](std::uint64_t i) {
         Piece& piece = pieces[i];
         if (overflow) {
             return;
         }
-        Cutter cutter(solid, grid, bytes_left);
+        Cutter cutter(solid, balls, grid, bytes_left);
         cutter.cut_leaves(piece.tetrahedron, piece.near);
         piece.surface = cutter.take_surface();
         piece.keys = cutter.take_keys();

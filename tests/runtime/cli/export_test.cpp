@@ -254,10 +254,10 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
         arguments.insert(arguments.end(), force.begin(), force.end());
         return run_lsc(arguments, kTree);
     };
-    REQUIRE(with({"export", "-", "-o", folder / "tree.glb"}).status == 0);
-    REQUIRE(with({"export", "-", "-o", folder / "tree.gltf"}).status == 0);
+    REQUIRE(with({"export", "-", "-o", folder / "plant.glb"}).status == 0);
+    REQUIRE(with({"export", "-", "-o", folder / "plant.gltf"}).status == 0);
     CHECK(count_files(folder) == 2);
-    for (const char* name : {"tree.glb", "tree.gltf"}) {
+    for (const char* name : {"plant.glb", "plant.gltf"}) {
         const std::string file = read_text(folder / name);
         for (const char* part : {"\"skins\":", "\"animations\":", "\"JOINTS_0\":", "\"WEIGHTS_0\":",
                                  "\"min\":[0],\"max\":[0.16666"}) {
@@ -269,7 +269,7 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
         const LscRun run =
             with({"export", "-", "-o", "-", "--format", "glb", "--threads", threads});
         REQUIRE(run.status == 0);
-        CHECK(run.out == read_text(folder / "tree.glb"));
+        CHECK(run.out == read_text(folder / "plant.glb"));
     }
     // Joints of the light skeleton turn; each of those of all segments shifts too.
     const auto has_shifts = [&](std::vector<std::string> more) {

@@ -81,6 +81,20 @@ double volume_by_cubes(const Skeleton& skeleton, double min_radius, double side,
     return static_cast<double>(cubes) * side * side * side;
 }
 
+/// The square of the distance of a point from a triangle: the least over a lattice of its points.
+double square_from(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
+    constexpr int kSteps = 24;
+    double least = std::numeric_limits<double>::max();
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; i + j <= kSteps; ++j) {
+            const glm::dvec3 at = corners[0] + (corners[1] - corners[0]) * (double(i) / kSteps) +
+                                  (corners[2] - corners[0]) * (double(j) / kSteps) - point;
+            least = std::min(least, glm::dot(at, at));
+        }
+    }
+    return least;
+}
+
 /// The number of edges that pass through the inside of a triangle without a common vertex.
 std::size_t crossings(const Mesh& mesh) {
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
@@ -251,6 +265,49 @@ TEST_CASE("polygons and objects of a solid have a thickness and no hollow") {
     // The object has corners on a ball.
     CHECK(test::volume_of(round) < 4.0 / 3.0 * kPi * 1.1 * 1.1 * 1.1);
     CHECK(test::volume_of(round) > 4.0 / 3.0 * kPi);
+}
+
+TEST_CASE("triangles of any shape and size have the volume of their cubes") {
+    // Large and small ones, narrow ones, one without area, that share corners and cross.
+    Skeleton skeleton;
+    const std::vector<std::array<glm::vec3, 3>> triangles{
+        {{{0, 0, 0}, {1, 0.1F, 0}, {0.2F, 0.9F, 0.3F}}},
+        {{{1, 0.1F, 0}, {0.2F, 0.9F, 0.3F}, {1, 1, 1}}},
+        {{{0.3F, 0.2F, -0.4F}, {0.4F, 0.5F, 0.6F}, {0.45F, 0.5F, 0.6F}}},
+        {{{0, 0, 0}, {-0.02F, 0.05F, 0.01F}, {0.05F, 0.05F, 0.02F}}},
+        {{{1, 1, 1}, {1.2F, 1.1F, 1}, {1.4F, 1.2F, 1}}},
+    };
+    for (const auto& corners : triangles) {
+        const auto first = static_cast<std::uint32_t>(skeleton.corners.size());
+        for (const glm::vec3& corner : corners) {
+            skeleton.corners.push_back(corner);
+        }
+        skeleton.polygons.push_back({.first_corner = first, .corner_count = 3});
+    }
+    MeshOptions options;
+    options.min_width = 0.2F;
+    const Mesh mesh = meshed(skeleton, options);
+    check_closed(mesh, 1);
+    CHECK(crossings(mesh) == 0);
+    // The lattice is at most 0.03 from a point of a triangle, far from which it loses 0.005.
+    const double side = 0.025;
+    std::uint64_t cubes = 0;
+    for (double x = -0.2; x < 1.6; x += side) {
+        for (double y = -0.2; y < 1.4; y += side) {
+            for (double z = -0.6; z < 1.2; z += side) {
+                cubes += std::any_of(triangles.begin(), triangles.end(),
+                                     [&](const std::array<glm::vec3, 3>& t) {
+                                         return square_from({glm::dvec3(t[0]), glm::dvec3(t[1]),
+                                                             glm::dvec3(t[2])},
+                                                            {x, y, z}) <= 0.01;
+                                     })
+                             ? 1U
+                             : 0U;
+            }
+        }
+    }
+    const double volume = static_cast<double>(cubes) * side * side * side;
+    CHECK(test::volume_of(mesh) == Approx(volume).epsilon(0.02));
 }
 
 TEST_CASE("parts of a solid that do not touch are shells of their own") {

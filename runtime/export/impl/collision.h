@@ -1,0 +1,45 @@
+// Shapes of collision of a plant: capsules or convex hulls along trunk and boughs, as small meshes
+// in glTF, whose names tell engines what they are.
+#pragma once
+
+#include "runtime/export/export.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// Max count of shapes of a plant.
+inline constexpr std::size_t kMaxCollisionShapes = 60;
+
+/// A closed convex mesh.
+struct CollisionShape {
+    std::string name;
+    std::vector<glm::vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
+};
+
+/// A run of segments, each the child of the one before, which is nearly straight and equally thick.
+struct BoughPiece {
+    std::vector<std::uint32_t> segments;
+    glm::vec3 from{}; // ends of its chord
+    glm::vec3 to{};
+    float radius = 0.0F; // mean along its segments
+    double area = 0.0;   // 2 * radius * length: what can be hit from the side
+};
+
+/// The pieces of trunk and boughs, those of the largest area first: as many as have nine tenths of
+/// the area of all, from 10 to kMaxCollisionShapes where there are so many. The trunk, and each
+/// bough, goes on in the thickest segment that begins at its end.
+[[nodiscard]] std::vector<BoughPiece> find_boughs(const Skeleton& skeleton);
+
+/// The shapes of find_boughs(). `info`: kind of shapes and of names, and name of the plant.
+[[nodiscard]] std::vector<CollisionShape> make_collision(const Skeleton& skeleton,
+                                                         const ExportInfo& info);
+
+} // namespace lsys

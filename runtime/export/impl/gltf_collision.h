@@ -1,0 +1,39 @@
+// Shapes of collision in a glTF file: a node and a mesh for each, children of the node of the plant.
+// Their arrays are two buffer views at the end of the buffer.
+#pragma once
+
+#include "runtime/export/impl/collision.h"
+#include "runtime/export/impl/gltf_parts.h"
+#include "runtime/export/impl/json_writer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+struct GltfCollision {
+    std::vector<CollisionShape> shapes; // may be empty
+
+    [[nodiscard]] std::size_t accessor_count() const { return 2 * shapes.size(); }
+    [[nodiscard]] std::uint64_t position_bytes() const;
+    [[nodiscard]] std::uint64_t index_bytes() const;
+    /// Of both views, a multiple of 4.
+    [[nodiscard]] std::uint64_t byte_count() const;
+};
+
+// Items of the arrays of the document; `first_...`: the number of the first one that is referred to.
+void put_collision_nodes(JsonWriter& json, const GltfCollision& collision, std::size_t first_mesh);
+void put_collision_meshes(JsonWriter& json,
+                          const GltfCollision& collision,
+                          std::size_t first_accessor);
+void put_collision_accessors(JsonWriter& json,
+                             const GltfCollision& collision,
+                             std::size_t first_view);
+/// `offset`: of the arrays in the buffer.
+void put_collision_views(JsonWriter& json, const GltfCollision& collision, std::uint64_t offset);
+
+/// Hands over the arrays.
+void write_collision(const GltfCollision& collision, const GltfSink& write);
+
+} // namespace lsys

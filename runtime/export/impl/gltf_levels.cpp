@@ -1,0 +1,285 @@
+#include "runtime/export/impl/gltf_levels.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/export/impl/export_outcome.h"
+#include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/gltf_parts.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
+
+std::size_t aligned(std::size_t bytes) {
+    return (bytes + 3) / 4 * 4;
+}
+
+/// A GLB file as its document and its buffer.
+struct GlbFile {
+    Json document;
+    std::string data;
+};
+
+GlbFile parse_glb(const std::string& bytes) {
+    constexpr std::size_t kHeader = 12;
+    constexpr std::size_t kChunkHeader = 8;
+    std::uint32_t json_bytes = 0;
+    std::memcpy(&json_bytes, bytes.data() + kHeader, sizeof(json_bytes));
+    const std::size_t data = kHeader + kChunkHeader + json_bytes + kChunkHeader;
+    return {Json::parse(bytes.data() + kHeader + kChunkHeader,
+                        bytes.data() + kHeader + kChunkHeader + json_bytes),
+            data < bytes.size() ? bytes.substr(data) : std::string()};
+}
+
+/// Items of `document` under `list`; none where it has no such list.
+Json take_list(Json& document, const char* list) {
+    return document.contains(list) ? std::move(document[list]) : Json::array();
+}
+
+/// The document and the buffer of the joined file.
+class JoinedFile {
+public:
+    explicit JoinedFile(GlbFile first) : file_(std::move(first)) {
+        const Json buffers = take_list(file_.document, "buffers");
+        if (buffers.size() > 1) {
+            decoded_bytes_ = buffers[1]["byteLength"].get<std::size_t>();
+        }
+        file_.document.erase("buffers");
+    }
+
+    /// Adds the nodes of a file, without its scene. Returns the number of its first node.
+    std::size_t add(GlbFile file, std::size_t level) {
+        const Json views = take_list(file.document, "bufferViews");
+        views_.clear();
+        const auto take_view = [&](Json& holder) {
+            if (holder.contains("bufferView")) {
+                holder["bufferView"] = view_number(views, file.data, holder["bufferView"]);
+            }
+        };
+        const std::vector<std::size_t> images =
+            add_images(take_list(file.document, "images"), views, file.data);
+        const std::vector<std::size_t> samplers =
+            add_missing("samplers", take_list(file.document, "samplers"), [](Json&) {});
+        const std::vector<std::size_t> textures =
+            add_missing("textures", take_list(file.document, "textures"), [&](Json& texture) {
+                renumber(texture, "source", images);
+                renumber(texture, "sampler", samplers);
+            });
+        const std::vector<std::size_t> materials =
+            add_missing("materials", take_list(file.document, "materials"), [&](Json& material) {
+                Json& surface = material["pbrMetallicRoughness"];
+                if (surface.contains("baseColorTexture")) {
+                    renumber(surface["baseColorTexture"], "index", textures);
+                }
+                if (material.contains("normalTexture")) {
+                    renumber(material["normalTexture"], "index", textures);
+                }
+            });
+        const std::size_t accessors = count_of("accessors");
+        for (Json& accessor : take_list(file.document, "accessors")) {
+            take_view(accessor);
+            file_.document["accessors"].push_back(std::move(accessor));
+        }
+        const std::size_t meshes = count_of("meshes");
+        for (Json& mesh : take_list(file.document, "meshes")) {
+            mesh["name"] = level_name(mesh["name"], level);
+            for (Json& primitive : mesh["primitives"]) {
+                for (auto& [name, accessor] : primitive["attributes"].items()) {
+                    accessor = accessor.get<std::size_t>() + accessors;
+                }
+                primitive["indices"] = primitive["indices"].get<std::size_t>() + accessors;
+                renumber(primitive, "material", materials);
+            }
+            file_.document["meshes"].push_back(std::move(mesh));
+        }
+        const std::size_t nodes = count_of("nodes");
+        for (Json& node : take_list(file.document, "nodes")) {
+            if (node.contains("name")) {
+                node["name"] = level_name(node["name"], level);
+            }
+            node.erase("extras"); // as those of level 0
+            if (node.contains("mesh")) {
+                node["mesh"] = node["mesh"].get<std::size_t>() + meshes;
+            }
+            if (node.contains("children")) {
+                for (Json& child : node["children"]) {
+                    child = child.get<std::size_t>() + nodes;
+                }
+            }
+            file_.document["nodes"].push_back(std::move(node));
+        }
+        for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+            for (const Json& name : take_list(file.document, list)) {
+                use_extension(list, name.get<std::string>());
+            }
+        }
+        return nodes;
+    }
+
+    void use_extension(const char* list, const std::string& name) {
+        Json& used = file_.document[list];
+        if (std::find(used.begin(), used.end(), name) == used.end()) {
+            used.push_back(name);
+        }
+    }
+
+    [[nodiscard]] Json& document() { return file_.document; }
+    /// The buffer, of a size that is a multiple of 4.
+    [[nodiscard]] const std::string& pad_data() {
+        file_.data.resize(aligned(file_.data.size()), '\0');
+        return file_.data;
+    }
+    /// Size of the buffer of decoded items of EXT_meshopt_compression; 0: there is none.
+    [[nodiscard]] std::size_t decoded_bytes() const { return aligned(decoded_bytes_); }
+
+private:
+    static std::string level_name(const Json& name, std::size_t level) {
+        return fmt::format("{}_LOD{}", name.get<std::string>(), level);
+    }
+    static void
+    renumber(Json& holder, const char* key, const std::vector<std::size_t>& new_numbers) {
+        if (holder.contains(key)) {
+            holder[key] = new_numbers[holder[key].get<std::size_t>()];
+        }
+    }
+    [[nodiscard]] std::size_t count_of(const char* list) {
+        return file_.document.contains(list) ? file_.document[list].size() : 0;
+    }
+
+    static std::string_view bytes_of(const Json& view, const std::string& data) {
+        return std::string_view(data).substr(view.value("byteOffset", std::size_t{0}),
+                                             view["byteLength"].get<std::size_t>());
+    }
+
+    /// The number of a view of another file, whose bytes are appended when it is first asked for.
+    std::size_t view_number(const Json& views, const std::string& data, const Json& old) {
+        const auto [found, is_new] =
+            views_.emplace(old.get<std::size_t>(), count_of("bufferViews"));
+        if (is_new) {
+            Json view = views[found->first];
+            Json* stored = &view;
+            if (view.contains("extensions") && view["extensions"].contains(kMeshopt)) {
+                stored = &view["extensions"][kMeshopt];
+                decoded_bytes_ = aligned(decoded_bytes_);
+                view["byteOffset"] = decoded_bytes_;
+                decoded_bytes_ += view["byteLength"].get<std::size_t>();
+            }
+            const std::string_view bytes = bytes_of(*stored, data);
+            file_.data.resize(aligned(file_.data.size()), '\0');
+            (*stored)["byteOffset"] = file_.data.size();
+            file_.data += bytes;
+            file_.document["bufferViews"].push_back(std::move(view));
+        }
+        return found->second;
+    }
+
+    /// Adds items that are not there yet, after `adapt` has set their references. Returns the new
+    /// numbers of all items.
+    template <typename Adapt>
+    std::vector<std::size_t> add_missing(const char* list, Json items, const Adapt& adapt) {
+        std::vector<std::size_t> numbers;
+        for (Json& item : items) {
+            adapt(item);
+            Json& there = file_.document[list];
+            const auto found = std::find(there.begin(), there.end(), item);
+            numbers.push_back(static_cast<std::size_t>(found - there.begin()));
+            if (found == there.end()) {
+                there.push_back(std::move(item));
+            }
+        }
+        return numbers;
+    }
+
+    std::vector<std::size_t> add_images(Json images, const Json& views, const std::string& data) {
+        std::vector<std::size_t> numbers;
+        for (Json& image : images) {
+            const std::string_view bytes =
+                bytes_of(views[image["bufferView"].get<std::size_t>()], data);
+            Json& there = file_.document["images"];
+            const auto found = std::find_if(there.begin(), there.end(), [&](const Json& other) {
+                const Json& view =
+                    file_.document["bufferViews"][other["bufferView"].get<std::size_t>()];
+                return bytes_of(view, file_.data) == bytes;
+            });
+            numbers.push_back(static_cast<std::size_t>(found - there.begin()));
+            if (found == there.end()) {
+                image["bufferView"] = view_number(views, data, image["bufferView"]);
+                there.push_back(std::move(image));
+            }
+        }
+        return numbers;
+    }
+
+    GlbFile file_;
+    std::size_t decoded_bytes_ = 0;
+    std::map<std::size_t, std::size_t> views_; // of the file that is being added
+};
+
+} // namespace
+
+Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& out) {
+    const std::vector<CoarserMesh>& coarser = *job.info.coarser;
+    LSYS_CHECK(job.info.animation == nullptr, coarser.size());
+    ExportInfo info = job.info;
+    info.coarser = nullptr;
+    std::string bytes;
+    const ByteSink append = [&bytes](std::string_view piece) {
+        bytes += piece;
+        return true;
+    };
+    Outcome<void> written = export_mesh(job.mesh, job.skeleton, ExportFormat::Glb, info, append);
+    if (!written) {
+        return written;
+    }
+    JoinedFile joined(parse_glb(bytes));
+    Json ids = Json::array();
+    Json coverages = Json::array();
+    for (std::size_t i = 0; i < coarser.size(); ++i) {
+        bytes.clear();
+        written = export_mesh(coarser[i].mesh, job.skeleton, ExportFormat::Glb, info, append);
+        if (!written) {
+            return written;
+        }
+        ids.push_back(joined.add(parse_glb(bytes), i + 1));
+        // Each level is shown down to where the next one begins, the last one always.
+        coverages.push_back(coarser[i].coverage);
+    }
+    coverages.push_back(0);
+    if (!coarser.empty()) {
+        joined.use_extension("extensionsUsed", "MSFT_lod");
+        Json& node = joined.document()["nodes"][0];
+        node["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
+        node["extras"]["MSFT_screencoverage"] = std::move(coverages);
+    }
+    const std::string& data = joined.pad_data();
+    if (data.size() > kMaxGltfBytes || joined.decoded_bytes() > kMaxGltfBytes) {
+        return too_large_for_format(job.info.subject);
+    }
+    GltfFile file;
+    file.binary = binary;
+    file.put_members = [&joined](JsonWriter& json) {
+        for (const auto& [name, value] : joined.document().items()) {
+            json.name(name).literal(value.dump());
+        }
+    };
+    file.data_bytes = data.size();
+    file.decoded_bytes = joined.decoded_bytes();
+    file.put_data = [&data](const GltfSink& sink) {
+        static_cast<void>(sink(std::as_bytes(std::span(data))));
+    };
+    return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
+}
+
+} // namespace lsys

@@ -1,0 +1,39 @@
+// The place of a plant in a file: its pivot at the origin, lengths in the unit of the file. Used by
+// the command line between drawing and export.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace lsys {
+
+struct PlantAnimation;
+
+/// Point of a plant that is the origin of its file.
+enum class PlantPivot : std::uint8_t {
+    Origin, // the start of the turtle
+    Base,   // the base of the first segment; without one the middle of the underside
+    Centre, // the middle of the box around the plant
+};
+
+/// A point of the drawing is at `scale * (point - pivot)` in the file.
+struct PlantPlacement {
+    glm::vec3 pivot{0.0F};
+    float scale = 1.0F;
+
+    friend bool operator==(const PlantPlacement&, const PlantPlacement&) = default;
+};
+
+/// The pivot of a plant at rest, in metres. The box is that of measure(), without radii.
+[[nodiscard]] glm::vec3 pivot_of(const Skeleton& skeleton, PlantPivot pivot);
+
+/// Moves and scales positions, lengths and radii. Springs and masses stay as they are.
+void place(const PlantPlacement& placement, Mesh& mesh);
+void place(const PlantPlacement& placement, Skeleton& skeleton);
+void place(const PlantPlacement& placement, PlantAnimation& animation);
+
+} // namespace lsys

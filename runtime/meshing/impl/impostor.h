@@ -1,0 +1,59 @@
+// Impostors: crossed cards with pictures of a plant, for the coarsest level of detail. Three upright
+// cards turned by 60 degrees and a level one, each cut to an octagon around what it shows, share one
+// atlas. The colour picture has the opacity; the relief has the normals in the frame of the card,
+// and in its alpha the depth: 1 to 255 for one half of the plant's depth behind the card to one half
+// in front of it.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+class LinearTextures;
+
+/// Max triangles of an impostor: six of each of four octagons.
+inline constexpr std::uint64_t kImpostorTriangles = 24;
+
+class ImpostorBaker {
+public:
+    /// Takes the pictures of `mesh`, which has texture coordinates. They are the same on every
+    /// machine.
+    explicit ImpostorBaker(const Mesh& mesh);
+
+    /// The cards. `cover`: area of opaque texels, in that of the mesh in each picture. Thin parts
+    /// that cover less than a texel are opaque in as many texels as they cover on average. The mean
+    /// colour of each picture is that of the mesh.
+    [[nodiscard]] Mesh make(double cover) const;
+
+private:
+    /// One picture. Arrays have kTile by kTile texels, rows from above.
+    struct View {
+        glm::vec3 right{};
+        glm::vec3 up{};
+        glm::vec3 towards{};
+        glm::vec3 low{};  // of the card, along these axes; z: depth of the plant behind it
+        glm::vec3 high{}; // the same, z in front
+        std::vector<float> coverage;
+        std::vector<glm::vec3> colours; // linear
+        std::vector<glm::vec3> normals; // along these axes
+        std::vector<float> depths;      // 0 to 1
+    };
+
+    void take(const Mesh& mesh, LinearTextures& textures, View& view) const;
+    void paint(const View& view,
+               std::size_t tile,
+               double cover,
+               Texture& colour,
+               Texture& relief,
+               std::vector<glm::vec2>& outline) const;
+
+    std::vector<View> views_;
+};
+
+} // namespace lsys

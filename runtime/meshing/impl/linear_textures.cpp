@@ -1,0 +1,94 @@
+#include "runtime/meshing/impl/linear_textures.h"
+
+#include "runtime/meshing/impl/raster.h"
+#include "runtime/meshing/texture.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint8_t kHalfOpaque = 128;
+
+/// Linear value of an sRGB value from 0 to 1 (IEC 61966-2-1); the power by Newton's method, as
+/// libraries differ in its last bits.
+double linear_of(double value) {
+    if (value <= 0.04045) {
+        return value / 12.92;
+    }
+    const double base = (value + 0.055) / 1.055;
+    const double square = base * base;
+    double root = 1.0; // fifth root of the square
+    for (int i = 0; i < 60; ++i) {
+        const double fourth = root * root * root * root;
+        root -= (fourth * root - square) / (5.0 * fourth);
+    }
+    return square * root;
+}
+
+/// Linear values of all bytes, and the values between which a byte changes.
+struct Transfer {
+    std::array<float, 256> linear{};
+    std::array<float, 255> limits{};
+
+    Transfer() {
+        for (std::size_t i = 0; i < linear.size(); ++i) {
+            linear[i] = static_cast<float>(linear_of(static_cast<double>(i) / 255.0));
+        }
+        for (std::size_t i = 0; i < limits.size(); ++i) {
+            limits[i] = static_cast<float>(linear_of((static_cast<double>(i) + 0.5) / 255.0));
+        }
+    }
+    [[nodiscard]] std::uint8_t byte(float value) const {
+        return static_cast<std::uint8_t>(std::upper_bound(limits.begin(), limits.end(), value) -
+                                         limits.begin());
+    }
+};
+const Transfer& transfer() {
+    static const Transfer table;
+    return table;
+}
+
+LinearTexture linear_texture(const Texture& texture) {
+    LinearTexture result{texture.width, texture.height, {}};
+    const std::array<float, 256>& linear = transfer().linear;
+    for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
+        result.texels.emplace_back(linear[texture.texels[i]], linear[texture.texels[i + 1]],
+                                   linear[texture.texels[i + 2]],
+                                   texture.texels[i + 3] >= kHalfOpaque ? 1.0F : 0.0F);
+    }
+    return result;
+}
+
+} // namespace
+
+glm::vec4 LinearTexture::at(const glm::vec2& place) const {
+    return texels.empty() ? glm::vec4(1.0F) : texels[texel_number(place.x, place.y, width, height)];
+}
+
+const LinearTexture& LinearTextures::of(const Material& material) {
+    static const LinearTexture none;
+    static const LinearTexture bark = linear_texture(material_texture(MaterialKind::Bark));
+    static const LinearTexture leaf = linear_texture(material_texture(MaterialKind::Leaf));
+    if (!material.textured) {
+        return none;
+    }
+    if (material.picture == nullptr) {
+        return material.kind == MaterialKind::Bark   ? bark
+               : material.kind == MaterialKind::Leaf ? leaf
+                                                     : none;
+    }
+    const auto found = files_.find(material.picture.get());
+    return found != files_.end()
+               ? found->second
+               : files_.emplace(material.picture.get(), linear_texture(*material.picture))
+                     .first->second;
+}
+
+std::uint8_t nearest_srgb_byte(float linear) {
+    return transfer().byte(linear);
+}
+
+} // namespace lsys

@@ -1,0 +1,36 @@
+// LinearTextures: textures of materials with linear colours, for rasterisers. Equal on every
+// machine.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace lsys {
+
+struct LinearTexture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<glm::vec4> texels; // opacity 0 or 1; empty: white
+
+    [[nodiscard]] glm::vec4 at(const glm::vec2& place) const;
+};
+
+class LinearTextures {
+public:
+    /// The texture of a material; valid as long as this.
+    [[nodiscard]] const LinearTexture& of(const Material& material);
+
+private:
+    std::map<const Texture*, LinearTexture> files_;
+};
+
+/// The sRGB byte nearest to a linear value (IEC 61966-2-1).
+[[nodiscard]] std::uint8_t nearest_srgb_byte(float linear);
+
+} // namespace lsys

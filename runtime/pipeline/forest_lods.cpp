@@ -1,0 +1,329 @@
+#include "runtime/pipeline/forest_lods.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/base/workers.h"
+#include "runtime/meshing/detail_levels.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
+
+/// A hero of a species and stage.
+struct Hero {
+    std::uint32_t species = 0;
+    std::uint32_t stage = 0;
+    std::uint32_t instance = 0; // of the whole plant
+    Skeleton skeleton;
+    DetailLevels levels;
+    Bounds bounds;            // of level 0
+    std::vector<bool> in_use; // by level
+    std::vector<Mesh> meshes; // of levels in use
+    std::optional<Stop> stop;
+
+    /// Largest extent in m.
+    [[nodiscard]] float extent() const {
+        const glm::vec3 size = bounds.high - bounds.low;
+        return std::max({size.x, size.y, size.z});
+    }
+};
+
+/// The part of the heroes' skeleton that an instance draws.
+Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
+    const Skeleton& all = cache.skeleton;
+    Skeleton own;
+    own.mesh_files = all.mesh_files;
+    own.l3d_compatible_surface = all.l3d_compatible_surface;
+    own.box_segments = all.box_segments;
+    own.leaf_droop = all.leaf_droop;
+    std::map<std::uint32_t, std::uint32_t> shifts; // of segments, by the begin of their range
+    const auto number_of = [&](std::uint32_t parent) {
+        const auto after = shifts.upper_bound(parent);
+        if (parent == kNoSegment || after == shifts.begin()) {
+            return kNoSegment;
+        }
+        const auto& [begin, first] = *std::prev(after);
+        const std::uint32_t number = first + parent - begin;
+        return number < own.segments.size() ? number : kNoSegment;
+    };
+    const std::span<const DrawnRange> ranges =
+        std::span(cache.ranges).subspan(instance.first_range, instance.range_count);
+    for (const DrawnRange& range : ranges) {
+        shifts.emplace(range.begin.segments, static_cast<std::uint32_t>(own.segments.size()));
+        for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
+            Segment segment = all.segments[i];
+            segment.parent = number_of(segment.parent);
+            own.segments.push_back(segment);
+        }
+    }
+    for (const DrawnRange& range : ranges) {
+        for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
+            PlacedObject object = all.objects[i];
+            object.parent = number_of(object.parent);
+            own.objects.push_back(object);
+        }
+        for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {
+            Polygon polygon = all.polygons[i];
+            const auto first = static_cast<std::uint32_t>(own.corners.size());
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                own.corners.push_back(all.corners[polygon.first_corner + c]);
+            }
+            polygon.first_corner = first;
+            polygon.parent = number_of(polygon.parent);
+            own.polygons.push_back(polygon);
+        }
+    }
+    return own;
+}
+
+bool is_same(const Material& a, const Material& b) {
+    return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.relief) ==
+               std::tie(b.name, b.kind, b.two_sided, b.cut_out, b.textured, b.picture, b.relief) &&
+           a.colour == b.colour;
+}
+
+template <typename Item>
+void append(LargeVector<Item>& to, const LargeVector<Item>& from) {
+    for (const Item& item : from) {
+        to.push_back(item);
+    }
+}
+
+/// Adds the mesh of the next instance, in the order of materials.
+void add_instance(const Mesh& mesh, InstanceMeshes& all, LargeVector<std::uint32_t>& indices) {
+    const auto first_vertex = static_cast<std::uint32_t>(all.mesh.positions.size());
+    append(all.mesh.positions, mesh.positions);
+    append(all.mesh.normals, mesh.normals);
+    append(all.mesh.texture_coordinates, mesh.texture_coordinates);
+    append(all.mesh.tangents, mesh.tangents);
+    append(all.mesh.colours, mesh.colours);
+    std::vector<MeshPart> parts = mesh.parts;
+    for (MeshPart& part : parts) {
+        const Material& material = mesh.materials[part.material];
+        std::vector<Material>& known = all.mesh.materials;
+        const auto found = std::find_if(known.begin(), known.end(), [&](const Material& other) {
+            return is_same(material, other);
+        });
+        part.material = static_cast<std::uint32_t>(found - known.begin());
+        if (found == known.end()) {
+            known.push_back(material);
+        }
+    }
+    std::sort(parts.begin(), parts.end(),
+              [](const MeshPart& a, const MeshPart& b) { return a.material < b.material; });
+    TriangleReader reader(mesh.indices);
+    for (MeshPart& part : parts) {
+        const std::uint64_t from = part.first_index;
+        part.first_index = indices.size();
+        for (std::uint64_t i = 0; i < part.index_count; ++i) {
+            indices.push_back(first_vertex + reader[from + i]);
+        }
+        all.mesh.parts.push_back(part);
+    }
+}
+
+/// The heroes of all species and stages, with their levels.
+Outcome<std::vector<Hero>>
+plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project) {
+    Step step(project);
+    std::vector<Hero> heroes;
+    for (std::uint32_t s = 0; s < grown.forest.species.size(); ++s) {
+        const ForestSpecies& species = grown.forest.species[s];
+        for (std::uint32_t i = 0; i < species.stages.size(); ++i) {
+            const InstanceCache& cache = species.stages[i].cache;
+            const InstanceSlot& whole = cache.slots[0];
+            for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
+                const std::uint32_t instance = cache.variants[whole.first_variant + v];
+                LSYS_CHECK(cache.instances[instance].exit_count == 0, instance);
+                Hero& hero = heroes.emplace_back();
+                hero.species = s;
+                hero.stage = i;
+                hero.instance = instance;
+                hero.skeleton = skeleton_of(cache, cache.instances[instance]);
+            }
+        }
+    }
+    MeshOptions alone = options;
+    alone.threads = 1; // as there are many heroes
+    alone.max_bytes = project.limits.max_bytes;
+    Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
+        Hero& hero = heroes[number];
+        const std::vector<UserMesh>& files = grown.user_meshes[hero.species];
+        hero.stop =
+            plan_detail_levels(hero.skeleton, files, alone, {.pictures = true}, hero.levels);
+        Mesh finest;
+        if (!hero.stop) {
+            hero.stop = make_detail_mesh(hero.skeleton, files, hero.levels, 0, alone, finest);
+        }
+        for (const glm::vec3& position : finest.positions) {
+            hero.bounds.add(position);
+        }
+        hero.in_use.resize(hero.levels.levels.size());
+        hero.meshes.resize(hero.levels.levels.size());
+    });
+    for (const Hero& hero : heroes) {
+        if (hero.stop) {
+            return end_mesh_of_heroes(*hero.stop, step);
+        }
+    }
+    return step.done(std::move(heroes));
+}
+
+/// Place outside the outermost tree towards the viewer of the first picture of lsview.
+glm::vec3 edge_viewpoint(const Forest& forest, const std::vector<float>& heights) {
+    constexpr float kOutside = 3.5F; // heights
+    constexpr float kAbove = 2.0F;
+    const glm::vec2 outward(0.5665F, 0.8241F); // of length 1
+    float farthest = -std::numeric_limits<float>::infinity();
+    glm::vec3 edge(0.0F);
+    float height = 0.0F;
+    for (std::size_t i = 0; i < forest.trees.size(); ++i) {
+        const glm::vec3& at = forest.trees[i].position;
+        const float far = glm::dot(glm::vec2(at.x, at.z), outward);
+        height = std::max(height, heights[i]);
+        if (far > farthest) {
+            farthest = far;
+            edge = at;
+        }
+    }
+    const glm::vec2 away = kOutside * height * outward;
+    return edge + glm::vec3(away.x, kAbove * height, away.y);
+}
+
+std::size_t level_for(const DetailLevels& levels, float pixels) {
+    std::size_t level = 0;
+    while (level + 1 < levels.levels.size() && pixels <= levels.levels[level + 1].pixels) {
+        ++level;
+    }
+    return level;
+}
+
+} // namespace
+
+Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
+                                     const MeshOptions& options,
+                                     std::optional<glm::vec3> viewpoint,
+                                     const Project& project) {
+    Step step(project);
+    std::vector<Hero> heroes;
+    if (!step.take(plan_heroes(grown, options, project), heroes)) {
+        return step.end();
+    }
+    const Forest& forest = grown.forest;
+    // By species, stage and instance.
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Hero*> hero_of;
+    for (Hero& hero : heroes) {
+        hero_of[{hero.species, hero.stage, hero.instance}] = &hero;
+    }
+    std::vector<Hero*> heroes_of_trees;
+    std::vector<float> heights;
+    for (const Tree& tree : forest.trees) {
+        TreeExpander expander(forest.cache_of(tree), forest.key);
+        Hero* const hero =
+            hero_of.at({tree.species, forest.stage_of(tree), expander.root_instance(tree)});
+        heroes_of_trees.push_back(hero);
+        heights.push_back(tree.scale * (hero->bounds.high.y - hero->bounds.low.y));
+    }
+    ForestLods result;
+    result.viewpoint = viewpoint.value_or(edge_viewpoint(forest, heights));
+    result.forest.key = forest.key;
+
+    // Levels by distance. Kinds are numbered by species, stage and level.
+    constexpr float kLines = 1080.0F;
+    constexpr float kHalfCotangent = 0.8660254F; // 1 / (2 tan 30 degrees)
+    using KindKey = std::tuple<std::uint32_t, std::uint32_t, std::size_t>;
+    std::map<KindKey, std::uint16_t> kinds;
+    std::vector<KindKey> keys_of_trees;
+    for (std::size_t i = 0; i < forest.trees.size(); ++i) {
+        const Tree& tree = forest.trees[i];
+        Hero& hero = *heroes_of_trees[i];
+        const glm::vec3 middle = tree.position + glm::vec3(0.0F, 0.5F * heights[i], 0.0F);
+        const float size = tree.scale * hero.extent();
+        const float distance = std::max(glm::distance(result.viewpoint, middle), 1e-3F * size);
+        const std::size_t level =
+            level_for(hero.levels, kLines * kHalfCotangent * size / std::max(distance, 1e-30F));
+        hero.in_use[level] = true;
+        keys_of_trees.emplace_back(hero.species, hero.stage, level);
+        kinds.emplace(keys_of_trees.back(), std::uint16_t{0});
+    }
+    MeshOptions alone = options;
+    alone.threads = 1;
+    alone.max_bytes = project.limits.max_bytes;
+    Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
+        Hero& hero = heroes[number];
+        for (std::size_t k = 0; k < hero.meshes.size() && !hero.stop; ++k) {
+            if (hero.in_use[k]) {
+                hero.stop = make_detail_mesh(hero.skeleton, grown.user_meshes[hero.species],
+                                             hero.levels, k, alone, hero.meshes[k]);
+            }
+        }
+    });
+
+    for (auto& [key, number] : kinds) {
+        const auto& [s, stage, level] = key;
+        number = static_cast<std::uint16_t>(result.forest.species.size());
+        const ForestSpecies& from = forest.species[s];
+        ForestSpecies& to = result.forest.species.emplace_back();
+        to.name = from.stages.size() == 1 ? fmt::format("{} LOD{}", from.name, level)
+                                          : fmt::format("{} n{} LOD{}", from.name,
+                                                        from.stages[stage].generations, level);
+        to.height = from.height;
+        // The choices of trees, without what is drawn.
+        const InstanceCache& cache = from.stages[stage].cache;
+        ForestStage& only = to.stages.emplace_back();
+        only.generations = from.stages[stage].generations;
+        only.cache.instances = cache.instances;
+        for (Instance& instance : only.cache.instances) {
+            instance.first_range = 0;
+            instance.range_count = 0;
+        }
+        only.cache.slots = cache.slots;
+        only.cache.variants = cache.variants;
+        only.cache.exits = cache.exits;
+        only.cache.heroes = cache.heroes;
+        InstanceMeshes& made = result.meshes.emplace_back().emplace_back();
+        LargeVector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+            made.first_part.push_back(static_cast<std::uint32_t>(made.mesh.parts.size()));
+            const auto found = hero_of.find({s, stage, i});
+            if (found == hero_of.end()) {
+                continue;
+            }
+            const Hero& hero = *found->second;
+            if (hero.stop) {
+                return end_mesh_of_heroes(*hero.stop, step);
+            }
+            if (level >= hero.meshes.size() || !hero.in_use[level]) {
+                continue;
+            }
+            const Mesh& mesh = hero.meshes[level];
+            if (made.mesh.positions.size() + mesh.positions.size() > kMaxVertices) {
+                return end_mesh_of_heroes(Stop::Failed, step);
+            }
+            add_instance(mesh, made, indices);
+        }
+        made.first_part.push_back(static_cast<std::uint32_t>(made.mesh.parts.size()));
+        made.mesh.indices = TriangleList(std::move(indices));
+    }
+    for (std::size_t i = 0; i < forest.trees.size(); ++i) {
+        Tree tree = forest.trees[i];
+        tree.species = kinds.at(keys_of_trees[i]);
+        tree.age = 0;
+        result.forest.trees.push_back(tree);
+    }
+    return step.done(std::move(result));
+}
+
+} // namespace lsys

@@ -1,0 +1,234 @@
+#include "runtime/cli/command_line.h"
+#include "runtime/cli/presets.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::lsc;
+using lsys::tests::LscRun;
+using lsys::tests::read_text;
+using lsys::tests::run_lsc;
+using lsys::tests::ScratchFolder;
+
+namespace {
+
+const char* const kTree = "#n = 4; #set angle 25; #w : f(2) !(0.3) F(3) X;"
+                          "#p : X : * : !(0.08) F(0.6) [ + X ] /(120) [ & X ] /(120) [ ^ X ];";
+
+template <typename Command>
+Command parsed(const std::vector<std::string>& arguments) {
+    CommandLine line = parse_command_line(arguments);
+    if (const auto* mistake = std::get_if<UsageError>(&line)) {
+        FAIL(mistake->message);
+    }
+    REQUIRE(std::holds_alternative<Command>(line));
+    return std::get<Command>(std::move(line));
+}
+
+/// The document of a GLB.
+nlohmann::json document_of(const std::string& glb) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, sizeof length);
+    return nlohmann::json::parse(glb.substr(20, length));
+}
+
+} // namespace
+
+TEST_CASE("each preset sets what its options set one by one") {
+    std::set<std::string_view> names;
+    for (const Preset& preset : presets()) {
+        CHECK(names.insert(preset.name).second);
+        for (const PresetCommand command : {PresetCommand::Export, PresetCommand::Forest}) {
+            const bool is_export = command == PresetCommand::Export;
+            for (const ExportFormat format : export_formats()) {
+                const FormatTraits& traits = traits_of(format);
+                if (!suits(preset, command, traits)) {
+                    continue;
+                }
+                CAPTURE(preset.name, traits.name, is_export);
+                std::vector<std::string> by_name{is_export ? "export" : "forest", "a.lsys", "-o",
+                                                 "b." + std::string(traits.name)};
+                std::vector<std::string> one_by_one = by_name;
+                by_name.push_back("--preset=" + std::string(preset.name));
+                for (const std::string& option : preset_arguments(
+                         preset, command, traits, [](std::string_view) { return false; })) {
+                    one_by_one.push_back(option);
+                }
+                if (is_export) {
+                    auto named = parsed<ExportCommand>(by_name);
+                    const auto spelt = parsed<ExportCommand>(one_by_one);
+                    CHECK(named.preset == preset.name);
+                    CHECK(named.mesh == spelt.mesh);
+                    CHECK(named.unit == spelt.unit);
+                    CHECK(named.surface.up == spelt.surface.up);
+                    CHECK(named.pivot == spelt.pivot);
+                    CHECK(named.compression == spelt.compression);
+                    CHECK(named.collision == spelt.collision);
+                    CHECK(named.collision_names == spelt.collision_names);
+                    CHECK(named.wind_data == spelt.wind_data);
+                    CHECK(named.height == spelt.height);
+                } else {
+                    const auto named = parsed<ForestCommand>(by_name);
+                    const auto spelt = parsed<ForestCommand>(one_by_one);
+                    CHECK(named.instances == spelt.instances);
+                    CHECK(named.compression == spelt.compression);
+                    CHECK(named.expand == spelt.expand);
+                }
+            }
+        }
+    }
+    for (const PresetOption& option : preset_options()) {
+        CHECK(names.contains(option.preset));
+    }
+}
+
+TEST_CASE("an option that is given wins over the preset") {
+    const std::vector<std::string> base{"export", "a.lsys", "-o", "a.glb", "--preset", "unreal"};
+    const auto with = [&base](std::vector<std::string> more) {
+        std::vector<std::string> all = base;
+        all.insert(all.end(), more.begin(), more.end());
+        return parsed<ExportCommand>(all);
+    };
+    CHECK(with({}).collision == CollisionKind::Capsules);
+    CHECK(with({}).wind_data);
+    CHECK(with({"--collision", "hulls"}).collision == CollisionKind::Hulls);
+    CHECK(with({"--collision=none"}).collision == CollisionKind::None);
+    CHECK(with({"--pivot", "centre"}).pivot == PlantPivot::Centre);
+    CHECK_FALSE(with({"--wind-data=false"}).wind_data);
+    CHECK_FALSE(with({"--frames", "9", "--wind", "8,0,0"}).wind_data);
+    const auto forest =
+        parsed<ForestCommand>({"forest", "a.lsys", "--preset", "unreal", "--bake", "-o", "a.glb"});
+    CHECK_FALSE(forest.expand);
+    CHECK(parsed<ForestCommand>({"forest", "a.lsys", "--preset", "unreal", "-o", "a.glb"}).expand);
+    CHECK(parsed<ExportCommand>({"export", "-o", "a.stl", "--preset", "print", "--", "a.lsys"})
+              .unit == LengthUnit::Millimetres);
+}
+
+TEST_CASE("a preset refuses other formats and names its own") {
+    const CommandLine line = parse_command_line(
+        std::vector<std::string>{"export", "a.lsys", "-o", "a.stl", "--preset", "web"});
+    REQUIRE(std::holds_alternative<UsageError>(line));
+    CHECK(std::get<UsageError>(line).message == "--preset web is for glb and gltf, not stl");
+    const ScratchFolder folder;
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "a.glb", "--preset", "print"}, kTree);
+    CHECK(run.status == 2);
+    CHECK(run.err.find("--preset print is for obj, off, ply and stl, not glb") !=
+          std::string::npos);
+    CHECK(run_lsc({"forest", "-", "-o", folder / "a.glb", "--preset", "print"}, kTree).status == 2);
+}
+
+TEST_CASE("docs/files.md has the table of presets") {
+    const std::string page = read_text(LSYS_SOURCE_DIR "/docs/files.md");
+    for (const Preset& preset : presets()) {
+        const auto cell = [&preset](PresetCommand command) {
+            const std::string text = preset_text(preset, command);
+            return text.empty() ? std::string("-") : fmt::format("`{}`", text);
+        };
+        const std::string row =
+            fmt::format("| `{}` | {} | {} | {} |", preset.name, preset.use,
+                        cell(PresetCommand::Export), cell(PresetCommand::Forest));
+        CAPTURE(row);
+        CHECK(page.find(row) != std::string::npos);
+    }
+}
+
+TEST_CASE("names of a file's nodes come from its own name, and shapes of collision are children") {
+    const ScratchFolder folder;
+    const std::string path = folder / "old oak.glb";
+    REQUIRE(run_lsc({"export", "-", "-o", path, "--preset", "unreal"}, kTree).status == 0);
+    const nlohmann::json document = document_of(read_text(path));
+    const nlohmann::json& plant = document["nodes"][0];
+    CHECK(plant["name"] == "old oak");
+    CHECK(document["meshes"][0]["name"] == "old oak");
+    REQUIRE(plant["children"].size() > 3);
+    const nlohmann::json& shape = document["nodes"][plant["children"][0].get<std::size_t>()];
+    CHECK(shape["name"] == "UCP_old oak_00");
+    const nlohmann::json& mesh = document["meshes"][shape["mesh"].get<std::size_t>()];
+    CHECK(mesh["name"] == "UCP_old oak_00");
+    const std::size_t positions = mesh["primitives"][0]["attributes"]["POSITION"];
+    const nlohmann::json& accessor = document["accessors"][positions];
+    // The trunk is 3 m high and begins 2 m above the start of the turtle, now the pivot.
+    CHECK(accessor["min"][1].get<double>() == Approx(0.0).margin(1e-5));
+    CHECK(accessor["max"][1].get<double>() >= 2.9);
+    CHECK(document["meshes"][0]["primitives"][0]["attributes"].contains("TEXCOORD_2"));
+}
+
+TEST_CASE("a file states its unit, and its lengths are in it") {
+    const ScratchFolder folder;
+    const auto heights = [&folder](const char* unit) {
+        const std::string path = folder / (std::string(unit) + ".obj");
+        REQUIRE(run_lsc({"export", "-", "-o", path, "--unit", unit}, kTree).status == 0);
+        const std::string text = read_text(path);
+        double high = 0.0;
+        for (std::size_t at = text.find("\nv "); at != std::string::npos;
+             at = text.find("\nv ", at + 1)) {
+            double x = 0.0;
+            double y = 0.0;
+            REQUIRE(std::sscanf(text.c_str() + at, "\nv %lf %lf", &x, &y) == 2);
+            high = std::max(high, y);
+        }
+        return std::pair(high, text.substr(0, text.find("\no ")));
+    };
+    const auto [metres, metre_text] = heights("m");
+    const auto [millimetres, millimetre_text] = heights("mm");
+    CHECK(millimetres == Approx(1000.0 * metres));
+    CHECK(metre_text.find("# metres, +Y up") != std::string::npos);
+    CHECK(millimetre_text.find("# millimetres, +Y up") != std::string::npos);
+    REQUIRE(run_lsc({"export", "-", "-o", folder / "a.usda", "--unit", "cm"}, kTree).status == 0);
+    CHECK(read_text(folder / "a.usda").find("metersPerUnit = 0.01\n") != std::string::npos);
+    const LscRun refused = run_lsc({"export", "-", "-o", folder / "a.glb", "--unit", "cm"}, kTree);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find("--unit is for obj, off, ply, stl, usda and usdz") != std::string::npos);
+}
+
+TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincident parts") {
+    const ScratchFolder folder;
+    const std::string path = folder / "a.stl";
+    const LscRun run = run_lsc({"export", "-", "-o", path, "--preset", "print"}, kTree);
+    REQUIRE(run.status == 0);
+    CHECK(run.err.empty()); // no separate pieces
+    const std::string stl = read_text(path);
+    CHECK(stl.find("STL in millimetres, +Z up") == 0);
+    std::uint32_t count = 0;
+    std::memcpy(&count, stl.data() + 80, sizeof count);
+    REQUIRE(stl.size() == 84 + 50 * std::size_t{count});
+    // Each edge of exact coordinates once in each direction.
+    using Corner = std::array<float, 3>;
+    std::map<std::pair<Corner, Corner>, int> edges;
+    Corner low{1e9F, 1e9F, 1e9F};
+    Corner high{-1e9F, -1e9F, -1e9F};
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<Corner, 3> corners{};
+        std::memcpy(corners.data(), stl.data() + 84 + 50 * i + 12, sizeof corners);
+        for (std::size_t c = 0; c < 3; ++c) {
+            ++edges[{corners[c], corners[(c + 1) % 3]}];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], corners[c][axis]);
+                high[axis] = std::max(high[axis], corners[c][axis]);
+            }
+        }
+    }
+    std::size_t bad = 0;
+    for (const auto& [edge, times] : edges) {
+        const auto back = edges.find({edge.second, edge.first});
+        bad += times == 1 && back != edges.end() && back->second == 1 ? 0U : 1U;
+    }
+    CHECK(bad == 0);
+    const float tallest = high[2]; // +Z up
+    // Round ends of branches of 1 mm stand out by half of it.
+    CHECK(tallest >= 149.9F);
+    CHECK(tallest <= 151.5F);
+}
