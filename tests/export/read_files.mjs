@@ -12,7 +12,7 @@ import { distance, posedVertices, readPlyPositions, shownCorners } from './motio
 import { comparePrimitives, extentOf, primitivesOf } from './compressed.mjs';
 import { instancedForest, readAccessors } from './forest.mjs';
 import { readOffPlus, readUsda, readUsdaForest, readUsdz } from './own_readers.mjs';
-import { posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';
+import { instancedBox, posedCorners, readPlyTriangles, tinyUsdz, usdLoader } from './usd.mjs';
 
 const [given, check, folder] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
@@ -577,14 +577,19 @@ const checks = {
     },
 
     async tinyusdz() {
-        const open = await tinyUsdz(module, modules);
+        const { open, layer } = await tinyUsdz(module, modules);
         if (existsSync(join(folder, 'forest.usda'))) {
-            for (const file of ['forest.usda', 'forest.usdz'].filter(f => existsSync(join(folder, f)))) {
-                const loader = open(file, readFileSync(join(folder, file)));
-                expect(file, 'meshes', loader.numMeshes() > 1, true);
-                ++files;
-                loader.delete();
-            }
+            const bytes = readFileSync(join(folder, 'forest.usda'));
+            const found = instancedBox(open('forest.usda', bytes), layer('forest.usda', bytes));
+            const { low, high, branches } = facts();
+            const size = Math.max(...high.map((x, i) => x - low[i]));
+            const off = [...low.map((x, i) => x - found.low[i]), ...high.map((x, i) => x - found.high[i])];
+            expect('forest.usda', 'number of instances', found.instances, branches);
+            expect('forest.usda', 'box within 0.1 %', Math.max(...off.map(Math.abs)) < 1e-3 * size, true);
+            const zipped = open('forest.usdz', readFileSync(join(folder, 'forest.usdz')));
+            expect('forest.usdz', 'it has the meshes of all prototypes', zipped.numMeshes(),
+                   open('forest.usda', bytes).numMeshes());
+            files += 2;
             return;
         }
         await eachMesh(['usda', 'usdz'], (file, mesh) => {

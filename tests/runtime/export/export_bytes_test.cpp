@@ -276,6 +276,20 @@ TEST_CASE("a USDA of a triangle") {
     CHECK_FALSE(has("primvars"));
 }
 
+TEST_CASE("a USDA states each colour of vertices once") {
+    Mesh mesh = test::triangle_mesh();
+    const auto has = [&](const char* part) {
+        return exported(mesh, ExportFormat::Usda).find(part) != std::string::npos;
+    };
+    mesh.colours = {6, 6, 6};
+    CHECK(has("primvars:displayColor = [("));
+    CHECK(has(")] (\n            interpolation = \"constant\"\n        )\n"));
+    CHECK_FALSE(has("displayColor:indices"));
+    mesh.colours = {6, 2, 6};
+    CHECK(has(")] (\n            interpolation = \"vertex\"\n        )\n"
+              "        int[] primvars:displayColor:indices = [0, 1, 0]\n"));
+}
+
 TEST_CASE("a GLB of a triangle") {
     const std::string bytes = exported(test::triangle_mesh(), ExportFormat::Glb);
     CHECK(bytes.substr(0, 4) == "glTF");

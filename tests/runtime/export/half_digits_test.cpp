@@ -1,5 +1,6 @@
-// Half floats as text.
+// Half floats and rounded numbers as text.
 #include "runtime/export/impl/half_digits.h"
+#include "runtime/export/impl/text.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,6 +15,12 @@ namespace {
 std::string half_text(const HalfDigits& digits, float value) {
     std::string text(HalfDigits::kMaxBytes, ' ');
     text.resize(static_cast<std::size_t>(digits.put(text.data(), value) - text.data()));
+    return text;
+}
+
+std::string rounded_text(float value, int decimals) {
+    std::string text(kNumberBytes, ' ');
+    text.resize(static_cast<std::size_t>(put_rounded(text.data(), value, decimals) - text.data()));
     return text;
 }
 
@@ -54,5 +61,26 @@ TEST_CASE("the digits of a half float read back as it, and none is idle") {
         float read = -1.0F;
         std::from_chars(text.data(), text.data() + text.size(), read);
         REQUIRE(half_bits(read) == bits);
+    }
+}
+
+TEST_CASE("rounded numbers have no digits that say nothing") {
+    CHECK(rounded_text(0.0F, 4) == "0");
+    CHECK(rounded_text(-0.0F, 4) == "0");
+    CHECK(rounded_text(-0.00001F, 4) == "0");
+    CHECK(rounded_text(0.00006F, 4) == "0.0001");
+    CHECK(rounded_text(12.5F, 0) == "13");
+    CHECK(rounded_text(-12.0F, 9) == "-12");
+    CHECK(rounded_text(100.25F, 4) == "100.25");
+    CHECK(rounded_text(0.05F, 3) == "0.05");
+    CHECK(rounded_text(1e30F, 3) == "1e+30");
+    for (int i = 0; i < 20'000; ++i) {
+        const float value = 37.0F * std::sin(0.37F * static_cast<float>(i));
+        for (const int decimals : {1, 3, 5}) {
+            const std::string text = rounded_text(value, decimals);
+            const double off = std::stod(text) - static_cast<double>(value);
+            REQUIRE(std::abs(off) <= 0.5 * std::pow(10.0, -decimals) + 1e-12);
+            REQUIRE((text.find('.') == std::string::npos || text.back() != '0'));
+        }
     }
 }

@@ -85,3 +85,12 @@ TEST_CASE("a plant has a height, and so have the trees of a forest") {
     CHECK(forest.overrides.height == lsys::HeightRange{3.0F, 3.0F});
     CHECK_FALSE(parsed<UsageError>({"tree.lsys", "--height", "0"}).message.empty());
 }
+
+TEST_CASE("pictures are PNG, whatever the name wishes") {
+    const UsageError usage = parsed<UsageError>({"tree.lsys", "--screenshot", "a/tree.jpg"});
+    CHECK(usage.message == "`a/tree.jpg`: pictures are written as png");
+    CHECK(usage.help == "name it `a/tree.png`");
+    for (const char* name : {"tree.png", "tree.PNG", "tree", "-"}) {
+        CHECK(parsed<ViewOptions>({"tree.lsys", "--screenshot", name}).screenshot == name);
+    }
+}
