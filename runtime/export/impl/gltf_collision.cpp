@@ -74,7 +74,8 @@ void put_collision_views(JsonWriter& json, const GltfCollision& collision, std::
     constexpr int kIndices = 34963;
     const std::uint64_t bytes = collision.position_bytes();
     json.object().member("buffer", 0).member("byteOffset", offset).member("byteLength", bytes);
-    json.member("target", kVertices).end();
+    // Required where several accessors share a view of vertices.
+    json.member("byteStride", sizeof(glm::vec3)).member("target", kVertices).end();
     json.object().member("buffer", 0).member("byteOffset", offset + bytes);
     json.member("byteLength", collision.index_bytes()).member("target", kIndices).end();
 }
