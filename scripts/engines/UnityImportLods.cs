@@ -23,6 +23,8 @@ public static class UnityImportLods
         public Level[] levels = new Level[0];
     }
 
+    private const int MaxLevels = 8; // of an LODGroup
+
     [MenuItem("Assets/Make LOD prefab", true)]
     private static bool CanMake()
     {
@@ -36,6 +38,10 @@ public static class UnityImportLods
         string folder = Path.GetDirectoryName(path).Replace('\\', '/');
         string name = Path.GetFileName(path).Replace(".lods.json", "");
         Level[] levels = JsonUtility.FromJson<LevelList>(File.ReadAllText(path)).levels;
+        if (levels.Length > MaxLevels) // the first ones and the last
+        {
+            levels = levels.Take(MaxLevels - 1).Append(levels.Last()).ToArray();
+        }
         var root = new GameObject(name);
         var lods = new LOD[levels.Length];
         for (int i = 0; i < levels.Length; ++i)

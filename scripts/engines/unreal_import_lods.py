@@ -10,6 +10,15 @@ import os
 import sys
 
 
+# Of a static mesh.
+MAX_LEVELS = 8
+
+
+def fitting(levels):
+    """The first levels and the last one, at most MAX_LEVELS."""
+    return levels if len(levels) <= MAX_LEVELS else levels[: MAX_LEVELS - 1] + levels[-1:]
+
+
 def screen_sizes(levels):
     """Part of the screen's height at which each level begins; the finest from 1 on."""
     return [level["screen_height"] for level in levels]
@@ -33,7 +42,7 @@ def import_mesh(unreal, path, folder):
 
 def import_levels(unreal, list_path, folder):
     with open(list_path, encoding="utf-8") as file:
-        levels = json.load(file)["levels"]
+        levels = fitting(json.load(file)["levels"])
     beside = os.path.dirname(os.path.abspath(list_path))
     name = os.path.basename(list_path).split(".")[0]
     editor = unreal.get_editor_subsystem(unreal.StaticMeshEditorSubsystem)
