@@ -312,17 +312,17 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_deny(app, command.messages);
-    app.footer("Presets:\n" + preset_table(PresetCommand::Export) +
-               "A flag of a preset is taken back by `--wind-data=false`.\n\n"
-               "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
-               "complete or absent. OBJ writes a .mtl "
-               "file beside it, OBJ\n"
-               "and USDA write bark and leaf textures (tree.bark.png); none of these with standard "
-               "output. SVG is\n"
-               "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
-               "Examples: lsc export tree.lsys -o tree.glb\n"
-               "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
-               "          lsc export tree.lsys -o tree.glb --grow --frames 100");
+    app.footer(
+        "Presets:\n" + preset_table(PresetCommand::Export) +
+        "A flag of a preset is taken back by `--wind-data=false`.\n\n"
+        "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
+        "complete or\n"
+        "absent. OBJ writes a .mtl file beside it, OBJ and USDA write bark and leaf textures\n"
+        "(tree.bark.png); none of these with standard output. SVG is\n"
+        "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
+        "Examples: lsc export tree.lsys -o tree.glb\n"
+        "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
+        "          lsc export tree.lsys -o tree.glb --grow --frames 100");
 }
 
 void add_forest(CLI::App& app, ForestCommand& command) {
