@@ -171,7 +171,11 @@ ExitStatus mesh_frame(Export& run, const Skeleton& skeleton, bool segments) {
     MeshOptions options = run.command.mesh;
     options.segments = segments;
     run.mesh = {};
-    const ExitStatus status = mesh_wanted_level(run, skeleton, options);
+    // Frames of a growth are other plants: their levels only have fewer sides.
+    const ExitStatus status =
+        run.command.grow
+            ? run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh)
+            : mesh_wanted_level(run, skeleton, options);
     run.timing.mesh_seconds += seconds_since(start);
     return status;
 }
@@ -304,6 +308,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
             }
             const std::string path = lod_path(command.output, i);
             ExportInfo info = origin;
+            info.collision = i == 0 ? origin.collision : CollisionKind::None;
             status = add_side_files(run, placed, path, info, files);
             if (status == ExitStatus::Ok) {
                 status = files.add(path, [&](const ByteSink& sink) {

@@ -244,6 +244,7 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
         return written;
     }
     JoinedFile joined(parse_glb(bytes));
+    info.collision = CollisionKind::None; // level 0 has it
     Json ids = Json::array();
     Json coverages = Json::array();
     for (std::size_t i = 0; i < coarser.size(); ++i) {

@@ -15,16 +15,19 @@ namespace lsys {
 
 namespace {
 
-constexpr int kSize = 384; // pixels of a side
-constexpr float kHalfRoot3 = 0.8660254F;
+constexpr int kSize = 256;              // pixels of a side
+constexpr float kCosine15 = 0.9659258F; // of 15 degrees: no card of an impostor is seen edge-on
+constexpr float kSine15 = 0.2588190F;
+constexpr float kDiagonal = 0.7071068F;
 /// Cosine and sine of the turn about +Y, and of the height of the eye above the horizon.
-constexpr std::array<std::array<float, 2>, 6> kTurns{{{1.0F, 0.0F},
-                                                      {kHalfRoot3, 0.5F},
-                                                      {0.5F, kHalfRoot3},
-                                                      {0.0F, 1.0F},
-                                                      {-0.5F, kHalfRoot3},
-                                                      {-kHalfRoot3, 0.5F}}};
+constexpr std::array<std::array<float, 2>, 6> kTurns{{{kCosine15, kSine15},
+                                                      {kDiagonal, kDiagonal},
+                                                      {kSine15, kCosine15},
+                                                      {-kSine15, kCosine15},
+                                                      {-kDiagonal, kDiagonal},
+                                                      {-kCosine15, kSine15}}};
 constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}}};
+
 enum class Cover : std::uint8_t { Nothing, Wood, Foliage };
 
 /// One view: the nearest surface at each pixel.
