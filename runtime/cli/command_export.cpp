@@ -578,9 +578,6 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     if (one_file && command.buffers == BufferPlace::Separate) {
         return "--lods with --buffers separate needs --lod-files";
     }
-    if (one_file && command.collision != CollisionKind::None) {
-        return "--lods with --collision needs --lod-files";
-    }
     if (!one_file && !is_regular(command.output)) {
         return fmt::format("--lods writes several files here, which need a file name; {} hold all "
                            "levels in one",

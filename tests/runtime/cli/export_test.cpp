@@ -193,7 +193,6 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     CHECK(piped.status == 2);
     refused({"--grow", "--frames", "2", "--bones", "9"}, "branches come and go");
     refused({"--grow", "--frames", "2", "--wind-data"}, "branches come and go");
-    refused({"--lods", "3", "--collision", "capsules"}, "--lod-files");
     refused({"--grow", "--frames", "2", "--compress", "meshopt"}, "not quantised");
     CHECK(count_files(folder) == 10);
 }
