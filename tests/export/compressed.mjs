@@ -35,6 +35,7 @@ export function primitivesOf(document) {
                 TEXCOORD_2: items('TEXCOORD_2'),
                 TEXCOORD_0: items('TEXCOORD_0')?.map(uv => transform === null || transform === undefined
                     ? uv : uv.map((x, i) => transform.getOffset()[i] + transform.getScale()[i] * x)),
+                tiles: Math.max(...transform?.getScale() ?? [1]), // that texture coordinates span
             });
         }
     }

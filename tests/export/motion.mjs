@@ -50,9 +50,8 @@ export function shownCorners(three, gltf, time) {
     mixer.setTime(time);
     gltf.scene.updateMatrixWorld(true);
     const corners = [];
-    const scale = new three.Vector3();
     gltf.scene.traverse(object => {
-        if (!object.isMesh || object.getWorldScale(scale).x === 0) {
+        if (!object.isMesh || object.matrixWorld.elements[0] === 0) { // its node has scale 0
             return;
         }
         const { index } = object.geometry;
