@@ -103,7 +103,7 @@ private:
         }
     }
     [[nodiscard]] bool has(std::size_t corner, std::uint32_t way) const {
-        return (ways_[corner] >> way & 1U) != 0;
+        return (std::uint32_t{ways_[corner]} >> way & 1U) != 0;
     }
 
     [[nodiscard]] std::vector<glm::vec2> follow(std::size_t first, std::uint32_t first_way) {
