@@ -589,7 +589,7 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
-    if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+    if (std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
         return conflict;
     }
     const auto names_with = [](bool FormatTraits::*feature) {

@@ -107,7 +107,7 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         if (command.surface.up != UpAxis::Y || command.surface.both_sides) {
             return "--up and --both-sides are for files of trees";
         }
-    } else if (const std::string conflict = find_surface_conflict(command.surface, target.format);
+    } else if (std::string conflict = find_surface_conflict(command.surface, target.format);
                !conflict.empty()) {
         return conflict;
     }
