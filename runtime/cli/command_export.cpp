@@ -46,9 +46,10 @@ struct Export {
     const Project& project;
     const Plant& plant;
     ExportTiming timing;
-    Mesh mesh;                      // of the last file
-    DetailLevels levels;            // of the plant; empty until a coarser level is asked for
-    std::set<std::string> pictures; // names of the written ones, shared by all frames
+    Mesh mesh;                           // of the last file
+    DetailLevels levels;                 // of the plant; empty until a coarser level is asked for
+    std::set<std::string> pictures;      // names of the written ones, shared by all frames
+    std::optional<glm::vec3> pivot = {}; // of all frames of a growth: that of the last plant
 };
 
 /// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
@@ -162,7 +163,8 @@ ExportInfo export_info(const Export& run) {
 /// The place of the plant in its files; the pivot is that of the plant at rest.
 PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
     const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
-    return {pivot_of(rest, run.command.pivot), units_per_metre(run.command.unit)};
+    return {run.pivot.value_or(pivot_of(rest, run.command.pivot)),
+            units_per_metre(run.command.unit)};
 }
 
 /// Makes the mesh of `skeleton`; with `segments` those of its vertices too.
@@ -496,6 +498,21 @@ pose_growth(const Export& run, PlantGrowth& growth, const GrowthMoment& moment, 
                                      : run.console.take(growth.pose(moment, run.project, grown));
 }
 
+/// Sets the pivot of all frames: that of the last plant. Without an option nothing is derived.
+ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
+    if (run.command.pivot == PlantPivot::Origin) {
+        return ExitStatus::Ok;
+    }
+    Skeleton last;
+    const Outcome<void> posed = growth.pose({growth.last_generation(), 0.0}, run.project, last);
+    if (!posed) {
+        run.console.show(posed.messages());
+        return status_of(posed.stop());
+    }
+    run.pivot = pivot_of(last, run.command.pivot); // the last frame shows the messages
+    return ExitStatus::Ok;
+}
+
 /// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
@@ -512,6 +529,9 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
         run.console.info(fmt::format("nothing is drawn before generation {}; the first frame is on "
                                      "the way to it",
                                      first));
+    }
+    if (const ExitStatus status = find_growth_pivot(run, growth); status != ExitStatus::Ok) {
+        return status;
     }
     for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
         GrowthMoment moment = moment_of_frame(frame + skipped, command.frames + skipped,
@@ -549,6 +569,8 @@ ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
         }
     }
     MeshFilm film = builder.finish();
+    place(placement_of(run, grown), film);
+    run.pivot = glm::vec3(0.0F); // the film is in its place
     run.mesh = std::move(film.mesh);
     return write_mesh(run, grown, command.output, {nullptr, &film});
 }
@@ -562,13 +584,20 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
         return {};
     }
     if (command.mesh.level != 0) {
-        return "--lods and --level do not go together: --lods writes the levels from 0 on";
+        return "--lods and --level do not go together: --lods writes the levels from 0 on, --level "
+               "one "
+               "of them";
     }
     if (command.frames != 0) {
-        return "--lods and --frames do not go together";
+        return "--lods and --frames do not go together: levels have other vertices, and only one "
+               "set "
+               "of them can have the skin or the shapes; --level K writes one coarser level that "
+               "moves";
     }
     if (command.mesh.method == MeshMethod::Solid) {
-        return "--lods and --method solid do not go together: a solid has no coarser levels";
+        return "--lods and --method solid do not go together: a solid has no coarser levels; a "
+               "larger "
+               "--min-width gives it fewer triangles";
     }
     if (!traits_of(format).uses_mesh) {
         return fmt::format("--lods needs a format with triangles, which {} is not",
@@ -576,7 +605,8 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     }
     const bool one_file = traits_of(format).lods && !command.lod_files;
     if (one_file && command.buffers == BufferPlace::Separate) {
-        return "--lods with --buffers separate needs --lod-files";
+        return "--lods in one file holds its buffer and pictures, so --buffers separate needs "
+               "--lod-files";
     }
     if (!one_file && !is_regular(command.output)) {
         return fmt::format("--lods writes several files here, which need a file name; {} hold all "
@@ -607,15 +637,18 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return "--grow needs the number of its frames: --frames N";
     }
     if (command.grow && bends) {
-        return "--grow and --gravity or --wind do not go together";
+        return "--grow and --gravity or --wind do not go together: the frames show either the "
+               "generations of a plant or the motion of the last one";
     }
     if (command.grow && (command.wind_data || command.bones)) {
-        return "--grow and --wind-data or --bones do not go together, because branches come and go";
+        return "--grow and --wind-data or --bones do not go together, because branches come and "
+               "go; "
+               "both are for the plant that has grown, without --grow";
     }
     if (command.grow &&
         command.compression.value_or(ExportCompression::None) != ExportCompression::None) {
         return "--grow and --compress do not go together: the changes from frame to frame are not "
-               "quantised";
+               "quantised; fewer --frames or --level K make a smaller file";
     }
     if (command.grow && command.stream) {
         return "--grow and --stream do not go together, because a generation is drawn between "
@@ -649,13 +682,9 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--collision has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.collision; }));
     }
-    if (command.grow && command.pivot != PlantPivot::Origin) {
-        return "--grow and --pivot do not go together, because base and middle of a plant change "
-               "as "
-               "it grows";
-    }
     if (command.grow && command.collision != CollisionKind::None) {
-        return "--grow and --collision do not go together, because branches come and go";
+        return "--grow and --collision do not go together, because branches come and go; take the "
+               "shapes from a file of the plant that has grown, without --grow";
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";
@@ -693,7 +722,7 @@ ExitStatus export_growth(const ExportCommand& command,
         return status_of(begun.stop());
     }
     PlantGrowth& growth = begun.value();
-    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}};
+    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}, {}};
     Skeleton grown;
     const ExitStatus status =
         traits_of(format).film ? write_film(run, growth, grown) : write_growth(run, growth, grown);
@@ -742,7 +771,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}};
+    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}, {}};
     const SteadyClock::time_point start = SteadyClock::now();
     status = bends ? write_bent(run) : write_still(run, plant.skeleton);
     if (status != ExitStatus::Ok || !command.stats) {

@@ -73,7 +73,8 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         return "nothing is asked for; say where to write with -o, or --stats, or --check";
     }
     if (command.expand && command.bake) {
-        return "--expand and --bake do not go together";
+        return "--expand and --bake do not go together: the one writes a node for each tree, the "
+               "other one mesh of all";
     }
     if (command.expand &&
         (target.kind != OutputKind::Instances || !traits_of(target.format).expands_forest)) {
@@ -88,14 +89,18 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
     const bool lods = command.instances == ForestInstances::Lods;
     if (command.instances != ForestInstances::Branches &&
         command.overrides.rho.value_or(0.0F) > 0.0F) {
-        return fmt::format("--instances {} shows heroes as they are, so --rho does not go with it",
-                           lods ? "lods" : "trees");
+        return fmt::format(
+            "--instances {} shows heroes as they are, so --rho does not go with it; more "
+            "--heroes make more different trees",
+            lods ? "lods" : "trees");
     }
     if (command.viewpoint && !lods) {
         return "--viewpoint is for --instances lods, whose trees have levels by distance";
     }
     if (lods && command.frames != 0) {
-        return "--instances lods and --frames do not go together";
+        return "--instances lods and --frames do not go together: levels are fitted to the trees "
+               "of "
+               "one moment; --instances trees writes a series";
     }
     if (lods && target.kind == OutputKind::Statistics) {
         return "--instances lods writes a forest; its statistics are those of --instances trees";

@@ -537,8 +537,13 @@ Result<std::vector<std::string>> find_preset_arguments(const Command& command,
         if (!suits(preset, kCommand, *format)) {
             return Error{unsuitable_text(preset, kCommand, format->name)};
         }
-        return preset_arguments(preset, kCommand, *format, [&app](std::string_view option) {
-            return app.get_option(std::string(option))->count() > 0;
+        return preset_arguments(preset, kCommand, *format, [&app](std::string_view word) {
+            const std::size_t end = std::min(word.find('='), word.size());
+            const std::vector<std::string> values =
+                app.get_option(std::string(word.substr(0, end)))->results();
+            return end == word.size() ? !values.empty()
+                                      : std::find(values.begin(), values.end(),
+                                                  word.substr(end + 1)) != values.end();
         });
     }
     return std::vector<std::string>{};

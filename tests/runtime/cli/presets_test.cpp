@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -79,6 +80,8 @@ TEST_CASE("each preset sets what its options set one by one") {
                     CHECK(named.collision == spelt.collision);
                     CHECK(named.collision_names == spelt.collision_names);
                     CHECK(named.wind_data == spelt.wind_data);
+                    CHECK(named.lods == spelt.lods);
+                    CHECK(named.lod_files == spelt.lod_files);
                     CHECK(named.height == spelt.height);
                 } else {
                     const auto named = parsed<ForestCommand>(by_name);
@@ -109,6 +112,34 @@ TEST_CASE("an option that is given wins over the preset") {
     CHECK(with({"--pivot", "centre"}).pivot == PlantPivot::Centre);
     CHECK_FALSE(with({"--wind-data=false"}).wind_data);
     CHECK_FALSE(with({"--frames", "9", "--wind", "8,0,0"}).wind_data);
+    CHECK(with({}).lods == 12);
+    CHECK(with({"--lods", "3"}).lod_files);
+    CHECK_FALSE(with({"--lod-files=false"}).lod_files);
+    for (const auto& no_levels :
+         std::vector<std::vector<std::string>>{{"--frames", "9", "--wind", "8,0,0"},
+                                               {"--level", "2"},
+                                               {"--method", "solid"},
+                                               {"--output=-", "--format", "glb"}}) {
+        CAPTURE(no_levels[0]);
+        std::vector<std::string> all{"export", "a.lsys", "--preset", "unreal"};
+        all.insert(all.end(), no_levels.begin(), no_levels.end());
+        if (no_levels[0] != "--output=-") {
+            all.insert(all.end(), {"-o", "a.glb"});
+        }
+        const auto command = parsed<ExportCommand>(all);
+        CHECK(command.lods == 0);
+        CHECK_FALSE(command.lod_files);
+        CHECK(command.pivot == PlantPivot::Base);
+    }
+    CHECK(with({"--method", "tubes"}).lods == 12);
+    const auto web = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"forest", "a.lsys", "-o", "a.glb", "--preset", "web"});
+        return parsed<ForestCommand>(more).instances;
+    };
+    CHECK(web({}) == ForestInstances::Lods);
+    CHECK(web({"--frames", "3"}) == ForestInstances::Trees);
+    CHECK(web({"--instances", "branches"}) == ForestInstances::Branches);
+    CHECK(web({"--rho", "0.5"}) == ForestInstances::Branches);
     const auto forest =
         parsed<ForestCommand>({"forest", "a.lsys", "--preset", "unreal", "--bake", "-o", "a.glb"});
     CHECK_FALSE(forest.expand);
@@ -147,9 +178,11 @@ TEST_CASE("docs/files.md has the table of presets") {
 
 TEST_CASE("names of a file's nodes come from its own name, and shapes of collision are children") {
     const ScratchFolder folder;
-    const std::string path = folder / "old oak.glb";
-    REQUIRE(run_lsc({"export", "-", "-o", path, "--preset", "unreal"}, kTree).status == 0);
-    const nlohmann::json document = document_of(read_text(path));
+    REQUIRE(run_lsc({"export", "-", "-o", folder / "old oak.glb", "--preset", "unreal"}, kTree)
+                .status == 0);
+    const nlohmann::json document = document_of(read_text(folder / "old oak.LOD0.glb"));
+    CHECK(document_of(read_text(folder / "old oak.LOD1.glb"))["nodes"].size() == 1);
+    CHECK(nlohmann::json::parse(read_text(folder / "old oak.lods.json"))["levels"].size() >= 3);
     const nlohmann::json& plant = document["nodes"][0];
     CHECK(plant["name"] == "old oak");
     CHECK(document["meshes"][0]["name"] == "old oak");
@@ -233,4 +266,42 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     // Round ends of branches of 1 mm stand out by half of it.
     CHECK(tallest >= 149.9F);
     CHECK(tallest <= 151.5F);
+}
+
+TEST_CASE("a growing plant has the pivot of the last plant in all frames") {
+    const ScratchFolder folder;
+    // Grows upwards from 2 m above the start of the turtle.
+    const char* const growing = "#n = 3; #w : f(2) A; #p : A : * : F(1) A;";
+    const std::string film = folder / "a.glb";
+    const auto lowest = [&](const std::string& glb) {
+        const nlohmann::json document = document_of(glb);
+        double low = 1e9;
+        for (const nlohmann::json& mesh : document["meshes"]) {
+            const nlohmann::json& primitive = mesh["primitives"][0];
+            const std::size_t positions = primitive["attributes"]["POSITION"];
+            const double rest = document["accessors"][positions]["min"][1];
+            low = std::min(low, rest);
+            for (const nlohmann::json& target :
+                 primitive.value("targets", nlohmann::json::array())) {
+                const std::size_t change = target["POSITION"];
+                CHECK(std::abs(document["accessors"][change]["max"][1].get<double>()) < 10.0);
+            }
+        }
+        return low;
+    };
+    const std::vector<std::string> grow{"export", "-", "--grow", "--frames", "7", "-o", film};
+    REQUIRE(run_lsc(grow, growing).status == 0);
+    CHECK(lowest(read_text(film)) == Approx(2.0));
+    std::vector<std::string> based = grow;
+    based.insert(based.end(), {"--pivot", "base"});
+    REQUIRE(run_lsc(based, growing).status == 0);
+    CHECK(lowest(read_text(film)) == Approx(0.0).margin(1e-6));
+    // The middle of the last plant, 3 m high, in a series too.
+    based = {"export", "-", "--grow", "--frames", "4", "--pivot", "centre", "-o", folder / "b.obj"};
+    REQUIRE(run_lsc(based, growing).status == 0);
+    for (const char* frame : {"1", "2", "3"}) {
+        const std::string text = read_text(folder / fmt::format("b.000{}.obj", frame));
+        CAPTURE(frame);
+        CHECK(text.find(" -1.5 ") != std::string::npos);
+    }
 }
