@@ -3,6 +3,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -197,6 +198,11 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
         for (const Material& material : scene.ground->materials) {
             materials.of_ground.push_back(add_material(materials.samples, material));
         }
+    }
+    std::vector<std::string> names; // species may have files of the same name
+    for (Material& material : materials.samples.materials) {
+        material.name = unique_name(names, material.name);
+        names.push_back(material.name);
     }
     materials.samples.positions.resize(1);
     materials.samples.texture_coordinates.resize(textured ? 1 : 0);
