@@ -50,6 +50,9 @@ struct Export {
     DetailLevels levels;                 // of the plant; empty until a coarser level is asked for
     std::set<std::string> pictures;      // names of the written ones, shared by all frames
     std::optional<glm::vec3> pivot = {}; // of all frames of a growth: that of the last plant
+    bool is_placed = false;              // the mesh has its pivot and unit
+    std::vector<Mesh>* collected = nullptr; // receives meshes in place of files; null: none
+    const PlantVariants* variants = nullptr;
 };
 
 /// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
@@ -162,6 +165,9 @@ ExportInfo export_info(const Export& run) {
 
 /// The place of the plant in its files; the pivot is that of the plant at rest.
 PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
+    if (run.is_placed) {
+        return {};
+    }
     const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
     return {run.pivot.value_or(pivot_of(rest, run.command.pivot)),
             units_per_metre(run.command.unit)};
@@ -198,6 +204,7 @@ ExitStatus write_mesh(Export& run,
     ExportInfo info = export_info(run);
     info.animation = movement.animation;
     info.film = movement.film;
+    info.variants = run.variants;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
     const PlantPlacement placement = placement_of(run, skeleton);
@@ -295,6 +302,12 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
         meshes.erase(meshes.begin());
         ExportInfo info = origin;
         info.coarser = &meshes;
+        if (is_regular(command.output)) {
+            status = add_side_files(run, placed, command.output, info, files);
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
         status = files.add(command.output, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, placed, run.format, info, sink);
         });
@@ -344,6 +357,14 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
 
 /// Writes a plant that does not move.
 ExitStatus write_still(Export& run, const Skeleton& skeleton) {
+    if (run.collected != nullptr) {
+        const ExitStatus status = mesh_frame(run, skeleton, false);
+        if (status == ExitStatus::Ok) {
+            place(placement_of(run, skeleton), run.mesh);
+            run.collected->push_back(std::move(run.mesh));
+        }
+        return status;
+    }
     return run.command.lods != 0 ? write_lods(run, skeleton)
                                  : write_plant(run, skeleton, run.command.output);
 }
@@ -570,7 +591,7 @@ ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
     }
     MeshFilm film = builder.finish();
     place(placement_of(run, grown), film);
-    run.pivot = glm::vec3(0.0F); // the film is in its place
+    run.is_placed = true;
     run.mesh = std::move(film.mesh);
     return write_mesh(run, grown, command.output, {nullptr, &film});
 }
@@ -616,10 +637,49 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     return {};
 }
 
+/// A message about options that --variants does not go with; empty if there are none.
+std::string find_variant_conflict(const ExportCommand& command, ExportFormat format) {
+    if (!command.variants) {
+        return {};
+    }
+    const std::string instead = fmt::format(
+        "a file for each value: -D {}={}", command.variants->name, command.variants->texts.front());
+    if (!traits_of(format).variants) {
+        return fmt::format("--variants is for {}; other formats take {}",
+                           format_names("and", [](const auto& each) { return each.variants; }),
+                           instead);
+    }
+    if (command.lods != 0) {
+        return "--variants and --lods do not go together, because each plant has levels of its "
+               "own; write " +
+               instead;
+    }
+    if (command.frames != 0) {
+        return "--variants and --frames do not go together, because each plant moves in its own "
+               "way; write " +
+               instead;
+    }
+    if (is_standard_input(command.file)) {
+        return "--variants reads the grammar for each value, so it needs a file and not standard "
+               "input";
+    }
+    const auto& given = command.grammar.definitions;
+    if (std::any_of(given.begin(), given.end(),
+                    [&](const Definition& each) { return each.name == command.variants->name; })) {
+        return fmt::format("`{}` has one value by -D and several by --variants; leave out one of "
+                           "them",
+                           command.variants->name);
+    }
+    return {};
+}
+
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
     if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+        return conflict;
+    }
+    if (const std::string conflict = find_variant_conflict(command, format); !conflict.empty()) {
         return conflict;
     }
     const auto names_with = [](bool FormatTraits::*feature) {
@@ -710,6 +770,90 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     return {};
 }
 
+/// The plant of one value of --variants.
+struct VariantPlant {
+    ExportCommand command;
+    Grammar grammar;
+    Plant plant;
+};
+
+/// Takes the value of an outcome and shows its messages, unless the same ones have been shown.
+template <typename T>
+ExitStatus
+take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::string>& shown) {
+    if (shown.insert(messages_text(outcome.messages(), console.options(), "lsc")).second) {
+        console.show(outcome.messages());
+    }
+    if (!outcome) {
+        return status_of(outcome.stop());
+    }
+    value = std::move(outcome.value());
+    return ExitStatus::Ok;
+}
+
+/// Writes a plant for each value of --variants into one file.
+ExitStatus export_variants(const ExportCommand& command,
+                           ExportFormat format,
+                           const Project& project,
+                           const Console& console) {
+    const VariantValues& values = *command.variants;
+    PlantVariants variants{.set = values.name, .names = values.texts, .others = {}};
+    VariantPlant first;
+    std::set<std::string> shown;
+    ExportTiming timing;
+    for (std::size_t i = 0; i < values.values.size(); ++i) {
+        VariantPlant later;
+        VariantPlant& grown = i == 0 ? first : later;
+        grown.command = command;
+        grown.command.grammar.definitions.push_back({values.name, values.values[i]});
+        ExitStatus status = take_once(load_grammar(command.file, grown.command.grammar, project),
+                                      grown.grammar, console, shown);
+        if (status == ExitStatus::Ok) {
+            grown.grammar.program.reset();
+            status = take_once(grow_plant(plant_options(command), grown.grammar, project),
+                               grown.plant, console, shown);
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        Export run{grown.command,
+                   format,
+                   grown.grammar,
+                   console,
+                   project,
+                   grown.plant,
+                   timing,
+                   {},
+                   {},
+                   {},
+                   {}};
+        run.collected = &variants.others;
+        status = command.gravity || command.wind ? write_bent(run)
+                                                 : write_still(run, grown.plant.skeleton);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        timing = run.timing;
+    }
+    Export run{first.command,
+               format,
+               first.grammar,
+               console,
+               project,
+               first.plant,
+               timing,
+               {},
+               {},
+               {},
+               {}};
+    run.mesh = std::move(variants.others.front());
+    variants.others.erase(variants.others.begin());
+    run.is_placed = true;
+    run.variants = &variants;
+    const ExitStatus status = write_mesh(run, first.plant.skeleton, command.output, {});
+    return status == ExitStatus::Ok && command.stats ? write_stats(run, first.plant) : status;
+}
+
 /// Grows the plant of a compiled grammar in frames and writes them.
 ExitStatus export_growth(const ExportCommand& command,
                          ExportFormat format,
@@ -754,6 +898,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     }
     Grammar grammar;
     Project project = make_project(console, command.run);
+    if (command.variants) {
+        return export_variants(command, *format, project, console);
+    }
     ExitStatus status = console.take(load_grammar(command.file, command.grammar, project), grammar);
     if (status != ExitStatus::Ok) {
         return status;

@@ -168,6 +168,33 @@ void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
                             "that is given too wins");
 }
 
+/// `season=0,0.5`: a name and several numbers.
+Result<VariantValues> parse_variants(const std::string& text) {
+    VariantValues variants;
+    const std::size_t equals = std::min(text.find('='), text.size());
+    variants.name = text.substr(0, equals);
+    for (std::size_t at = equals; at < text.size();) {
+        const std::size_t end = std::min(text.find(',', at + 1), text.size());
+        variants.texts.push_back(text.substr(at + 1, end - at - 1));
+        at = end;
+        const Result<Definition> value =
+            parse_definition(fmt::format("{}={}", variants.name, variants.texts.back()));
+        if (!value) {
+            return value.error();
+        }
+        if (std::find(variants.values.begin(), variants.values.end(), value.value().value) !=
+            variants.values.end()) {
+            return Error{fmt::format("`{}` is given twice", variants.texts.back())};
+        }
+        variants.values.push_back(value.value().value);
+    }
+    if (variants.values.size() < 2) {
+        return Error{
+            fmt::format("`{}` is not NAME=NUMBER,NUMBER,... with two numbers or more", text)};
+    }
+    return variants;
+}
+
 /// Options of the file of a plant.
 void add_placement(CLI::App& app, ExportCommand& command) {
     const std::string unit =
@@ -249,18 +276,28 @@ void add_export(CLI::App& app, ExportCommand& command) {
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
     describe_detail_levels(app);
-    add_parsed(app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
-               fmt::format(
-                   "Write the first N levels of detail: {} hold them in one file (MSFT_lod), other "
-                   "formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
-                   format_names("and", [](const FormatTraits& format) { return format.lods; }))
-                   .c_str())
+    add_parsed(
+        app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
+        fmt::format(
+            "Write the first N levels of detail: {} hold them in one file (glTF as MSFT_lod, "
+            "USD as the variant set LOD), other formats are files tree.LOD0.obj, "
+            "tree.LOD1.obj, ... and tree.lods.json",
+            format_names("and", [](const FormatTraits& format) { return format.lods; }))
+            .c_str())
         ->type_name("N")
         ->group("Mesh");
     app.add_flag("--lod-files", command.lod_files,
                  "Write a file for each level in any format, and the list of distances "
                  "tree.lods.json")
         ->group("Mesh");
+    add_parsed(
+        app, "--variants", command.variants, parse_variants,
+        fmt::format("Write a plant for each value of a #define or #param into one file, as "
+                    "variants of a set with its name ({}); the first is shown unless another is "
+                    "selected",
+                    format_names("and", [](const FormatTraits& format) { return format.variants; }))
+            .c_str())
+        ->type_name("NAME=NUMBER,NUMBER,...");
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
@@ -322,7 +359,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
         "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
         "Examples: lsc export tree.lsys -o tree.glb\n"
         "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
-        "          lsc export tree.lsys -o tree.glb --grow --frames 100");
+        "          lsc export tree.lsys -o tree.glb --grow --frames 100\n"
+        "          lsc export tree.lsys -o tree.usdz --variants season=0,0.25,0.5,0.75");
 }
 
 void add_forest(CLI::App& app, ForestCommand& command) {

@@ -84,6 +84,13 @@ struct SurfaceOptions {
     bool both_sides = false;
 };
 
+/// Values of a constant of the grammar: a plant for each in one file.
+struct VariantValues {
+    std::string name;
+    std::vector<std::string> texts; // as they were given
+    std::vector<float> values;
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -115,6 +122,7 @@ struct ExportCommand {
     bool stream = false;
     std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
     bool lod_files = false; // a file for each level
+    std::optional<VariantValues> variants;
     bool stats = false;
 };
 
