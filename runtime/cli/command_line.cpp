@@ -195,16 +195,36 @@ Result<VariantValues> parse_variants(const std::string& text) {
     return variants;
 }
 
-/// Options of the file of a plant.
-void add_placement(CLI::App& app, ExportCommand& command) {
+void add_unit(CLI::App& app, LengthUnit& target) {
     const std::string unit =
         fmt::format("Unit of lengths in {} (default m)",
                     format_names("and", [](const FormatTraits& format) { return format.units; }));
-    add_choice<LengthUnit>(app, "--unit", command.unit,
+    add_choice<LengthUnit>(app, "--unit", target,
                            {{"m", LengthUnit::Metres},
                             {"cm", LengthUnit::Centimetres},
                             {"mm", LengthUnit::Millimetres}},
                            unit.c_str());
+}
+
+void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
+    add_choice<CollisionKind>(app, "--collision", kind,
+                              {{"none", CollisionKind::None},
+                               {"capsules", CollisionKind::Capsules},
+                               {"hulls", CollisionKind::Hulls}},
+                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
+                              "glTF (default none)");
+    add_choice<CollisionNames>(
+        app, "--collision-names", names,
+        {{"unreal", CollisionNames::Unreal},
+         {"godot", CollisionNames::Godot},
+         {"unity", CollisionNames::Unity}},
+        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
+        "(default unreal)");
+}
+
+/// Options of the file of a plant.
+void add_placement(CLI::App& app, ExportCommand& command) {
+    add_unit(app, command.unit);
     add_choice<PlantPivot>(
         app, "--pivot", command.pivot,
         {{"origin", PlantPivot::Origin},
@@ -212,19 +232,7 @@ void add_placement(CLI::App& app, ExportCommand& command) {
          {"centre", PlantPivot::Centre}},
         "Point that becomes the origin of the file: the start of the turtle, the base of the trunk "
         "or the middle of the plant (default origin)");
-    add_choice<CollisionKind>(app, "--collision", command.collision,
-                              {{"none", CollisionKind::None},
-                               {"capsules", CollisionKind::Capsules},
-                               {"hulls", CollisionKind::Hulls}},
-                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
-                              "glTF (default none)");
-    add_choice<CollisionNames>(
-        app, "--collision-names", command.collision_names,
-        {{"unreal", CollisionNames::Unreal},
-         {"godot", CollisionNames::Godot},
-         {"unity", CollisionNames::Unity}},
-        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
-        "(default unreal)");
+    add_collision(app, command.collision, command.collision_names);
 }
 
 void add_compression(CLI::App& app, std::optional<ExportCompression>& compression) {
@@ -397,6 +405,13 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
                "Eye for --instances lods, in m (default: outside the edge of the forest)")
         ->type_name("X,Y,Z");
+    add_unit(app, command.unit);
+    add_choice<ForestPivot>(
+        app, "--pivot", command.pivot,
+        {{"origin", ForestPivot::Origin}, {"base", ForestPivot::Base}},
+        "Place that becomes the origin of the file: the origin of the scene, or the ground in the "
+        "middle of its rectangle (default origin)");
+    add_collision(app, command.collision, command.collision_names);
     add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,

@@ -129,6 +129,12 @@ struct ExportCommand {
 /// Parts of a forest that its file repeats.
 enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
+/// Place of a scene that is the origin of its file.
+enum class ForestPivot : std::uint8_t {
+    Origin, // that of the scene
+    Base,   // the ground in the middle of the scene's rectangle
+};
+
 struct ForestCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or grammars
@@ -140,6 +146,10 @@ struct ForestCommand {
     bool expand = false;
     bool bake = false;
     SurfaceOptions surface;
+    LengthUnit unit = LengthUnit::Metres;
+    ForestPivot pivot = ForestPivot::Origin;
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
     ForestInstances instances = ForestInstances::Branches;
     std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
