@@ -97,6 +97,7 @@ struct ProgramPattern {
 struct LocalValue {
     NameId name = kNoName;
     SourceSpan name_span;
+    SourceSpan span; // `name = value`
     ValueId value = kNoValue;
     bool is_used = false;
 };

@@ -100,7 +100,9 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
         if (is_new_local(node, production)) {
             const auto slot = static_cast<std::uint32_t>(production.locals.size());
             reading_.expressions.add_local(node.name, value, slot);
-            production.locals.push_back({node.name, node.name_span, value, false});
+            const SourceSpan span{node.name_span.file, node.name_span.begin,
+                                  resolution_.ast.expression(node.value).end};
+            production.locals.push_back({node.name, node.name_span, span, value, false});
         }
     }
 }
