@@ -22,6 +22,7 @@ namespace lsys {
 // Component types of accessors.
 inline constexpr int kGltfSignedByte = 5120;
 inline constexpr int kGltfByte = 5121; // all others unsigned
+inline constexpr int kGltfSignedShort = 5122;
 inline constexpr int kGltfShort = 5123;
 inline constexpr int kGltfInteger = 5125;
 inline constexpr int kGltfFloat = 5126;
