@@ -83,7 +83,7 @@ export async function tinyUsdz(module, modules) {
 
 /// Number of instances and box of a forest: points of `loader`, instances of the layer's `text`.
 /// tinyusdz shows no instances by itself.
-export function instancedBox(loader, text) {
+export function instancedBox(loader, text, { ground = true } = {}) {
     const meshes = new Map();
     for (let i = 0; i < loader.numMeshes(); ++i) {
         const mesh = loader.getMesh(i);
@@ -95,14 +95,14 @@ export function instancedBox(loader, text) {
         low[axis] = Math.min(low[axis], x);
         high[axis] = Math.max(high[axis], x);
     });
-    const ground = meshes.get('/Forest/Ground') ?? [];
-    for (let i = 0; i < ground.length; i += 3) {
-        add([ground[i], ground[i + 1], ground[i + 2]]);
+    const surface = ground ? meshes.get('/Forest/Ground') ?? [] : [];
+    for (let i = 0; i < surface.length; i += 3) {
+        add([surface[i], surface[i + 1], surface[i + 2]]);
     }
     let instances = 0;
     for (const instancer of text.split('def PointInstancer').slice(1)) {
-        const value = name => new RegExp(` ${name} = \\[([^\\]]*)\\]`).exec(instancer)[1];
-        const numbers = name => value(name).match(/-?[\d.]+(?:e[-+]?\d+)?/g).map(Number);
+        const value = name => new RegExp(` ${name} = \\[([^\\]]*)\\]`).exec(instancer)?.[1];
+        const numbers = name => value(name)?.match(/-?[\d.]+(?:e[-+]?\d+)?/g).map(Number);
         const prototypes = value('prototypes').match(/[^<>]+(?=>)/g).map(path => meshes.get(path));
         const [at, turns, sizes] = ['positions', 'orientations', 'scales'].map(numbers);
         numbers('protoIndices').forEach((prototype, i) => {
@@ -111,7 +111,7 @@ export function instancedBox(loader, text) {
             const length = Math.hypot(...q);
             const [w, x, y, z] = q.map(part => part / length);
             for (let p = 0; p < points.length; p += 3) {
-                const v = [0, 1, 2].map(axis => points[p + axis] * sizes[3 * i + axis]);
+                const v = [0, 1, 2].map(axis => points[p + axis] * (sizes?.[3 * i + axis] ?? 1)); // none: all are 1
                 const t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]),
                            2 * (x * v[1] - y * v[0])];
                 add([at[3 * i] + v[0] + w * t[0] + y * t[2] - z * t[1],
