@@ -4,33 +4,8 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { Box, composed } from './forest.mjs';
 import { instancedBox, tinyUsdz } from './usd.mjs';
-
-/// The box around transformed points, in doubles.
-export class Box {
-    low = [Infinity, Infinity, Infinity];
-    high = [-Infinity, -Infinity, -Infinity];
-
-    /// Points x y z x y z ..., each turned by a matrix of 16 numbers, column by column.
-    add(points, m) {
-        const { low, high } = this;
-        for (let p = 0; p < points.length; p += 3) {
-            for (let row = 0; row < 3; ++row) {
-                const x = points[p] * m[row] + points[p + 1] * m[4 + row] + points[p + 2] * m[8 + row] + m[12 + row];
-                low[row] = x < low[row] ? x : low[row];
-                high[row] = x > high[row] ? x : high[row];
-            }
-        }
-    }
-}
-
-/// Matrix of a scale, a turn by a quaternion, then a shift.
-export function composed([tx, ty, tz], [x, y, z, w], [sx, sy, sz]) {
-    return [sx * (1 - 2 * (y * y + z * z)), sx * 2 * (x * y + z * w), sx * 2 * (x * z - y * w), 0,
-            sy * 2 * (x * y - z * w), sy * (1 - 2 * (x * x + z * z)), sy * 2 * (y * z + x * w), 0,
-            sz * 2 * (x * z + y * w), sz * 2 * (y * z - x * w), sz * (1 - 2 * (x * x + y * y)), 0,
-            tx, ty, tz, 1];
-}
 
 function product(a, b) {
     return Array.from({ length: 16 }, (_, i) => [0, 1, 2, 3].reduce(
