@@ -22,7 +22,7 @@ struct ForestScene {
 };
 
 enum class ForestForm : std::uint8_t {
-    Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes per branch instance
+    Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes per instance, or less
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
 /// Max count of branch instances of ForestForm::Expanded. Each takes about 200 bytes of the file.

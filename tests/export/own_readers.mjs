@@ -377,7 +377,8 @@ export function readUsdaForest(text) {
         assert(!('orientationsf' in prim.properties), 'orientations in two arrays');
         const count = value('protoIndices').length;
         const widths = { positions: 3, orientations: 4, scales: 3 };
-        for (const [name, width] of Object.entries(widths)) {
+        const scaled = 'scales' in prim.properties; // else all are 1
+        for (const [name, width] of Object.entries(widths).slice(0, scaled ? 3 : 2)) {
             assert(value(name).length === count &&
                    value(name).every(t => t.length === width && t.every(Number.isFinite)), name);
         }
@@ -387,7 +388,7 @@ export function readUsdaForest(text) {
             const length = Math.hypot(...half);
             assert(Math.abs(length - 1) < 2e-3, 'an orientation of another length');
             const q = half.map(x => x / length);
-            const [s, p] = [value('scales')[i], value('positions')[i]];
+            const [s, p] = [scaled ? value('scales')[i] : [1, 1, 1], value('positions')[i]];
             found.triangles += triangles;
             points.forEach(v => add(turned(q, v.map((x, k) => x * s[k])).map((x, k) => x + p[k])));
         });

@@ -6,18 +6,25 @@
 //
 // --forest: FOLDER has expanded.glb and expanded.gltf, whose nodes put triangles where baked.ply
 // has them, in another order.
+//
+// --box FILE: prints seconds and memory of reading, the number of nodes with meshes and the box of
+// all but a node `ground`, as JSON.
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
+#include <assimp/version.h>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <sys/resource.h>
 #include <utility>
 #include <vector>
 
@@ -248,14 +255,61 @@ int read_forest(const std::filesystem::path& folder) {
     return failures == 0 && !baked.corners.empty() ? 0 : 1;
 }
 
+int print_box(const std::filesystem::path& path) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t processor = std::clock();
+    Assimp::Importer importer;
+    const aiScene* const scene = importer.ReadFile(path.string(), 0);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    const double worked = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+    if (scene == nullptr) {
+        fail(path, importer.GetErrorString());
+        return 1;
+    }
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    Whole box;
+    std::uint64_t nodes = 0;
+    std::vector<std::pair<const aiNode*, aiMatrix4x4>> pending{
+        {scene->mRootNode, scene->mRootNode->mTransformation}};
+    while (!pending.empty()) {
+        const auto [node, matrix] = pending.back();
+        pending.pop_back();
+        for (unsigned c = 0; c < node->mNumChildren; ++c) {
+            const aiNode* const child = node->mChildren[c];
+            pending.emplace_back(child, matrix * child->mTransformation);
+        }
+        if (node->mNumMeshes == 0 || std::string(node->mName.C_Str()) == "ground") {
+            continue;
+        }
+        ++nodes;
+        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+            const aiMesh& mesh = *scene->mMeshes[node->mMeshes[m]];
+            for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+                box.bound(matrix * mesh.mVertices[v]);
+            }
+        }
+    }
+    std::printf(
+        "{\"reader\":\"assimp %u.%u.%u\",\"seconds\":%.3f,\"processor\":%.3f,\"megabytes\":%.1f,"
+        "\"instances\":%llu,\"low\":[%.9g,%.9g,%.9g],\"high\":[%.9g,%.9g,%.9g]}\n",
+        aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(), time.count(), worked,
+        static_cast<double>(use.ru_maxrss) / 1024.0, static_cast<unsigned long long>(nodes),
+        box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]);
+    return 0;
+}
+
 } // namespace
 
 int main(int argument_count, char** arguments) {
     if (argument_count == 3 && std::string(arguments[1]) == "--forest") {
         return read_forest(arguments[2]);
     }
+    if (argument_count == 3 && std::string(arguments[1]) == "--box") {
+        return print_box(arguments[2]);
+    }
     if (argument_count != 2) {
-        std::fputs("usage: read_assimp [--forest] FOLDER\n", stderr);
+        std::fputs("usage: read_assimp [--forest] FOLDER | --box FILE\n", stderr);
         return 2;
     }
     const std::filesystem::path folder = arguments[1];

@@ -1,6 +1,7 @@
 // Readers of USD by other people: three.js, with motion, and tinyusdz.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { Box, composed } from './forest.mjs';
 
 /// three.js and a function that reads the bytes of a file. Pictures are not decoded.
 export async function usdLoader(module) {
@@ -93,43 +94,28 @@ export async function tinyUsdz(module, modules) {
 
 /// Number of instances and box of a forest: points of `loader`, instances of the layer's `text`.
 /// tinyusdz shows no instances by itself.
-export function instancedBox(loader, text) {
+export function instancedBox(loader, text, { ground = true } = {}) {
     const meshes = new Map();
     for (let i = 0; i < loader.numMeshes(); ++i) {
         const mesh = loader.getMesh(i);
         meshes.set(mesh.absPath, mesh.points);
     }
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
-    const add = point => point.forEach((x, axis) => {
-        low[axis] = Math.min(low[axis], x);
-        high[axis] = Math.max(high[axis], x);
-    });
-    const ground = meshes.get('/Forest/Ground') ?? [];
-    for (let i = 0; i < ground.length; i += 3) {
-        add([ground[i], ground[i + 1], ground[i + 2]]);
-    }
+    const box = new Box();
+    box.add(ground ? meshes.get('/Forest/Ground') ?? [] : [], composed([0, 0, 0], [0, 0, 0, 1], [1, 1, 1]));
     let instances = 0;
     for (const instancer of text.split('def PointInstancer').slice(1)) {
-        const value = name => new RegExp(` ${name} = \\[([^\\]]*)\\]`).exec(instancer)[1];
-        const numbers = name => value(name).match(/-?[\d.]+(?:e[-+]?\d+)?/g).map(Number);
+        const value = name => new RegExp(` ${name} = \\[([^\\]]*)\\]`).exec(instancer)?.[1];
+        const numbers = name => value(name)?.match(/-?[\d.]+(?:e[-+]?\d+)?/g).map(Number);
         const prototypes = value('prototypes').match(/[^<>]+(?=>)/g).map(path => meshes.get(path));
         const [at, turns, sizes] = ['positions', 'orientations', 'scales'].map(numbers);
         numbers('protoIndices').forEach((prototype, i) => {
-            const points = prototypes[prototype];
             const q = turns.slice(4 * i, 4 * i + 4);
             const length = Math.hypot(...q);
             const [w, x, y, z] = q.map(part => part / length);
-            for (let p = 0; p < points.length; p += 3) {
-                const v = [0, 1, 2].map(axis => points[p + axis] * sizes[3 * i + axis]);
-                const t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]),
-                           2 * (x * v[1] - y * v[0])];
-                add([at[3 * i] + v[0] + w * t[0] + y * t[2] - z * t[1],
-                     at[3 * i + 1] + v[1] + w * t[1] + z * t[0] - x * t[2],
-                     at[3 * i + 2] + v[2] + w * t[2] + x * t[1] - y * t[0]]);
-            }
+            const size = sizes?.slice(3 * i, 3 * i + 3) ?? [1, 1, 1]; // none: all are 1
+            box.add(prototypes[prototype], composed(at.slice(3 * i, 3 * i + 3), [x, y, z, w], size));
             ++instances;
         });
     }
-    return { instances, low, high };
+    return { instances, low: box.low, high: box.high };
 }

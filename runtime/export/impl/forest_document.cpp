@@ -32,6 +32,15 @@ void put_array_view(JsonWriter& json, const ForestView& view) {
     json.end();
 }
 
+/// The view of compressed transforms: items of instances, which are no vertices.
+void put_transform_view(JsonWriter& json, const ForestView& view) {
+    json.object().member("buffer", 1).member("byteOffset", view.decoded_offset);
+    json.member("byteLength", view.item_bytes());
+    put_packed_view(json,
+                    {view.offset, view.bytes, view.type.stride, view.count, false, view.filter});
+    json.end();
+}
+
 /// A view of bytes that are no vertices.
 void put_plain_view(JsonWriter& json, std::uint64_t offset, std::uint64_t bytes) {
     json.object().member("buffer", 0).member("byteOffset", offset);
@@ -275,17 +284,7 @@ void ForestDocument::put_accessors(JsonWriter& json) const {
         }
     });
     if (instanced()) {
-        for (const ForestGroup& group : plan_.groups()) {
-            std::uint64_t offset = kInstanceBytes * group.first;
-            const auto put_transform = [&](std::uint64_t bytes, std::string_view type) {
-                begin_accessor(json, {transforms_view_, offset, kGltfFloat, group.count, type})
-                    .end();
-                offset += bytes * group.count;
-            };
-            put_transform(kTranslationBytes, "VEC3");
-            put_transform(kRotationBytes, "VEC4");
-            put_transform(kScaleBytes, "VEC3");
-        }
+        put_group_accessors(json);
     }
     std::size_t view = first_collision_view_;
     for (const GltfCollision& collision : collisions_) {
@@ -293,6 +292,39 @@ void ForestDocument::put_accessors(JsonWriter& json) const {
         view += collision.shapes.empty() ? 0U : 2U;
     }
     json.end();
+}
+
+void ForestDocument::put_group_accessors(JsonWriter& json) const {
+    std::size_t first_view = transforms_view_;
+    std::size_t group = 0;
+    for (const PackedTransforms& packed : packed_) {
+        for (const std::size_t end = group + packed.group_count; group < end; ++group) {
+            const auto& [instance, first, count] = plan_.groups()[group];
+            for (std::size_t i = 0; i < packed.views.size(); ++i) {
+                const GltfItem& type = packed.views[i].type;
+                begin_accessor(json, {first_view + i, type.stride * (first - packed.first),
+                                      type.component, count, type.type});
+                if (type.normalized) {
+                    json.member("normalized", true);
+                }
+                json.end();
+            }
+        }
+        first_view += packed.views.size();
+    }
+    if (!packed_.empty()) {
+        return;
+    }
+    for (const ForestGroup& floats : plan_.groups()) {
+        std::uint64_t offset = kInstanceBytes * floats.first;
+        const auto put_transform = [&](std::uint64_t bytes, std::string_view type) {
+            begin_accessor(json, {transforms_view_, offset, kGltfFloat, floats.count, type}).end();
+            offset += bytes * floats.count;
+        };
+        put_transform(kTranslationBytes, "VEC3");
+        put_transform(kRotationBytes, "VEC4");
+        put_transform(kScaleBytes, "VEC3");
+    }
 }
 
 void ForestDocument::put_views(JsonWriter& json) const {
@@ -309,8 +341,13 @@ void ForestDocument::put_views(JsonWriter& json) const {
             }
         }
     }
+    for (const PackedTransforms& packed : packed_) {
+        for (const ForestView& view : packed.views) {
+            put_transform_view(json, view);
+        }
+    }
     std::uint64_t offset = transforms_offset_;
-    if (first_image_view_ > transforms_view_) {
+    if (packed_.empty() && first_image_view_ > transforms_view_) {
         const std::uint64_t bytes = kInstanceBytes * plan_.branches();
         put_plain_view(json, offset, bytes);
         offset += bytes;

@@ -11,11 +11,13 @@
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,7 @@ struct ForestView {
     /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
     std::string compressed = {};
     std::uint64_t decoded_offset = 0;
+    std::string_view filter = {}; // of compressed items; empty: none
 
     [[nodiscard]] std::uint64_t item_bytes() const { return type.stride * count; }
 };
@@ -55,6 +58,19 @@ struct ForestSurface {
     SlicedMesh sliced;
     std::vector<ForestBlock> blocks; // by material of the mesh
 };
+
+/// Compressed transforms of consecutive groups.
+struct PackedTransforms {
+    std::uint64_t first = 0;         // number of the first instance
+    std::uint64_t group_count = 0;   // at least 1
+    std::array<ForestView, 3> views; // translations, rotations, scales
+};
+/// Compresses the transforms `floats` of `groups`. Translations are rounded to the power of two at
+/// or below half a step of positions (the scale of an instance is its step in metres), rotations to
+/// 16 bits, scales to 16 bits of their number.
+[[nodiscard]] PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
+                                               std::span<const float> floats,
+                                               std::uint32_t threads);
 
 class ForestDocument {
 public:
@@ -97,7 +113,10 @@ private:
     /// Plans the views of a surface, without their places.
     void add_views(ForestSurface& surface);
     void compress_views();
+    void compress_transforms();
     void place_views();
+    /// Gives a view its place behind the others.
+    void place(ForestView& view);
     /// Calls visit(surface, material of the mesh, view) for each view in order.
     template <typename Visit>
     void for_each_view(const Visit& visit);
@@ -116,6 +135,7 @@ private:
     void put_accessors(JsonWriter& json) const;
     static void
     put_part_accessors(JsonWriter& json, const ForestSurface& surface, std::size_t part);
+    void put_group_accessors(JsonWriter& json) const;
     void put_views(JsonWriter& json) const;
     /// Calls visit(surface, parts) for each mesh in the order of their numbers.
     template <typename Visit>
@@ -142,10 +162,11 @@ private:
     Pictures pictures_;
     std::size_t view_count_ = 0;
     std::vector<std::string> images_;
-    std::size_t transforms_view_ = 0;
+    std::vector<PackedTransforms> packed_; // empty: transforms are floats
+    std::size_t transforms_view_ = 0;      // the first
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
-    std::uint64_t transforms_offset_ = 0;
+    std::uint64_t transforms_offset_ = 0; // of floats, else of the images
     std::uint64_t bytes_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };

@@ -45,4 +45,13 @@ void write_transforms(const ForestPlan& plan,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);
 
+/// Calls visit(groups, floats) for runs of consecutive groups of one cell or several, in order: as
+/// many as fit into ForestExportInfo::window_bytes, at least one. `floats` are what
+/// write_transforms() hands over for them.
+void for_each_transform_window(
+    const ForestPlan& plan,
+    std::span<const ItemGrid> grids,
+    const ForestExportInfo& info,
+    const std::function<void(std::span<const ForestGroup>, std::span<const float>)>& visit);
+
 } // namespace lsys

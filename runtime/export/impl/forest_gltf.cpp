@@ -68,8 +68,11 @@ ForestDocument::ForestDocument(const ForestScene& scene,
     });
     first_group_accessor_ = accessor;
     transforms_view_ = view_count_;
+    if (instanced() && info.compression == ExportCompression::Meshopt) {
+        compress_transforms();
+    }
     transforms_offset_ = bytes_;
-    if (instanced() && plan.branches() > 0) {
+    if (instanced() && packed_.empty() && plan.branches() > 0) {
         ++view_count_;
         bytes_ += kInstanceBytes * plan.branches();
     }
@@ -323,17 +326,31 @@ void ForestDocument::compress_views() {
     });
 }
 
+void ForestDocument::compress_transforms() {
+    for_each_transform_window(
+        plan_, grids_, info_,
+        [this](std::span<const ForestGroup> groups, std::span<const float> floats) {
+            packed_.push_back(pack_transforms(groups, floats, info_.threads));
+            for (ForestView& view : packed_.back().views) {
+                place(view);
+                ++view_count_;
+            }
+        });
+}
+
+void ForestDocument::place(ForestView& view) {
+    view.offset = bytes_;
+    view.bytes = view.item_bytes();
+    if (!view.compressed.empty()) {
+        view.bytes = view.compressed.size();
+        view.decoded_offset = decoded_bytes_;
+        decoded_bytes_ += (view.item_bytes() + 3) / 4 * 4;
+    }
+    bytes_ += (view.bytes + 3) / 4 * 4;
+}
+
 void ForestDocument::place_views() {
-    for_each_view([this](const ForestSurface&, std::size_t, ForestView& view) {
-        view.offset = bytes_;
-        view.bytes = view.item_bytes();
-        if (!view.compressed.empty()) {
-            view.bytes = view.compressed.size();
-            view.decoded_offset = decoded_bytes_;
-            decoded_bytes_ += (view.item_bytes() + 3) / 4 * 4;
-        }
-        bytes_ += (view.bytes + 3) / 4 * 4;
-    });
+    for_each_view([this](const ForestSurface&, std::size_t, ForestView& view) { place(view); });
 }
 
 void ForestDocument::put_data(const GltfSink& write) const {
@@ -341,6 +358,10 @@ void ForestDocument::put_data(const GltfSink& write) const {
     const GltfBytes put = [&](std::span<const std::byte> bytes) {
         written += bytes.size();
         write(bytes);
+    };
+    const auto pad = [&] {
+        constexpr std::array<std::byte, 3> kPadding{};
+        put(std::span(kPadding).first((4 - written % 4) % 4));
     };
     for (const ForestSurface& surface : surfaces_) {
         for (std::size_t material = 0; material < surface.blocks.size(); ++material) {
@@ -350,8 +371,7 @@ void ForestDocument::put_data(const GltfSink& write) const {
                 } else {
                     put(std::as_bytes(std::span(view.compressed)));
                 }
-                constexpr std::array<std::byte, 3> kPadding{};
-                put(std::span(kPadding).first((4 - written % 4) % 4));
+                pad();
             };
             const ForestBlock& block = surface.blocks[material];
             std::for_each(block.attributes.begin(), block.attributes.end(), put_view);
@@ -362,7 +382,13 @@ void ForestDocument::put_data(const GltfSink& write) const {
             }
         }
     }
-    if (instanced()) {
+    for (const PackedTransforms& packed : packed_) {
+        for (const ForestView& view : packed.views) {
+            put(std::as_bytes(std::span(view.compressed)));
+            pad();
+        }
+    }
+    if (instanced() && packed_.empty()) {
         write_transforms(plan_, grids_, info_, write);
     }
     for (const std::string& image : images_) {

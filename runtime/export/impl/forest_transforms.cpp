@@ -14,33 +14,49 @@ namespace {
 constexpr std::size_t kFloats = kInstanceBytes / sizeof(float);
 
 using Write = std::function<bool(std::span<const std::byte>)>;
+using Visit = std::function<void(std::span<const ForestGroup>, std::span<const float>)>;
 
 class Transforms {
 public:
     Transforms(const ForestPlan& plan,
                std::span<const ItemGrid> grids,
-               const ForestExportInfo& info,
-               const Write& write)
+               const ForestExportInfo& info)
         : plan_(plan), grids_(grids), window_(info.window_bytes / kInstanceBytes),
-          workers_(info.threads), write_(write) {}
+          workers_(info.threads) {}
 
-    void write_all() {
-        std::size_t cell = 0; // of the group `first`
+    void write_all(const Write& write) {
+        for_each_window([&](std::size_t cell, std::size_t first, auto groups) {
+            if (groups[0].count > window_) {
+                write_large(plan_.cells()[cell], groups[0], write);
+            } else {
+                fill_window(cell, first, groups);
+                pass_on(floats_, write);
+            }
+        });
+    }
+
+    void visit_all(const Visit& visit) {
+        for_each_window([&](std::size_t cell, std::size_t first, auto groups) {
+            fill_window(cell, first, groups);
+            visit(groups, floats_);
+        });
+    }
+
+private:
+    /// Calls visit(cell of the first group, its number, groups) for each window.
+    template <typename Visitor>
+    void for_each_window(const Visitor& visit) {
+        std::size_t cell = 0;
         for (std::size_t first = 0; first < plan_.groups().size() && !stopped_;) {
             while (first >= end_of(plan_.cells()[cell])) {
                 ++cell;
             }
             const std::span<const ForestGroup> groups = window_from(first);
-            if (groups[0].count > window_) {
-                write_large(plan_.cells()[cell], groups[0]);
-            } else {
-                write_window(cell, first, groups);
-            }
+            visit(cell, first, groups);
             first += groups.size();
         }
     }
 
-private:
     static std::size_t end_of(const ForestCell& cell) {
         return cell.first_group + cell.group_count;
     }
@@ -56,8 +72,8 @@ private:
         return groups.first(some);
     }
 
-    /// Writes `groups`, which begin with number `first` in number `cell` of the cells.
-    void write_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
+    /// Makes the floats of `groups`, which begin with number `first` in number `cell` of the cells.
+    void fill_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
         for (; cell < plan_.cells().size() && plan_.cells()[cell].first_group < end; ++cell) {
@@ -72,7 +88,6 @@ private:
             const std::size_t to = std::min(end, end_of(*of));
             fill(plan_.groups().subspan(from, to - from), *piece, groups[0].first);
         });
-        pass_on(floats_);
     }
 
     /// Puts the instances of a piece that are in `groups`, all of one cell, into the window that
@@ -106,7 +121,7 @@ private:
         });
     }
 
-    void write_large(const ForestCell& cell, const ForestGroup& group) {
+    void write_large(const ForestCell& cell, const ForestGroup& group, const Write& write) {
         for (int array = 0; array < 3 && !stopped_; ++array) {
             floats_.clear();
             plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
@@ -123,11 +138,11 @@ private:
                 };
                 array == 0 ? append(translation) : array == 1 ? append(rotation) : append(scale);
                 if (floats_.size() * sizeof(float) > kPieceBytes) {
-                    pass_on(floats_);
+                    pass_on(floats_, write);
                     floats_.clear();
                 }
             });
-            pass_on(floats_);
+            pass_on(floats_, write);
         }
     }
 
@@ -148,15 +163,14 @@ private:
         rotation[3] = pose.rotation.w;
     }
 
-    void pass_on(std::span<const float> floats) {
-        stopped_ = stopped_ || !write_(std::as_bytes(floats));
+    void pass_on(std::span<const float> floats, const Write& write) {
+        stopped_ = stopped_ || !write(std::as_bytes(floats));
     }
 
     const ForestPlan& plan_;
     std::span<const ItemGrid> grids_;
     std::uint64_t window_; // instances
     Workers workers_;
-    const Write& write_;
     LargeVector<float> floats_; // of the window
     bool stopped_ = false;
 };
@@ -179,7 +193,14 @@ void write_transforms(const ForestPlan& plan,
                       std::span<const ItemGrid> grids,
                       const ForestExportInfo& info,
                       const Write& write) {
-    Transforms(plan, grids, info, write).write_all();
+    Transforms(plan, grids, info).write_all(write);
+}
+
+void for_each_transform_window(const ForestPlan& plan,
+                               std::span<const ItemGrid> grids,
+                               const ForestExportInfo& info,
+                               const Visit& visit) {
+    Transforms(plan, grids, info).visit_all(visit);
 }
 
 } // namespace lsys

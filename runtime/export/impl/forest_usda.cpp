@@ -155,10 +155,13 @@ private:
         out_->put("        }\n    }\n");
     }
 
-    /// Writes each part of the transforms as an array of its own, by one pass over the trees.
+    /// Writes each part of the transforms as an array of its own, by one pass over the trees; no
+    /// scales if all are 1, because readers of text take as long as it is large.
     /// `place_digits`: digits behind the point of positions.
     void put_branches(const ForestKind& kind, int place_digits) {
-        put_array("int[] protoIndices", kind, [this](const BranchInstance& branch, char* at) {
+        bool scaled = false;
+        put_array("int[] protoIndices", kind, [&](const BranchInstance& branch, char* at) {
+            scaled = scaled || branch.scale != 1.0F;
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
         });
         put_array("point3f[] positions", kind, [&](const BranchInstance& branch, char* at) {
@@ -173,6 +176,9 @@ private:
             }
             return put_text(at, ")");
         });
+        if (!scaled) {
+            return;
+        }
         put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
             // Six digits: a millionth.
             const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);

@@ -35,9 +35,10 @@ float max_value(unsigned bits) {
     return static_cast<float>((1U << bits) - 1U);
 }
 
-/// Rounds half up, the same on any machine.
+/// Rounds half up, the same on any machine; within whole bounds, where a cast is std::floor(), which
+/// old processors have to call.
 std::uint16_t rounded(float value, float most) {
-    return static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5F), 0.0F, most));
+    return static_cast<std::uint16_t>(std::clamp(value + 0.5F, 0.0F, most));
 }
 
 std::uint8_t linear_byte(float value) {
@@ -46,16 +47,16 @@ std::uint8_t linear_byte(float value) {
 
 /// A component of a direction as a signed normalised byte.
 std::int8_t signed_byte(float value) {
-    const float scaled = std::floor(127.0F * std::clamp(value, -1.0F, 1.0F) + 0.5F);
-    return static_cast<std::int8_t>(scaled);
+    const float scaled = 127.0F * std::clamp(value, -1.0F, 1.0F) + 0.5F;
+    const int whole = static_cast<int>(scaled);
+    return static_cast<std::int8_t>(scaled < static_cast<float>(whole) ? whole - 1 : whole);
 }
 
 std::uint16_t quantized_position(float value, float low, float step, float most) {
     // In double, because floats round both the difference and the quotient.
     const double item =
         (static_cast<double>(value) - static_cast<double>(low)) / static_cast<double>(step);
-    return static_cast<std::uint16_t>(
-        std::clamp(std::floor(item + 0.5), 0.0, static_cast<double>(most)));
+    return static_cast<std::uint16_t>(std::clamp(item + 0.5, 0.0, static_cast<double>(most)));
 }
 
 unsigned position_bits(ExportCompression compression) {
@@ -289,12 +290,11 @@ void write_wind_items(const Mesh& mesh,
 
 std::string compress_items(std::string_view items, std::uint32_t stride) {
     const std::size_t count = items.size() / stride;
-    std::string bytes;
     set_versions();
-    bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
-    bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
-                                            bytes.size(), items.data(), count, stride));
-    return bytes;
+    LargeVector<unsigned char> bytes(meshopt_encodeVertexBufferBound(count, stride));
+    const std::size_t size =
+        meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), items.data(), count, stride);
+    return {reinterpret_cast<const char*>(bytes.data()), size};
 }
 
 std::string compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices) {
@@ -309,12 +309,11 @@ std::string compress_indices(std::string_view items, std::uint32_t stride, std::
     } else {
         std::memcpy(indices.data(), items.data(), items.size());
     }
-    std::string bytes;
     set_versions();
-    bytes.resize(meshopt_encodeIndexBufferBound(count, vertices));
-    bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
-                                           bytes.size(), indices.data(), count));
-    return bytes;
+    LargeVector<unsigned char> bytes(meshopt_encodeIndexBufferBound(count, vertices));
+    const std::size_t size =
+        meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), count);
+    return {reinterpret_cast<const char*>(bytes.data()), size};
 }
 
 } // namespace lsys

@@ -10,6 +10,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -22,6 +23,7 @@ namespace lsys {
 // Component types of accessors.
 inline constexpr int kGltfSignedByte = 5120;
 inline constexpr int kGltfByte = 5121; // all others unsigned
+inline constexpr int kGltfSignedShort = 5122;
 inline constexpr int kGltfShort = 5123;
 inline constexpr int kGltfInteger = 5125;
 inline constexpr int kGltfFloat = 5126;
@@ -108,14 +110,11 @@ void write_each(std::span<const std::uint32_t> vertices,
                 const ItemOf& item_of) {
     constexpr std::size_t kChunk = 16384; // vertices
     using T = decltype(item_of(std::uint32_t{0}));
-    std::vector<T> chunk;
+    std::vector<T> chunk(std::min(kChunk, vertices.size()));
     for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
-        chunk.clear();
-        for (const std::uint32_t vertex :
-             vertices.subspan(first, std::min(kChunk, vertices.size() - first))) {
-            chunk.push_back(item_of(vertex));
-        }
-        write(std::as_bytes(std::span<const T>(chunk)));
+        const auto some = vertices.subspan(first, std::min(kChunk, vertices.size() - first));
+        std::transform(some.begin(), some.end(), chunk.begin(), item_of);
+        write(std::as_bytes(std::span<const T>(chunk).first(some.size())));
     }
 }
 

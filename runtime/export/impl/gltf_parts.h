@@ -39,7 +39,8 @@ struct GltfPackedView {
     std::uint64_t bytes = 0;
     std::uint32_t stride = 0;
     std::uint64_t count = 0;
-    bool triangles = false; // indices of triangles, else attributes
+    bool triangles = false;       // indices of triangles, else attributes
+    std::string_view filter = {}; // "QUATERNION"; empty: none
 };
 /// The member `extensions` of a view in the buffer of decoded items.
 void put_packed_view(JsonWriter& json, const GltfPackedView& view);

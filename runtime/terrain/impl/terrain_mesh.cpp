@@ -112,7 +112,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     mesh.indices = std::move(indices);
     Material ground;
     ground.name = "ground";
-    ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.12F, 0.10F, 0.05F, 1.0F);
+    // Without a picture the mean of what the viewer draws, grass with bare patches.
+    ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.055F, 0.07F, 0.025F, 1.0F);
     ground.textured = tiled;
     ground.picture = pictures.colour;
     ground.relief = tiled ? pictures.normals : nullptr;
