@@ -243,9 +243,11 @@ ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Consol
     Mesh mesh;
     DetailLevels levels;
     mesh_options.level = 0;
-    status = console.take(plan_plant_levels(plant, plant.skeleton, mesh_options,
-                                            {.last = command.mesh.level}, project),
-                          levels);
+    status =
+        console.take(plan_plant_levels(
+                         plant, plant.skeleton, mesh_options,
+                         {.last = command.mesh.level, .first_fitted = command.mesh.level}, project),
+                     levels);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -106,8 +106,10 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Plans levels of detail up to `last`, once for all poses of the plant.
-ExitStatus plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t last) {
+/// Plans levels of detail up to `last`, once for all poses of the plant. Those before `first` are
+/// not for meshing.
+ExitStatus
+plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t first, std::uint32_t last) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
                          skeleton.polygons.size() == run.plant.skeleton.polygons.size();
@@ -120,10 +122,11 @@ ExitStatus plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t last
     const bool shows_pictures =
         pictures == ExportPictures::Inside ||
         (pictures != ExportPictures::None && is_regular(run.command.output));
-    return run.console.take(plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton,
-                                              finest, {.last = last, .pictures = shows_pictures},
-                                              run.project),
-                            run.levels);
+    return run.console.take(
+        plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton, finest,
+                          {.last = last, .pictures = shows_pictures, .first_fitted = first},
+                          run.project),
+        run.levels);
 }
 
 /// Meshes the wanted level of `skeleton`, or the coarsest.
@@ -132,7 +135,7 @@ ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOp
     if (wanted == 0) {
         return run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
     }
-    const ExitStatus status = plan_levels(run, skeleton, wanted);
+    const ExitStatus status = plan_levels(run, skeleton, wanted, wanted);
     if (status != ExitStatus::Ok) {
         return status;
     }
@@ -261,7 +264,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
     const ExportCommand& command = run.command;
     const bool one_file = traits_of(run.format).lods && !command.lod_files;
     SteadyClock::time_point start = SteadyClock::now();
-    ExitStatus status = plan_levels(run, skeleton, command.lods - 1);
+    ExitStatus status = plan_levels(run, skeleton, 0, command.lods - 1);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -33,9 +33,11 @@ struct DetailLevel {
     std::uint64_t foliage = 0; // objects and polygons that stay, of thinned levels
     float wood_scale = 1.0F; // of widths, of thinned levels: wood covers what it covers at level 0
     float foliage_scale = 1.0F; // the same of foliage
-    /// Factor of linear colours of materials, for the mean colour of level 0; only with
-    /// DetailChain::pictures, and where each part has one colour.
+    /// Factor of linear colours of materials, or of the impostor's picture, for the mean colour of
+    /// level 0; only with DetailChain::pictures, and where each part has one colour.
     glm::vec3 tint{1.0F};
+    /// Colour of all materials before the tint, where those that stay lack a colour of level 0.
+    std::optional<glm::vec3> colour = std::nullopt;
     std::uint64_t triangles = 0;
     /// Max pixels of the plant's largest extent for this level. Half a pixel then is the error
     /// allowed in the course of branches.
@@ -43,12 +45,18 @@ struct DetailLevel {
     float error = 0.0F; // that half pixel in metres; 0 for the finest level
 };
 
+inline constexpr std::uint32_t kNoDetailLevel = ~std::uint32_t{0};
+
 /// The levels to plan.
 struct DetailChain {
     std::uint32_t last = kMaxDetailLevel; // the chain may end before
     /// For formats with pictures: the chain ends with an impostor, crossed cards with one picture
     /// and its normals, and materials of coarser levels have colours of their own.
     bool pictures = false;
+    /// Coarser levels before this one, but for the last, get no scales and tints, which takes most
+    /// of the time; kNoDetailLevel: none does, and fit_detail_levels() is called before they are
+    /// meshed.
+    std::uint32_t first_fitted = 0;
 };
 
 struct ThinningOrder; // runtime/meshing/impl/thinning.h
@@ -66,6 +74,16 @@ struct DetailLevels {
                                                      const MeshOptions& options,
                                                      const DetailChain& chain,
                                                      DetailLevels& levels);
+
+/// Sets the scales and tints of the levels that are marked in `which`, and their exact numbers of
+/// triangles. All but `levels` as given to plan_detail_levels(). Precondition: which.size() ==
+/// levels.levels.size().
+[[nodiscard]] std::optional<Stop> fit_detail_levels(const Skeleton& skeleton,
+                                                    const std::vector<UserMesh>& user_meshes,
+                                                    const MeshOptions& options,
+                                                    const DetailChain& chain,
+                                                    const std::vector<bool>& which,
+                                                    DetailLevels& levels);
 
 /// Makes the mesh of one level from `skeleton`: the planned one or a pose of it. Mesh::segments
 /// refer to `skeleton`. `options`: arrays, threads and limit; the rest is that of the level.

@@ -21,6 +21,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
+/// Levels are fitted when it is known which ones trees have.
+constexpr DetailChain kChain{.pictures = true, .first_fitted = kNoDetailLevel};
 
 /// A hero of a species and stage.
 struct Hero {
@@ -114,8 +116,7 @@ plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project&
     Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
         Hero& hero = heroes[number];
         const std::vector<UserMesh>& files = grown.user_meshes[hero.species];
-        hero.stop =
-            plan_detail_levels(hero.skeleton, files, alone, {.pictures = true}, hero.levels);
+        hero.stop = plan_detail_levels(hero.skeleton, files, alone, kChain, hero.levels);
         Mesh finest;
         if (!hero.stop) {
             hero.stop = make_detail_mesh(hero.skeleton, files, hero.levels, 0, alone, finest);
@@ -216,10 +217,13 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
     alone.max_bytes = project.limits.max_bytes;
     Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
         Hero& hero = heroes[number];
+        const std::vector<UserMesh>& files = grown.user_meshes[hero.species];
+        hero.stop =
+            fit_detail_levels(hero.skeleton, files, alone, kChain, hero.in_use, hero.levels);
         for (std::size_t k = 0; k < hero.meshes.size() && !hero.stop; ++k) {
             if (hero.in_use[k]) {
-                hero.stop = make_detail_mesh(hero.skeleton, grown.user_meshes[hero.species],
-                                             hero.levels, k, alone, hero.meshes[k]);
+                hero.stop =
+                    make_detail_mesh(hero.skeleton, files, hero.levels, k, alone, hero.meshes[k]);
             }
         }
     });

@@ -18,12 +18,13 @@ namespace lsys {
 
 namespace {
 
-constexpr int kTile = 128;  // texels of a side of a picture
-constexpr int kSamples = 4; // of a texel, along each side
-constexpr int kMargin = 2;  // texels around the plant
-constexpr int kColumns = 2; // of pictures in the atlas
+constexpr int kMinTile = 16; // texels of a side of a picture
+constexpr int kMaxTile = 128;
+constexpr float kTexelsPerPixel = 1.3F; // at most, where an impostor is shown first
+constexpr int kSide = 512;              // samples of a side of a picture
+constexpr int kColumns = 2;             // of pictures in the atlas
+constexpr int kOpaqueByte = 128;
 constexpr float kHalfRoot3 = 0.8660254F;
-constexpr std::size_t kTexels = std::size_t{kTile} * kTile;
 
 struct Axes {
     glm::vec3 right;
@@ -41,9 +42,15 @@ std::uint8_t unit_byte(float value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
+/// Texels around the plant in a picture.
+int margin_of(int tile) {
+    return std::max(tile / 64, 1);
+}
+
 /// Fills unknown texels with the values of the nearest known ones.
 template <typename Copy>
-void dilate(std::vector<std::uint8_t> known, const Copy& copy) {
+void dilate(int side, std::vector<std::uint8_t> known, const Copy& copy) {
+    const auto tile = static_cast<std::size_t>(side);
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (known[i] != 0) {
@@ -52,12 +59,12 @@ void dilate(std::vector<std::uint8_t> known, const Copy& copy) {
     }
     for (std::size_t next = 0; next < front.size(); ++next) {
         const std::size_t at = front[next];
-        const std::size_t x = at % kTile;
-        const std::size_t y = at / kTile;
+        const std::size_t x = at % tile;
+        const std::size_t y = at / tile;
         const std::array<std::pair<bool, std::size_t>, 4> beside{{{x > 0, at - 1},
-                                                                  {x + 1 < kTile, at + 1},
-                                                                  {y > 0, at - kTile},
-                                                                  {y + 1 < kTile, at + kTile}}};
+                                                                  {x + 1 < tile, at + 1},
+                                                                  {y > 0, at - tile},
+                                                                  {y + 1 < tile, at + tile}}};
         for (const auto& [is_there, other] : beside) {
             if (is_there && known[other] == 0) {
                 known[other] = 1;
@@ -70,21 +77,23 @@ void dilate(std::vector<std::uint8_t> known, const Copy& copy) {
 
 /// The corners of the smallest octagon around the marked texels, counter-clockwise, in texels; empty
 /// if there are none.
-std::vector<glm::vec2> octagon(const std::vector<std::uint8_t>& marked) {
-    float left = kTile;
+std::vector<glm::vec2> octagon(int side, const std::vector<std::uint8_t>& marked) {
+    const auto columns = static_cast<std::size_t>(side);
+    const auto tile = static_cast<float>(side);
+    float left = tile;
     float right = 0.0F;
-    float top = kTile;
+    float top = tile;
     float bottom = 0.0F;
-    float low_sum = 2.0F * kTile;
+    float low_sum = 2.0F * tile;
     float high_sum = 0.0F;
-    float low_difference = kTile;
-    float high_difference = -static_cast<float>(kTile);
+    float low_difference = tile;
+    float high_difference = -tile;
     for (std::size_t i = 0; i < marked.size(); ++i) {
         if (marked[i] == 0) {
             continue;
         }
-        const auto x = static_cast<float>(i % kTile);
-        const auto y = static_cast<float>(i / kTile);
+        const auto x = static_cast<float>(i % columns);
+        const auto y = static_cast<float>(i / columns);
         left = std::min(left, x);
         right = std::max(right, x + 1.0F);
         top = std::min(top, y);
@@ -114,7 +123,10 @@ std::vector<glm::vec2> octagon(const std::vector<std::uint8_t>& marked) {
 
 } // namespace
 
-ImpostorBaker::ImpostorBaker(const Mesh& mesh) {
+ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels) : tile_(kMinTile) {
+    while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kTexelsPerPixel * pixels) {
+        tile_ *= 2;
+    }
     LinearTextures textures;
     for (const Axes& axes : kAxes) {
         View& view = views_.emplace_back();
@@ -135,15 +147,15 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
     }
     // A flat plant has cards of some width and depth too.
     const glm::vec3 size = bounds.high - bounds.low;
-    const float least = std::max({size.x, size.y, size.z, 1e-6F}) / kTile;
+    const auto tile = static_cast<float>(tile_);
+    const float least = std::max({size.x, size.y, size.z, 1e-6F}) / tile;
     const glm::vec3 middle = 0.5F * (bounds.low + bounds.high);
     const glm::vec3 half =
         0.5F * glm::max(size, glm::vec3(least)) *
-        glm::vec3(glm::vec2(static_cast<float>(kTile) / (kTile - 2 * kMargin)), 1.0F);
+        glm::vec3(glm::vec2(tile / static_cast<float>(tile_ - 2 * margin_of(tile_))), 1.0F);
     view.low = middle - half;
     view.high = middle + half;
 
-    constexpr int kSide = kTile * kSamples;
     DepthBuffer buffer(kSide, kSide);
     std::vector<glm::vec3> colours(buffer.depths.size());
     std::vector<glm::vec3> normals(buffer.depths.size());
@@ -188,15 +200,17 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
         }
     }
 
-    view.coverage.resize(kTexels);
-    view.colours.resize(kTexels);
-    view.normals.resize(kTexels);
-    view.depths.resize(kTexels);
-    for (std::size_t texel = 0; texel < kTexels; ++texel) {
+    const auto columns = static_cast<std::size_t>(tile_);
+    const std::size_t samples = kSide / columns; // of a texel, along each side
+    view.coverage.resize(texels());
+    view.colours.resize(texels());
+    view.normals.resize(texels());
+    view.depths.resize(texels());
+    for (std::size_t texel = 0; texel < texels(); ++texel) {
         float count = 0.0F;
-        for (std::size_t sample = 0; sample < kSamples * kSamples; ++sample) {
-            const std::size_t x = texel % kTile * kSamples + sample % kSamples;
-            const std::size_t y = texel / kTile * kSamples + sample / kSamples;
+        for (std::size_t sample = 0; sample < samples * samples; ++sample) {
+            const std::size_t x = texel % columns * samples + sample % samples;
+            const std::size_t y = texel / columns * samples + sample / samples;
             const std::size_t pixel = y * kSide + x;
             if (buffer.depths[pixel] >= 0.0F) {
                 count += 1.0F;
@@ -205,7 +219,7 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
                 view.depths[texel] += buffer.depths[pixel];
             }
         }
-        view.coverage[texel] = count / (kSamples * kSamples);
+        view.coverage[texel] = count / static_cast<float>(samples * samples);
         if (count > 0.0F) {
             view.colours[texel] /= count;
             view.depths[texel] /= count;
@@ -219,13 +233,14 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
 void ImpostorBaker::paint(const View& view,
                           std::size_t tile,
                           double cover,
+                          const glm::vec3& tint,
                           Texture& colour,
                           Texture& relief,
                           std::vector<glm::vec2>& outline) const {
     std::vector<std::uint32_t> order; // of opaque texels
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
-    for (std::uint32_t i = 0; i < kTexels; ++i) {
+    for (std::uint32_t i = 0; i < texels(); ++i) {
         if (view.coverage[i] > 0.0F) {
             order.push_back(i);
             area += static_cast<double>(view.coverage[i]);
@@ -239,26 +254,28 @@ void ImpostorBaker::paint(const View& view,
     });
     order.resize(
         std::min(order.size(), static_cast<std::size_t>(std::max(cover * area + 0.5, 0.0))));
-    std::vector<std::uint8_t> opaque(kTexels, 0);
+    const float least = order.empty() ? 1.0F : view.coverage[order.back()];
+    std::vector<std::uint8_t> opaque(texels(), 0);
     glm::dvec3 sum(0.0);
     for (const std::uint32_t i : order) {
         opaque[i] = 1;
         sum += glm::dvec3(view.colours[i]);
     }
-    glm::vec3 factor(1.0F);
+    glm::vec3 factor = tint;
     for (int c = 0; c < 3; ++c) {
         if (sum[c] > 0.0 && area > 0.0) {
-            factor[c] =
+            factor[c] *=
                 static_cast<float>(wanted[c] / area / (sum[c] / static_cast<double>(order.size())));
         }
     }
     const std::size_t width = colour.width;
+    const auto columns = static_cast<std::size_t>(tile_);
     const auto place = [&](std::size_t i) {
-        const std::size_t x = tile % kColumns * kTile + i % kTile;
-        const std::size_t y = tile / kColumns * kTile + i / kTile;
+        const std::size_t x = tile % kColumns * columns + i % columns;
+        const std::size_t y = tile / kColumns * columns + i / columns;
         return 4 * (y * width + x);
     };
-    for (std::size_t i = 0; i < kTexels; ++i) {
+    for (std::size_t i = 0; i < texels(); ++i) {
         const std::size_t to = place(i);
         for (int c = 0; c < 3; ++c) {
             colour.texels[to + static_cast<std::size_t>(c)] =
@@ -266,11 +283,15 @@ void ImpostorBaker::paint(const View& view,
             relief.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
-        colour.texels[to + 3] = opaque[i] != 0 ? 255 : 0;
+        // Half opaque at the least coverage of an opaque texel, so that smaller pictures of a
+        // viewer cover as much.
+        const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / least);
+        colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
+                                               : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);
         relief.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);
     }
-    outline = octagon(opaque);
-    dilate(opaque, [&](std::size_t from, std::size_t to) {
+    outline = octagon(tile_, opaque);
+    dilate(tile_, opaque, [&](std::size_t from, std::size_t to) {
         std::copy_n(colour.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 3,
                     colour.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
         std::copy_n(relief.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 4,
@@ -278,11 +299,11 @@ void ImpostorBaker::paint(const View& view,
     });
 }
 
-Mesh ImpostorBaker::make(double cover) const {
+Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
     const std::size_t rows = (views_.size() + kColumns - 1) / kColumns;
     Texture colour;
-    colour.width = kColumns * kTile;
-    colour.height = static_cast<std::uint32_t>(rows) * kTile;
+    colour.width = static_cast<std::uint32_t>(kColumns * tile_);
+    colour.height = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(tile_);
     colour.texels.resize(std::size_t{4} * colour.width * colour.height);
     Texture relief = colour;
     Mesh mesh;
@@ -290,11 +311,11 @@ Mesh ImpostorBaker::make(double cover) const {
     for (std::size_t tile = 0; tile < views_.size(); ++tile) {
         const View& view = views_[tile];
         std::vector<glm::vec2> outline;
-        paint(view, tile, cover, colour, relief, outline);
+        paint(view, tile, cover, tint, colour, relief, outline);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         const float depth = 0.5F * (view.low.z + view.high.z);
         for (const glm::vec2& corner : outline) {
-            const glm::vec2 part = corner / static_cast<float>(kTile);
+            const glm::vec2 part = corner / static_cast<float>(tile_);
             const float x = view.low.x + part.x * (view.high.x - view.low.x);
             const float y = view.high.y - part.y * (view.high.y - view.low.y);
             mesh.positions.push_back(x * view.right + y * view.up + depth * view.towards);

@@ -23,16 +23,18 @@ inline constexpr std::uint64_t kImpostorTriangles = 24;
 class ImpostorBaker {
 public:
     /// Takes the pictures of `mesh`, which has texture coordinates. They are the same on every
-    /// machine.
-    explicit ImpostorBaker(const Mesh& mesh);
+    /// machine. `pixels`: of the largest extent of the plant where the impostor is shown first;
+    /// pictures have about as many texels, so that viewers need no smaller ones at once, in which
+    /// thin plants vanish.
+    ImpostorBaker(const Mesh& mesh, float pixels);
 
     /// The cards. `cover`: area of opaque texels, in that of the mesh in each picture. Thin parts
     /// that cover less than a texel are opaque in as many texels as they cover on average. The mean
-    /// colour of each picture is that of the mesh.
-    [[nodiscard]] Mesh make(double cover) const;
+    /// colour of each picture is that of the mesh, times `tint`; linear.
+    [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
 
 private:
-    /// One picture. Arrays have kTile by kTile texels, rows from above.
+    /// One picture. Arrays have tile_ by tile_ texels, rows from above.
     struct View {
         glm::vec3 right{};
         glm::vec3 up{};
@@ -49,10 +51,16 @@ private:
     void paint(const View& view,
                std::size_t tile,
                double cover,
+               const glm::vec3& tint,
                Texture& colour,
                Texture& relief,
                std::vector<glm::vec2>& outline) const;
 
+    [[nodiscard]] std::size_t texels() const {
+        return static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
+    }
+
+    int tile_; // texels of a side of a picture, 16 to 128
     std::vector<View> views_;
 };
 

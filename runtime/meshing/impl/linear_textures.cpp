@@ -52,12 +52,13 @@ const Transfer& transfer() {
 }
 
 LinearTexture linear_texture(const Texture& texture) {
-    LinearTexture result{texture.width, texture.height, {}};
+    LinearTexture result{texture.width, texture.height, {}, {}};
     const std::array<float, 256>& linear = transfer().linear;
     for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
         result.texels.emplace_back(linear[texture.texels[i]], linear[texture.texels[i + 1]],
                                    linear[texture.texels[i + 2]],
                                    texture.texels[i + 3] >= kHalfOpaque ? 1.0F : 0.0F);
+        result.opaque.push_back(texture.texels[i + 3] >= kHalfOpaque ? 1 : 0);
     }
     return result;
 }
@@ -66,6 +67,10 @@ LinearTexture linear_texture(const Texture& texture) {
 
 glm::vec4 LinearTexture::at(const glm::vec2& place) const {
     return texels.empty() ? glm::vec4(1.0F) : texels[texel_number(place.x, place.y, width, height)];
+}
+
+bool LinearTexture::is_opaque(const glm::vec2& place) const {
+    return opaque.empty() || opaque[texel_number(place.x, place.y, width, height)] != 0;
 }
 
 const LinearTexture& LinearTextures::of(const Material& material) {
@@ -80,11 +85,10 @@ const LinearTexture& LinearTextures::of(const Material& material) {
                : material.kind == MaterialKind::Leaf ? leaf
                                                      : none;
     }
-    const auto found = files_.find(material.picture.get());
+    const auto found = files_.find(material.picture);
     return found != files_.end()
                ? found->second
-               : files_.emplace(material.picture.get(), linear_texture(*material.picture))
-                     .first->second;
+               : files_.emplace(material.picture, linear_texture(*material.picture)).first->second;
 }
 
 std::uint8_t nearest_srgb_byte(float linear) {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace lsys {
@@ -16,18 +17,20 @@ namespace lsys {
 struct LinearTexture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<glm::vec4> texels; // opacity 0 or 1; empty: white
+    std::vector<glm::vec4> texels;    // opacity 0 or 1; empty: white
+    std::vector<std::uint8_t> opaque; // opacities alone, which take less of a cache
 
     [[nodiscard]] glm::vec4 at(const glm::vec2& place) const;
+    [[nodiscard]] bool is_opaque(const glm::vec2& place) const;
 };
 
 class LinearTextures {
 public:
-    /// The texture of a material; valid as long as this.
+    /// The texture of a material; valid as long as this, which keeps the picture.
     [[nodiscard]] const LinearTexture& of(const Material& material);
 
 private:
-    std::map<const Texture*, LinearTexture> files_;
+    std::map<std::shared_ptr<const Texture>, LinearTexture> files_;
 };
 
 /// The sRGB byte nearest to a linear value (IEC 61966-2-1).

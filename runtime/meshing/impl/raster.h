@@ -34,28 +34,74 @@ void raster_triangle(const std::array<glm::vec3, 3>& corners,
                      DepthBuffer& buffer,
                      const Fragment& fragment) {
     const auto& [a, b, c] = corners;
+    // Pixels whose centres can be inside. Most triangles of a plant seen as a whole have none.
+    const auto first = [](float low, int size) {
+        const int pixel =
+            static_cast<int>(std::min(static_cast<float>(size), std::max(0.0F, low - 0.5F)));
+        return pixel + (static_cast<float>(pixel) + 0.5F < low ? 1 : 0);
+    };
+    const auto last = [](float high, int size) {
+        return high < 0.5F ? -1
+                           : static_cast<int>(std::min(static_cast<float>(size - 1), high - 0.5F));
+    };
+    const int begin_x = first(std::min({a.x, b.x, c.x}), buffer.width);
+    const int end_x = last(std::max({a.x, b.x, c.x}), buffer.width);
+    if (begin_x > end_x) {
+        return;
+    }
+    const int begin_y = first(std::min({a.y, b.y, c.y}), buffer.height);
+    const int end_y = last(std::max({a.y, b.y, c.y}), buffer.height);
+    if (begin_y > end_y) {
+        return;
+    }
     const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (!(std::abs(area) > 0.0F)) {
         return;
     }
-    const auto pixel = [](float at, int size) {
-        return static_cast<int>(std::clamp(at, 0.0F, static_cast<float>(size - 1)));
-    };
-    const int end_x = pixel(std::max({a.x, b.x, c.x}), buffer.width);
-    const int end_y = pixel(std::max({a.y, b.y, c.y}), buffer.height);
-    for (int y = pixel(std::min({a.y, b.y, c.y}), buffer.height); y <= end_y; ++y) {
-        for (int x = pixel(std::min({a.x, b.x, c.x}), buffer.width); x <= end_x; ++x) {
+    // Changes of the weights of a and b along both axes.
+    const float a_along_x = (b.y - c.y) / area;
+    const float a_along_y = (c.x - b.x) / area;
+    const float b_along_x = (c.y - a.y) / area;
+    const float b_along_y = (a.x - c.x) / area;
+    const float c_along_x = -(a_along_x + b_along_x);
+    constexpr int kWide = 2; // pixels; narrower rows are tried as a whole
+    for (int y = begin_y; y <= end_y; ++y) {
+        const float py = static_cast<float>(y) + 0.5F;
+        const float a_of_row = a_along_y * (py - b.y);
+        const float b_of_row = b_along_y * (py - c.y);
+        const std::size_t row =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(buffer.width);
+        int from = begin_x;
+        int to = end_x;
+        if (end_x - begin_x >= kWide) {
+            // About where each weight is 0; thin triangles are but a small part of their box.
+            float low = static_cast<float>(begin_x);
+            float high = static_cast<float>(end_x);
+            const auto cut = [&](float along, float zero) {
+                low = along > 0.0F ? std::max(low, zero - 0.51F) : low;
+                high = along < 0.0F ? std::min(high, zero - 0.49F) : high;
+            };
+            cut(a_along_x, b.x - a_of_row / a_along_x);
+            cut(b_along_x, c.x - b_of_row / b_along_x);
+            const float c_at_b = 1.0F - a_of_row - (b_of_row + b_along_x * (b.x - c.x));
+            cut(c_along_x, b.x - c_at_b / c_along_x);
+            if (!(low <= high)) {
+                continue;
+            }
+            from = static_cast<int>(low);
+            to = static_cast<int>(high);
+        }
+        for (int x = from; x <= to; ++x) {
             const float px = static_cast<float>(x) + 0.5F;
-            const float py = static_cast<float>(y) + 0.5F;
-            const float u = ((c.x - b.x) * (py - b.y) - (c.y - b.y) * (px - b.x)) / area;
-            const float v = ((a.x - c.x) * (py - c.y) - (a.y - c.y) * (px - c.x)) / area;
+            const float u = a_of_row + a_along_x * (px - b.x);
+            const float v = b_of_row + b_along_x * (px - c.x);
             const float w = 1.0F - u - v;
+            if (u < 0.0F || v < 0.0F || w < 0.0F) {
+                continue;
+            }
             const float depth = u * a.z + v * b.z + w * c.z;
-            const std::size_t at =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(buffer.width) +
-                static_cast<std::size_t>(x);
-            if (u >= 0.0F && v >= 0.0F && w >= 0.0F && depth > buffer.depths[at] &&
-                fragment(at, glm::vec3(u, v, w))) {
+            const std::size_t at = row + static_cast<std::size_t>(x);
+            if (depth > buffer.depths[at] && fragment(at, glm::vec3(u, v, w))) {
                 buffer.depths[at] = depth;
             }
         }

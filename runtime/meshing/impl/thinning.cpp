@@ -24,12 +24,6 @@ std::uint32_t random_word(std::uint64_t number, std::uint32_t block) {
     return draw_block(kSeed, kStartGeneration, number, block)[0];
 }
 
-/// Area of the outline of a segment seen from its side.
-double outline_area(const Segment& segment) {
-    return static_cast<double>(segment.length) *
-           (static_cast<double>(segment.base_radius) + static_cast<double>(segment.tip_radius));
-}
-
 void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
     std::vector<double> areas(count, 0.0);   // of a segment and all it carries
@@ -282,6 +276,11 @@ void add_polygon(const Skeleton& skeleton,
 }
 
 } // namespace
+
+double outline_area(const Segment& segment) {
+    return static_cast<double>(segment.length) *
+           (static_cast<double>(segment.base_radius) + static_cast<double>(segment.tip_radius));
+}
 
 ThinningOrder thinning_order(const Skeleton& skeleton) {
     ThinningOrder order;

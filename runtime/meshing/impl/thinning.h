@@ -37,6 +37,9 @@ struct ThinningOrder {
 };
 [[nodiscard]] ThinningOrder thinning_order(const Skeleton& skeleton);
 
+/// Area of the outline of a segment seen from its side.
+[[nodiscard]] double outline_area(const Segment& segment);
+
 /// A shape as foliage.
 struct FoliageShape {
     std::uint64_t triangles = 0;

@@ -1,6 +1,5 @@
 #include "runtime/meshing/impl/visible_areas.h"
 
-#include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/impl/raster.h"
 
 #include <glm/common.hpp>
@@ -10,90 +9,164 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace lsys {
 
 namespace {
 
-constexpr int kSize = 256;              // pixels of a side
-constexpr float kCosine15 = 0.9659258F; // of 15 degrees: no card of an impostor is seen edge-on
+constexpr int kFirstSize = 96; // pixels of a side, of the first pictures
+constexpr int kMinSize = 80;
+constexpr int kMaxSize = 256;
+constexpr double kWantedPixels = 2500.0; // covered by a plant in a view
+constexpr std::size_t kFirstViews = 4;
+constexpr float kCosine15 = 0.9659258F; // of 15 degrees
 constexpr float kSine15 = 0.2588190F;
 constexpr float kDiagonal = 0.7071068F;
-/// Cosine and sine of the turn about +Y, and of the height of the eye above the horizon.
-constexpr std::array<std::array<float, 2>, 6> kTurns{{{kCosine15, kSine15},
-                                                      {kDiagonal, kDiagonal},
-                                                      {kSine15, kCosine15},
-                                                      {-kSine15, kCosine15},
-                                                      {-kDiagonal, kDiagonal},
-                                                      {-kCosine15, kSine15}}};
+/// Cosine and sine of the turn about +Y, and of the height of the eye above the horizon. No card of
+/// an impostor is seen edge-on.
+constexpr std::array<std::array<float, 2>, 12> kTurns{{{kCosine15, kSine15},
+                                                       {kDiagonal, kDiagonal},
+                                                       {kSine15, kCosine15},
+                                                       {-kSine15, kCosine15},
+                                                       {-kDiagonal, kDiagonal},
+                                                       {-kCosine15, kSine15},
+                                                       {-kCosine15, -kSine15},
+                                                       {-kDiagonal, -kDiagonal},
+                                                       {-kSine15, -kCosine15},
+                                                       {kSine15, -kCosine15},
+                                                       {kDiagonal, -kDiagonal},
+                                                       {kCosine15, -kSine15}}};
 constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}}};
 
-enum class Cover : std::uint8_t { Nothing, Wood, Foliage };
+constexpr std::uint32_t kRowBits = 0xFFFF; // of the number of a cell
+constexpr std::size_t kViews = kTurns.size() * kTilts.size();
+
+/// A part of a mesh as it is drawn.
+struct Surface {
+    MeshPart part;
+    const LinearTexture* texture = nullptr; // null: none
+    glm::vec3 colour{};
+    bool is_wood = false;
+    bool has_holes = false;
+};
+
+/// A mesh as it is drawn from all sides.
+struct DrawnMesh {
+    const Mesh& mesh;
+    LargeVector<std::uint32_t> indices;
+    std::vector<Surface> surfaces;
+
+    DrawnMesh(const Mesh& drawn, bool is_wood, LinearTextures& textures)
+        : mesh(drawn), indices(drawn.indices.expanded()) {
+        for (const MeshPart& part : drawn.parts) {
+            const Material& material = drawn.materials[part.material];
+            Surface& surface = surfaces.emplace_back();
+            surface.part = part;
+            surface.colour = glm::vec3(material.colour);
+            surface.is_wood = is_wood;
+            const LinearTexture& texture = textures.of(material);
+            if (!texture.texels.empty() && !drawn.texture_coordinates.empty()) {
+                surface.texture = &texture;
+                surface.has_holes = material.cut_out;
+            }
+        }
+    }
+};
 
 /// One view: the nearest surface at each pixel.
 class View {
 public:
-    View(const Bounds& frame, const std::array<float, 2>& turn, const std::array<float, 2>& tilt)
+    /// `offset`: of the plant, in pixels.
+    View(const Bounds& frame,
+         const std::array<float, 2>& turn,
+         const std::array<float, 2>& tilt,
+         const glm::vec2& offset,
+         int size)
         : middle_(0.5F * (frame.low + frame.high)), cosine_(turn[0]), sine_(turn[1]),
-          tilt_cosine_(tilt[0]), tilt_sine_(tilt[1]), depth_(kSize, kSize),
-          cover_(std::size_t{kSize} * kSize, Cover::Nothing), colours_(cover_.size()) {
+          tilt_cosine_(tilt[0]), tilt_sine_(tilt[1]), depth_(size, size),
+          pixels_(depth_.depths.size()) {
         const glm::vec3 half = frame.high - middle_;
         const float across = std::sqrt(half.x * half.x + half.z * half.z);
         reach_ = std::max({tilt_cosine_ * half.y + tilt_sine_ * across, across,
                            std::numeric_limits<float>::min()});
-        scale_ = 0.5F * static_cast<float>(kSize) / reach_;
+        scale_ = 0.5F * static_cast<float>(size - 1) / reach_;
+        offset_ = glm::vec3(offset, 0.0F);
     }
 
-    void draw(const Mesh& mesh, Cover cover, LinearTextures& textures) {
-        TriangleReader indices(mesh.indices);
-        for (const MeshPart& part : mesh.parts) {
-            const Material& material = mesh.materials[part.material];
-            const LinearTexture& texture = textures.of(material);
-            for (std::uint64_t i = 0; i + 2 < part.index_count; i += 3) {
-                const std::uint64_t first = part.first_index + i;
-                draw(mesh, {indices[first], indices[first + 1], indices[first + 2]}, material,
-                     texture, cover);
+    void draw(const DrawnMesh& drawn) {
+        places_.clear();
+        cells_.clear();
+        for (const glm::vec3& position : drawn.mesh.positions) {
+            places_.push_back(place(position));
+            cells_.push_back(cell(places_.back()));
+        }
+        for (const Surface& surface : drawn.surfaces) {
+            const std::uint64_t end = surface.part.first_index + surface.part.index_count;
+            for (std::uint64_t i = surface.part.first_index; i + 2 < end; i += 3) {
+                const std::array<std::uint32_t, 3> corners{drawn.indices[i], drawn.indices[i + 1],
+                                                           drawn.indices[i + 2]};
+                // Most triangles of a large plant lie between centres of pixels.
+                const std::uint32_t spread = (cells_[corners[0]] ^ cells_[corners[1]]) |
+                                             (cells_[corners[0]] ^ cells_[corners[2]]);
+                if ((spread & kRowBits) != 0 && (spread & ~kRowBits) != 0) {
+                    draw(drawn, corners, surface);
+                }
             }
         }
     }
 
-    void add_to(VisibleAreas& areas) const {
-        for (std::size_t i = 0; i < cover_.size(); ++i) {
-            areas.wood += cover_[i] == Cover::Wood ? 1.0 : 0.0;
-            areas.foliage += cover_[i] == Cover::Foliage ? 1.0 : 0.0;
-            areas.colour += glm::dvec3(colours_[i]);
+    [[nodiscard]] VisibleAreas areas() const {
+        VisibleAreas areas;
+        for (const Pixel& pixel : pixels_) {
+            if (pixel.surface == nullptr) {
+                continue;
+            }
+            (pixel.surface->is_wood ? areas.wood : areas.foliage) += 1.0;
+            const glm::vec3 texel = pixel.surface->texture == nullptr
+                                        ? glm::vec3(1.0F)
+                                        : glm::vec3(pixel.surface->texture->at(pixel.coordinates));
+            areas.colour += glm::dvec3(pixel.surface->colour * texel);
         }
+        return areas;
     }
 
 private:
+    struct Pixel {
+        const Surface* surface = nullptr;
+        glm::vec2 coordinates{}; // of its texture
+    };
+
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const {
         const glm::vec3 p = position - middle_;
         const float near = cosine_ * p.z - sine_ * p.x;
-        return scale_ * glm::vec3(cosine_ * p.x + sine_ * p.z + reach_,
-                                  tilt_cosine_ * p.y - tilt_sine_ * near + reach_,
-                                  tilt_cosine_ * near + tilt_sine_ * p.y);
+        return offset_ + scale_ * glm::vec3(cosine_ * p.x + sine_ * p.z + reach_,
+                                            tilt_cosine_ * p.y - tilt_sine_ * near + reach_,
+                                            tilt_cosine_ * near + tilt_sine_ * p.y);
     }
-    void draw(const Mesh& mesh,
+    /// Number of the square between four centres of pixels: its column and its row.
+    [[nodiscard]] static std::uint32_t cell(const glm::vec3& place) {
+        const auto number = [](float at) {
+            return static_cast<std::uint32_t>(std::clamp(at + 0.5F, 0.0F, 1024.0F));
+        };
+        return number(place.x) << 16U | number(place.y);
+    }
+    void draw(const DrawnMesh& drawn,
               const std::array<std::uint32_t, 3>& corners,
-              const Material& material,
-              const LinearTexture& texture,
-              Cover cover) {
-        const std::array<glm::vec3, 3> places{place(mesh.positions[corners[0]]),
-                                              place(mesh.positions[corners[1]]),
-                                              place(mesh.positions[corners[2]])};
-        const bool is_textured = !texture.texels.empty() && !mesh.texture_coordinates.empty();
+              const Surface& surface) {
+        const std::array<glm::vec3, 3> places{places_[corners[0]], places_[corners[1]],
+                                              places_[corners[2]]};
         raster_triangle(places, depth_, [&](std::size_t pixel, const glm::vec3& weights) {
-            glm::vec4 texel(1.0F);
-            if (is_textured) {
-                texel = texture.at(weights.x * mesh.texture_coordinates[corners[0]] +
-                                   weights.y * mesh.texture_coordinates[corners[1]] +
-                                   weights.z * mesh.texture_coordinates[corners[2]]);
+            glm::vec2 coordinates(0.0F);
+            if (surface.texture != nullptr) {
+                const LargeVector<glm::vec2>& all = drawn.mesh.texture_coordinates;
+                coordinates = weights.x * all[corners[0]] + weights.y * all[corners[1]] +
+                              weights.z * all[corners[2]];
+                if (surface.has_holes && !surface.texture->is_opaque(coordinates)) {
+                    return false;
+                }
             }
-            if (material.cut_out && texel.a == 0.0F) {
-                return false;
-            }
-            cover_[pixel] = cover;
-            colours_[pixel] = glm::vec3(material.colour) * glm::vec3(texel);
+            pixels_[pixel] = {&surface, coordinates};
             return true;
         });
     }
@@ -105,23 +178,54 @@ private:
     float tilt_sine_;
     float reach_ = 1.0F;
     float scale_ = 1.0F;
+    glm::vec3 offset_{};
     DepthBuffer depth_;
-    std::vector<Cover> cover_;
-    std::vector<glm::vec3> colours_; // linear
+    std::vector<Pixel> pixels_;
+    std::vector<glm::vec3> places_;    // of the vertices of a mesh
+    std::vector<std::uint32_t> cells_; // in which they lie
 };
+
+/// Places of the plant between pixels: a trunk in the middle of all views would lie between the
+/// same centres in each of them. R2 sequence (Roberts, "The unreasonable effectiveness of
+/// quasirandom sequences", 2018).
+glm::vec2 offset_of(std::uint64_t view) {
+    const glm::vec2 at = static_cast<float>(view + 1) * glm::vec2(0.7548777F, 0.5698403F);
+    return at - glm::floor(at);
+}
 
 } // namespace
 
-VisibleAreas visible_areas(const Mesh& wood, const Mesh& foliage, const Bounds& frame) {
-    VisibleAreas areas;
-    LinearTextures textures;
-    for (const std::array<float, 2>& tilt : kTilts) {
-        for (const std::array<float, 2>& turn : kTurns) {
-            View view(frame, turn, tilt);
-            view.draw(wood, Cover::Wood, textures);
-            view.draw(foliage, Cover::Foliage, textures);
-            view.add_to(areas);
+AreaMeter::AreaMeter(const Mesh& wood,
+                     const Mesh& foliage,
+                     const Bounds& frame,
+                     std::uint32_t threads)
+    : frame_(frame), size_(kFirstSize), workers_(threads) {
+    const double covered = measure(wood, foliage, kFirstViews).all() / kFirstViews;
+    const double factor = std::sqrt(kWantedPixels / std::max(covered, 1.0));
+    size_ = static_cast<int>(std::clamp(factor * kFirstSize, double{kMinSize}, double{kMaxSize}));
+}
+
+VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage) {
+    return measure(wood, foliage, kViews);
+}
+
+VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, std::size_t views) {
+    const std::array<DrawnMesh, 2> meshes{DrawnMesh(wood, true, textures_),
+                                          DrawnMesh(foliage, false, textures_)};
+    std::array<VisibleAreas, kViews> each;
+    workers_.for_each(views, [&](std::uint64_t number) {
+        View view(frame_, kTurns[number / kTilts.size()], kTilts[number % kTilts.size()],
+                  offset_of(number), size_);
+        for (const DrawnMesh& drawn : meshes) {
+            view.draw(drawn);
         }
+        each[number] = view.areas();
+    });
+    VisibleAreas areas;
+    for (std::size_t i = 0; i < views; ++i) {
+        areas.wood += each[i].wood;
+        areas.foliage += each[i].foliage;
+        areas.colour += each[i].colour;
     }
     return areas;
 }

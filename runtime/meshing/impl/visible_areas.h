@@ -2,9 +2,13 @@
 // detail keep both, and with them their mean colour.
 #pragma once
 
+#include "runtime/base/workers.h"
+#include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/mesh.h"
 
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 
 namespace lsys {
 
@@ -20,10 +24,25 @@ struct VisibleAreas {
     [[nodiscard]] double all() const { return wood + foliage; }
 };
 
-/// Draws both meshes into square views of `frame` from six sides, each level with the plant and from
-/// above, by pixel centres and with the opacity of pictures. The result is the same on every
-/// machine.
-[[nodiscard]] VisibleAreas
-visible_areas(const Mesh& wood, const Mesh& foliage, const Bounds& frame);
+/// Measures meshes in square views of one frame from twelve sides, each level with the plant and
+/// from above.
+class AreaMeter {
+public:
+    /// Pictures get as many pixels as a fair measure of the finest mesh needs: more where branches
+    /// are thin. `threads`: as MeshOptions::threads.
+    AreaMeter(const Mesh& wood, const Mesh& foliage, const Bounds& frame, std::uint32_t threads);
+
+    /// Draws both meshes by pixel centres, with the opacity of pictures and the colours of
+    /// materials. The result is the same on every machine and for every number of threads.
+    [[nodiscard]] VisibleAreas measure(const Mesh& wood, const Mesh& foliage);
+
+private:
+    VisibleAreas measure(const Mesh& wood, const Mesh& foliage, std::size_t views);
+
+    Bounds frame_;
+    int size_; // pixels of a side
+    Workers workers_;
+    LinearTextures textures_;
+};
 
 } // namespace lsys
