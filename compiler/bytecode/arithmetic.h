@@ -49,6 +49,11 @@ namespace lsys::arithmetic {
 [[nodiscard]] inline float maximum(float x, float y) {
     return y > x ? y : x;
 }
+/// `from + (to - from) * t` in binary64, rounded once.
+[[nodiscard]] inline float mix(float from, float to, float t) {
+    const double start = from;
+    return static_cast<float>(start + (static_cast<double>(to) - start) * static_cast<double>(t));
+}
 [[nodiscard]] inline float remainder(float x, float y) {
     return std::fmod(x, y);
 }

@@ -1,6 +1,7 @@
 #include "compiler/bytecode/bytecode.h"
 
 #include "compiler/bytecode/impl/bytecode_contents.h"
+#include "compiler/bytecode/instructions.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
 
@@ -34,6 +35,11 @@ public:
     void number(const Value& value) {
         state_ = combine(state_, value);
     }
+    void rare_number(const std::uint32_t& value) {
+        if (value != kNone) {
+            number(value);
+        }
+    }
     void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
     void truth(const bool& value) { number(std::uint64_t{value}); }
     template <typename Enum>
@@ -66,6 +72,22 @@ const OpcodeInfo& info(Opcode opcode) {
     const auto index = static_cast<std::size_t>(opcode);
     LSYS_CHECK(index < kOpcodeCount, index);
     return kOpcodes[index];
+}
+
+CodeRoom room_of(std::span<const std::uint32_t> instructions) {
+    CodeRoom room;
+    std::uint32_t depth = 0;
+    for (std::size_t at = 0; at < instructions.size();) {
+        const Opcode opcode = opcode_of(instructions[at]);
+        const OpcodeInfo& row = info(opcode);
+        depth = depth - row.pops + row.pushes;
+        room.stack_depth = std::max(room.stack_depth, depth);
+        if (row.operand == OperandKind::Local) {
+            room.local_count = std::max(room.local_count, operand_of(instructions[at]) + 1);
+        }
+        at += instruction_length(opcode);
+    }
+    return room;
 }
 
 TableRange Bytecode::productions_of(Stage stage) const {

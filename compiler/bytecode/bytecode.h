@@ -13,8 +13,8 @@
 //   constants       of folded[0], folded[1], ...
 //   patterns        of each production its left context, predecessor and right context
 //   template_codes  of the axiom, then of each production's successor
-//   instructions    of each global, of the axiom's arguments, then of each production its condition
-//                   and its successor's arguments
+//   instructions    of each global, of the axiom's arguments, then of each production its condition,
+//                   its local values and its successor's arguments
 //   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
@@ -37,7 +37,16 @@ enum class Opcode : std::uint8_t {
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };
-enum class OperandKind : std::uint8_t { None, Literal, Formal, Global, Draw, Branch };
+enum class OperandKind : std::uint8_t {
+    None,
+    Literal,
+    Formal,
+    Global,
+    Draw,
+    Branch,
+    Local,
+    Skip,
+};
 
 struct OpcodeInfo {
     std::string_view mnemonic;
@@ -139,6 +148,9 @@ struct TableRange {
 /// stored parameters in order.
 struct WordTemplate {
     TableRange codes;
+    /// First instruction of the code that moves local values to their slots before the arguments
+    /// are computed, or kNone.
+    std::uint32_t locals = kNone;
     std::uint32_t arguments = kNone; // first instruction, or kNone if nothing is stored
     std::uint32_t parameter_count = 0;
     std::uint32_t draw_count = 0; // random ranges
@@ -197,6 +209,8 @@ struct Bytecode {
     std::uint32_t axiom_site = kNone;
     std::uint32_t axiom_draw_position = 0; // index of the axiom's first range, as draw_position
     bool uses_steps = false;               // some expression calls steps()
+    std::uint32_t stack_depth = 0;         // the deepest stack of any code
+    std::uint32_t local_count = 0;         // the most slots of any code
 
     /// The productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;

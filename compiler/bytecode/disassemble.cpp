@@ -157,6 +157,10 @@ private:
             text += code_text(bytecode_.template_codes[i]);
         }
         line("{}", text);
+        if (word.locals != kNone) {
+            line("    local values");
+            code(word.locals);
+        }
         if (word.arguments != kNone) {
             line("    {} parameters, {} draws", word.parameter_count, word.draw_count);
             code(word.arguments);
@@ -180,6 +184,10 @@ private:
             case OperandKind::Global:
                 text += ' ' + bytecode_.globals[each.operand].name;
                 break;
+            case OperandKind::Skip:
+                text += fmt::format(" to {}", each.at + each.operand + 1);
+                break;
+            case OperandKind::Local:
             case OperandKind::Draw:
             case OperandKind::Branch:
                 text += fmt::format(" {}", each.operand);

@@ -30,6 +30,13 @@ inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
     return kOpcodePops[static_cast<std::size_t>(opcode)];
 }
 
+/// The room that instructions need: the deepest stack, and the number of slots.
+struct CodeRoom {
+    std::uint32_t stack_depth = 0;
+    std::uint32_t local_count = 0;
+};
+[[nodiscard]] CodeRoom room_of(std::span<const std::uint32_t> instructions);
+
 struct Instruction {
     std::uint32_t at = 0; // index of its first word
     Opcode opcode = Opcode::End;

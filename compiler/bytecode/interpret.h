@@ -10,14 +10,19 @@
 //   Value formal(i), global(i), step(), steps(), branch_draw(i)
 //   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
 //   Value binary(opcode, x, y)      every one that takes two
+//   Value mix(x, y, t)              arithmetic::mix()
 //   bool range(x, y, i, at)         replace x by random range i of [x, y): whether to go on
 //   bool take(x, at)                Emit or Test took x: whether to go on
+//   kKnowsChoices, and then         whether it knows each condition of a choice:
+//     bool holds(x)                 it does, and only one side is run
+//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z
 // `at` points to the instruction.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/verify.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +35,7 @@ namespace lsys {
 template <typename Unknown>
 struct UnknownDomain {
     using Value = Unknown;
+    static constexpr bool kKnowsChoices = false;
 
     static bool enter() { return true; }
     static Value literal(float /*value*/) { return {}; }
@@ -40,6 +46,8 @@ struct UnknownDomain {
     static Value branch_draw(std::uint32_t /*branch*/) { return {}; }
     static Value unary(Opcode /*opcode*/, const Value& /*x*/) { return {}; }
     static Value binary(Opcode /*opcode*/, const Value& /*x*/, const Value& /*y*/) { return {}; }
+    static Value mix(const Value& /*x*/, const Value& /*y*/, const Value& /*t*/) { return {}; }
+    static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
     static bool
     range(Value& x, const Value& /*y*/, std::uint32_t /*index*/, const std::uint32_t* /*at*/) {
         x = {};
@@ -48,24 +56,37 @@ struct UnknownDomain {
     static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
 };
 
-/// Upper bound of the stack depth of the verified code at `first`, at most kMaxStack.
+/// Upper bound of the stack depth of the verified code at `first`.
 [[nodiscard]] inline std::size_t stack_room(std::span<const std::uint32_t> words,
                                             std::uint32_t first) {
     std::size_t leaves = 0;
+    bool has_choice = false;
     for (const Instruction each : InstructionRange(words, first)) {
         leaves += pops_of(each.opcode) == 0 ? 1U : 0U;
-        if (leaves == kMaxStack) {
-            break;
-        }
+        has_choice = has_choice || each.opcode == Opcode::If;
     }
-    return leaves;
+    return has_choice ? leaves : std::min<std::size_t>(leaves, kUsualStack);
+}
+
+/// Number of slots that the verified code at `first` sets.
+[[nodiscard]] inline std::size_t slot_room(std::span<const std::uint32_t> words,
+                                           std::uint32_t first) {
+    std::size_t slots = 0;
+    for (const Instruction each : InstructionRange(words, first)) {
+        slots = each.opcode == Opcode::SetLocal ? std::max<std::size_t>(slots, each.operand + 1U)
+                                                : slots;
+    }
+    return slots;
 }
 
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
-/// `stack` has room for kMaxStack or stack_room() values.
+/// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
+/// Bytecode::local_count or slot_room(); slots that the code reads before it sets them have values.
 template <typename Domain>
-[[gnu::always_inline]] inline bool
-interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack) {
+[[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
+                                             Domain& domain,
+                                             typename Domain::Value* stack,
+                                             typename Domain::Value* slots) {
     auto* top = stack; // one past the top
     for (;; ++at) {
         if (!domain.enter()) {
@@ -101,6 +122,32 @@ interpret(const std::uint32_t* at, Domain& domain, typename Domain::Value* stack
         case Opcode::Subtract:
             --top;
             top[-1] = domain.binary(Opcode::Subtract, top[-1], top[0]);
+            break;
+        case Opcode::Local:
+            *top++ = slots[operand];
+            break;
+        case Opcode::SetLocal:
+            slots[operand] = std::move(*--top);
+            break;
+        case Opcode::Mix:
+            top -= 2;
+            top[-1] = domain.mix(top[-1], top[0], top[1]);
+            break;
+        case Opcode::If:
+            if constexpr (Domain::kKnowsChoices) {
+                at += domain.holds(*--top) ? 0 : operand;
+            }
+            break;
+        case Opcode::Else:
+            if constexpr (Domain::kKnowsChoices) {
+                at += operand;
+            }
+            break;
+        case Opcode::EndIf:
+            if constexpr (!Domain::kKnowsChoices) {
+                top -= 2;
+                top[-1] = domain.choice(top[-1], top[0], top[1]);
+            }
             break;
         case Opcode::Swap:
             std::swap(top[-1], top[-2]);

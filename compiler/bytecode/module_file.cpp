@@ -47,6 +47,7 @@ public:
             out_.push_back(static_cast<char>((value >> (8 * i)) & 0xFF));
         }
     }
+    void rare_number(const std::uint32_t& value) { number(value); }
     void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
     void truth(const bool& value) { out_.push_back(value ? '\1' : '\0'); }
     template <typename Enum>
@@ -101,6 +102,7 @@ public:
     void number(T& value) {
         value = static_cast<T>(take_number(sizeof(T)));
     }
+    void rare_number(std::uint32_t& value) { number(value); }
     void real(float& value) {
         value = std::bit_cast<float>(static_cast<std::uint32_t>(take_number(4)));
     }

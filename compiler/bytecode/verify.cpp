@@ -33,7 +33,7 @@ std::uint32_t number(SymbolId id) {
 }
 
 /// Place of code, which decides the instructions allowed in it.
-enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Successor };
+enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
 /// One walk over the tables in the order that bytecode.h promises. Every function returns false
 /// after it has stored a message in problem_.
@@ -217,6 +217,7 @@ private:
                 global.minimum > global.maximum) {
                 return fail("global {} has bounds that hold nothing", i);
             }
+            end_slots(0);
             if (!code(CodePlace::Global, global.instruction,
                       {.globals = static_cast<std::uint32_t>(i), .draws = global.draw_count})) {
                 return false;
@@ -266,6 +267,7 @@ private:
                 !class_of(i, p.group, group_example, true)) {
                 return false;
             }
+            end_slots(0);
             if (p.condition != kNone &&
                 !code(CodePlace::Condition, p.condition, {.formals = p.formal_count})) {
                 return false;
@@ -400,8 +402,16 @@ private:
         if (stored != word.parameter_count || (stored == 0) != (word.arguments == kNone)) {
             return fail("a successor stores {} parameters, not {}", stored, word.parameter_count);
         }
+        end_slots(0);
+        if (word.locals != kNone &&
+            (place != CodePlace::Successor ||
+             !code(CodePlace::Locals, word.locals,
+                   {.formals = formals, .draws = word.draw_count, .emits = 0}))) {
+            return problem_.empty() ? fail("only a successor has local values") : false;
+        }
         if (word.arguments == kNone) {
-            return word.draw_count == 0 || fail("a successor without arguments draws");
+            return word.draw_count == 0 || word.locals != kNone ||
+                   fail("a successor without arguments draws");
         }
         return code(place, word.arguments,
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
@@ -415,19 +425,21 @@ private:
         std::uint32_t emits = 1;
     };
 
+    /// Slots that have a value before the code keep it.
     bool code(CodePlace place, std::uint32_t first, const CodeBounds& bounds) {
         const std::vector<std::uint32_t>& instructions = bytecode_.instructions;
         if (first != next_instruction_) {
             return fail("the code at {} does not follow the code before it", first);
         }
-        const bool numbered_by_pass = place == CodePlace::Successor &&
-                                      bytecode_.settings.rewriting == RewritingMode::Sequential;
+        const bool numbered_by_pass =
+            (place == CodePlace::Successor || place == CodePlace::Locals) &&
+            bytecode_.settings.rewriting == RewritingMode::Sequential;
         if (bounds.draws > (numbered_by_pass ? kMaxSequentialDraws : kMaxOperand)) {
             return fail("the code at {} draws {} times", first, bounds.draws);
         }
         std::uint32_t depth = 0;
-        std::uint32_t next_draw = 0;
         std::uint32_t taken = 0; // by Emit or Test
+        choices_.clear();
         while (next_instruction_ < instructions.size()) {
             const std::uint64_t at = next_instruction_++;
             const std::uint32_t operand = instructions[at] >> 8;
@@ -451,12 +463,16 @@ private:
                 fits = operand < bytecode_.globals.size() && operand < bounds.globals;
                 break;
             case OperandKind::Draw:
-                // A range that was folded away leaves its number unused.
-                fits = operand >= next_draw && operand < bounds.draws;
-                next_draw = operand + 1;
+                fits = operand < bounds.draws;
                 break;
             case OperandKind::Branch:
                 fits = true;
+                break;
+            case OperandKind::Local:
+                fits = operand < bytecode_.local_count && slot(opcode, operand);
+                break;
+            case OperandKind::Skip:
+                fits = true; // choice() checks it
                 break;
             }
             if (!fits || !allowed(place, opcode)) {
@@ -466,31 +482,77 @@ private:
                 return fail("instruction {} ({}) lacks values", at, row.mnemonic);
             }
             depth = depth - row.pops + row.pushes;
-            if (depth > kMaxStack) {
-                return fail("instruction {} needs too deep a stack", at);
+            deepest_ = std::max(deepest_, depth);
+            if (!choice(opcode, at, operand, depth)) {
+                return fail("instruction {} ({}) does not fit its choice", at, row.mnemonic);
             }
             if (opcode == Opcode::Emit || opcode == Opcode::Test) {
                 ++taken;
             }
             if (opcode == Opcode::End) {
-                return (depth == 0 && taken == bounds.emits) ||
+                return (depth == 0 && taken == bounds.emits && choices_.empty()) ||
                        fail("the code at {} leaves a wrong number of values", first);
             }
         }
         return fail("the code at {} has no end", first);
     }
 
+    /// Whether a slot has a value where it is read. Values of one side of a choice end with it.
+    bool slot(Opcode opcode, std::uint32_t index) {
+        last_slot_ = std::max(last_slot_, index + 1);
+        is_set_.resize(std::max<std::size_t>(is_set_.size(), last_slot_));
+        if (opcode == Opcode::SetLocal && !is_set_[index]) {
+            is_set_[index] = true;
+            set_slots_.push_back(index);
+        }
+        return is_set_[index];
+    }
+
+    /// Ends the values of all but the first `count` slots that were set.
+    void end_slots(std::size_t count) {
+        for (; set_slots_.size() > count; set_slots_.pop_back()) {
+            is_set_[set_slots_.back()] = false;
+        }
+    }
+
+    /// Whether If, Else and EndIf follow each other, lead to each other, and leave one value on
+    /// each side. `depth`: of the stack behind the instruction.
+    bool choice(Opcode opcode, std::uint64_t at, std::uint32_t operand, std::uint32_t depth) {
+        if (opcode == Opcode::If) {
+            choices_.push_back({at + operand + 1, depth, set_slots_.size(), false});
+            return true;
+        }
+        if (opcode != Opcode::Else && opcode != Opcode::EndIf) {
+            return (opcode != Opcode::Emit && opcode != Opcode::Test) || choices_.empty();
+        }
+        if (choices_.empty()) {
+            return false;
+        }
+        Choice& open = choices_.back();
+        end_slots(open.slots);
+        if (opcode == Opcode::Else) {
+            const bool fits = !open.has_else && open.next == at + 1 && depth == open.depth + 1;
+            open.has_else = true;
+            open.next = at + operand + 1;
+            return fits;
+        }
+        const bool fits = open.has_else && open.next == at + 1 && depth == open.depth;
+        choices_.pop_back();
+        return fits;
+    }
+
     bool allowed(CodePlace place, Opcode opcode) const {
+        const bool in_production = place == CodePlace::Condition || place == CodePlace::Locals ||
+                                   place == CodePlace::Successor;
         switch (opcode) {
         case Opcode::Step:
-            return place == CodePlace::Condition || place == CodePlace::Successor;
+            return in_production;
         case Opcode::BranchDraw:
             return place == CodePlace::Successor;
         case Opcode::Steps:
-            return bytecode_.uses_steps &&
-                   (place == CodePlace::Condition || place == CodePlace::Successor);
+            return bytecode_.uses_steps && in_production;
         case Opcode::Emit:
-            return place != CodePlace::Condition;
+            return place != CodePlace::Condition && place != CodePlace::Locals;
         case Opcode::Test:
             return place == CodePlace::Condition;
         default:
@@ -499,6 +561,10 @@ private:
     }
 
     bool ends() {
+        if (deepest_ != bytecode_.stack_depth || last_slot_ != bytecode_.local_count) {
+            return fail("a stack of {} values and {} slots, not {} and {}", deepest_, last_slot_,
+                        bytecode_.stack_depth, bytecode_.local_count);
+        }
         return (next_pattern_ == bytecode_.patterns.size() &&
                 next_code_ == bytecode_.template_codes.size() &&
                 next_instruction_ == bytecode_.instructions.size()) ||
@@ -508,6 +574,18 @@ private:
     const Bytecode& bytecode_;
     std::vector<std::uint32_t> parameters_; // by symbol
     std::string problem_;
+    /// An open choice.
+    struct Choice {
+        std::uint64_t next = 0;  // the instruction that its last skip leads to
+        std::uint32_t depth = 0; // of the stack with the condition
+        std::size_t slots = 0;   // set before it
+        bool has_else = false;
+    };
+    std::vector<Choice> choices_;
+    std::vector<std::uint32_t> set_slots_; // with a value, in the order in which they get it
+    std::vector<bool> is_set_;             // by slot
+    std::uint32_t last_slot_ = 0;          // one past the highest slot
+    std::uint32_t deepest_ = 0;            // stack
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

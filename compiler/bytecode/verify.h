@@ -10,10 +10,10 @@
 
 namespace lsys {
 
-/// Maximum depth of the expression stack of verified bytecode. Code of deeper expressions computes
-/// the deeper operand first, which bounds the stack by the logarithm of the size of the
-/// expression.
-inline constexpr std::uint32_t kMaxStack = 256;
+/// Depth of the stack of nearly all code. Code of deep expressions computes the deeper operand
+/// first, which bounds the stack by the logarithm of the size of the expression; only choices
+/// within choices need more (Bytecode::stack_depth).
+inline constexpr std::uint32_t kUsualStack = 256;
 
 /// The first problem, or nothing.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);

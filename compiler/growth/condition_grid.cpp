@@ -87,6 +87,7 @@ public:
     [[nodiscard]] Node steps() const { return count(inputs_.steps); }
     Node unary(Opcode opcode, const Node& x);
     Node binary(Opcode opcode, const Node& x, const Node& y);
+    Node choice(const Node& x, const Node& y, const Node& z);
     bool take(Node x, const std::uint32_t* /*at*/) {
         has_grid_ = as_truth(x);
         return false;
@@ -248,11 +249,27 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     return node;
 }
 
+/// A choice by what is constant in every cell, between values that are too, is constant in every
+/// cell.
+Node GridBuilder::choice(const Node& x, const Node& y, const Node& z) {
+    if (x.kind == Node::Kind::Constant) {
+        return x.value != 0.0F ? y : z;
+    }
+    const auto is_cell_constant = [](const Node& node) {
+        return node.kind == Node::Kind::Constant || node.kind == Node::Kind::CellConstant;
+    };
+    Node condition = x;
+    return as_truth(condition) && is_cell_constant(y) && is_cell_constant(z) ? cell_constant()
+                                                                             : Node{};
+}
+
 bool GridBuilder::add(const ConditionView& condition) {
     first_formal_ = condition.first_formal;
     has_grid_ = false;
     std::vector<Node> stack(stack_room(instructions_, condition.first_instruction));
-    interpret(instructions_.data() + condition.first_instruction, *this, stack.data());
+    std::vector<Node> slots(slot_room(instructions_, condition.first_instruction));
+    interpret(instructions_.data() + condition.first_instruction, *this, stack.data(),
+              slots.data());
     return has_grid_;
 }
 

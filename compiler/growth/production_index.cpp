@@ -33,13 +33,22 @@ bool ProductionIndex::scan(std::uint32_t production,
         bytecode_->patterns[bytecode_->productions[production].predecessor.first];
     const std::uint32_t count = bytecode_->symbol(head.symbol).parameter_count;
     bool calls_step = false;
-    for (const Instruction each : instructions) {
-        if (each.opcode == Opcode::Formal && each.operand >= head.first_formal &&
-            each.operand - head.first_formal < count) {
-            visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + each.operand -
-                  head.first_formal);
+    bool uses_locals = false;
+    const auto read = [&](const InstructionRange& range) {
+        for (const Instruction each : range) {
+            if (each.opcode == Opcode::Formal && each.operand >= head.first_formal &&
+                each.operand - head.first_formal < count) {
+                visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + each.operand -
+                      head.first_formal);
+            }
+            calls_step = calls_step || each.opcode == Opcode::Step;
+            uses_locals = uses_locals || each.opcode == Opcode::Local;
         }
-        calls_step = calls_step || each.opcode == Opcode::Step;
+    };
+    read(instructions);
+    const std::uint32_t locals = bytecode_->productions[production].successor.locals;
+    if (uses_locals && locals != kNone) {
+        read(InstructionRange(bytecode_->instructions, locals));
     }
     return calls_step;
 }

@@ -20,7 +20,8 @@ struct Uint128 {
     constexpr Uint128(std::uint64_t upper, std::uint64_t lower) : high(upper), low(lower) {}
 
     friend constexpr bool operator==(const Uint128&, const Uint128&) = default;
-    friend constexpr std::strong_ordering operator<=>(const Uint128&, const Uint128&) = default;
+    friend constexpr std::strong_ordering // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm
+    operator<=>(const Uint128&, const Uint128&) = default;
 };
 
 [[nodiscard]] constexpr Uint128 operator+(const Uint128& a, const Uint128& b) {

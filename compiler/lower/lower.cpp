@@ -1,10 +1,12 @@
 #include "compiler/lower/lower.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "compiler/lower/impl/code_emitter.h"
 #include "compiler/lower/impl/module_folder.h"
 #include "compiler/lower/impl/place_writer.h"
 #include "grammar/base/contract.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lsys {
@@ -33,6 +35,9 @@ public:
         for (const Production& production : program_.productions) {
             bytecode_.productions.push_back(lowered(production));
         }
+        const CodeRoom room = room_of(bytecode_.instructions);
+        bytecode_.stack_depth = room.stack_depth;
+        bytecode_.local_count = room.local_count;
         if (emitter_.overflowed()) {
             return std::nullopt;
         }
@@ -67,7 +72,19 @@ private:
         }
     }
 
-    WordTemplate word(const ProgramWord& word) {
+    /// Whether the local values are needed: for an argument, or for a range that may be at fault.
+    bool has_needed(std::span<const LocalValue> locals) {
+        return std::any_of(locals.begin(), locals.end(), [&](const LocalValue& local) {
+            bool draws = false;
+            for_each_value(program_, {local.value}, [&](ValueId, const Value& value) {
+                draws = draws || value.opcode == Opcode::Range;
+            });
+            const bool is_leaf = program_.value(local.value).left == kNoValue;
+            return !is_leaf && (local.is_used || draws);
+        });
+    }
+
+    WordTemplate word(const ProgramWord& word, std::span<const LocalValue> locals = {}) {
         WordTemplate word_template;
         word_template.codes.first = static_cast<std::uint32_t>(bytecode_.template_codes.size());
         word_template.codes.count = word.module_count;
@@ -92,6 +109,9 @@ private:
         });
         places_.word(word, word_template.codes.first);
         word_template.parameter_count = static_cast<std::uint32_t>(stored_arguments_.size());
+        if (has_needed(locals)) {
+            word_template.locals = emitter_.locals(locals);
+        }
         if (!stored_arguments_.empty()) {
             word_template.arguments = emitter_.arguments(stored_arguments_);
         }
@@ -126,7 +146,7 @@ private:
         }
         lowered.stochastic = production.stochastic;
         lowered.weight = production.stochastic ? production.weight : 0.0F;
-        lowered.successor = word(production.successor);
+        lowered.successor = word(production.successor, production.locals);
         return lowered;
     }
 

@@ -4,6 +4,9 @@ namespace lsys {
 
 std::vector<ValueId> expressions_of(const Program& program, const Production& production) {
     std::vector<ValueId> roots{production.condition};
+    for (const LocalValue& local : production.locals) {
+        roots.push_back(local.value);
+    }
     for_each_module(program, production.successor,
                     [&](std::size_t, std::size_t argument, const ProgramModule& module) {
                         const std::uint32_t count = program.symbol(module.symbol).parameter_count;

@@ -15,6 +15,7 @@
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,16 +32,24 @@ inline constexpr ValueId kPoison{0};
 
 /// A node of an expression: an instruction and the values it takes. Constants are folded: a node
 /// whose children are literals is a literal. Equal literals share a node, whose `span` is the place
-/// of one of them; other nodes have one place. Children come before parents.
+/// of one of them; other nodes have one place. Children come before parents. A choice is a node of
+/// If. SetLocal moves `left` to a slot and has the value of `right`.
 struct Value {
     Opcode opcode = Opcode::Literal;
     SourceSpan span;
     union {
         float literal;           // Literal
-        std::uint32_t index = 0; // Formal, Global, Range (draw number), BranchDraw
+        std::uint32_t index = 0; // Formal, Global, Local, SetLocal, Range (draw number), BranchDraw
+        ValueId third;           // If: the condition of `left` and `right`; Mix: the part
     };
     ValueId left = kNoValue;
     ValueId right = kNoValue;
+
+    [[nodiscard]] bool has_third() const { return opcode == Opcode::If || opcode == Opcode::Mix; }
+    /// The values that this one is computed from; kNoValue for those that it lacks.
+    [[nodiscard]] std::array<ValueId, 3> operands() const {
+        return {has_third() ? third : kNoValue, left, right};
+    }
 };
 
 struct Symbol {
@@ -83,6 +92,16 @@ struct ProgramPattern {
     SourceSpan span;
 };
 
+/// `let name = value`. A value that is a literal or a leaf stands in each of its uses, others are
+/// read by Local from the slot of the same number as the local value.
+struct LocalValue {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    SourceSpan span; // `name = value`
+    ValueId value = kNoValue;
+    bool is_used = false;
+};
+
 struct Production {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -102,6 +121,7 @@ struct Production {
     bool stochastic = false;
     float weight = 0.0F; // NaN if the probability is in error
     SourceSpan weight_span;
+    std::vector<LocalValue> locals;
     ProgramWord successor;
 };
 
@@ -226,12 +246,12 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
         if (id != kNoValue) {
             const Value& value = program.value(id);
             visit(id, value);
-            roots.push_back(value.left);
-            roots.push_back(value.right);
+            const std::array<ValueId, 3> operands = value.operands();
+            roots.insert(roots.end(), operands.begin(), operands.end());
         }
     }
 }
-/// The condition, or kNoValue, and all arguments of the successor of a production.
+/// The condition, or kNoValue, the local values and all arguments of the successor of a production.
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 

@@ -176,6 +176,12 @@ private:
             out_ += " ~ ";
             append_number(out_, production.weight);
         }
+        for (std::size_t i = 0; i < production.locals.size(); ++i) {
+            out_ += i == 0 ? " : let " : ", ";
+            out_ += names_.text(production.locals[i].name);
+            out_ += " = ";
+            value(production.locals[i].value, &production);
+        }
         out_ += " : ";
         word(production.successor, &production);
         if (production.successor.draw_count != 0) {
@@ -238,16 +244,23 @@ private:
                 continue;
             }
             out_ += info(value.opcode).mnemonic;
-            if (value.opcode == Opcode::Range) {
+            if (value.opcode == Opcode::Range || value.opcode == Opcode::SetLocal) {
                 out_ += fmt::format("#{}", value.index);
             }
             out_ += '(';
             steps.push_back({kNoValue, ")"});
-            if (value.right != kNoValue) {
-                steps.push_back({value.right, nullptr});
-                steps.push_back({kNoValue, ", "});
+            std::array<ValueId, 3> operands = value.operands(); // as in a call
+            if (value.opcode == Opcode::Mix) {
+                operands = {value.left, value.right, value.third};
             }
-            steps.push_back({value.left, nullptr});
+            for (std::size_t i = operands.size(); i-- > 0;) {
+                if (operands[i] != kNoValue) {
+                    steps.push_back({operands[i], nullptr});
+                    if (i > 0 && operands[i - 1] != kNoValue) {
+                        steps.push_back({kNoValue, ", "});
+                    }
+                }
+            }
         }
     }
 
@@ -259,6 +272,13 @@ private:
         case Opcode::Formal:
             LSYS_CHECK(production != nullptr);
             out_ += names_.text(production->formals[value.index]);
+            return;
+        case Opcode::Local:
+            if (production != nullptr && value.index < production->locals.size()) {
+                out_ += names_.text(production->locals[value.index].name);
+            } else {
+                out_ += fmt::format("slot#{}", value.index);
+            }
             return;
         case Opcode::Global:
             out_ += names_.text(program_.globals[value.index].name);

@@ -225,6 +225,13 @@ struct ConditionNode {
     SourceSpan tilde_span; // empty without `~`
 };
 
+/// `name = value` behind `let`.
+struct LocalNode {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    ExpressionId value = kNoExpression;
+};
+
 struct ProductionNode {
     Stage stage = Stage::Rewrite;
     NameId name = kNoName;
@@ -237,6 +244,7 @@ struct ProductionNode {
     ModuleList predecessor;
     ModuleList right;
     ConditionNode condition;
+    ListRange locals; // in Ast::locals
     ModuleList successor;
 };
 
@@ -279,6 +287,7 @@ struct Ast {
     std::vector<IgnoreNode> ignores;
     std::vector<AxiomNode> axioms;
     ChunkedVector<ProductionNode> productions;
+    ChunkedVector<LocalNode> locals; // of productions, consecutive
 
     ChunkedVector<Expression> expressions;
     ChunkedVector<ExpressionId> expression_lists; // arguments of calls, consecutive

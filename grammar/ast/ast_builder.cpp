@@ -268,7 +268,13 @@ void AstBuilder::production_front(NameId name,
     production_.condition.span = condition;
 }
 
+void AstBuilder::local(NameId name, SourceSpan name_span, ExpressionId value) {
+    ast_.locals.push_back({name, name_span, value});
+}
+
 void AstBuilder::production(ModuleList successor) {
+    production_.locals.first = static_cast<std::uint32_t>(watermark_.locals);
+    production_.locals.count = static_cast<std::uint32_t>(ast_.locals.size() - watermark_.locals);
     production_.successor = successor;
     begin_node(StatementKind::Production, ast_.productions.size());
     ast_.productions.push_back(production_);
@@ -314,7 +320,8 @@ bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
 void AstBuilder::set_watermark() {
     watermark_ = {ast_.expressions.size(),    ast_.expression_lists.size(),
                   ast_.argument_lists.size(), ast_.modules.size(),
-                  ast_.calls.size(),          ast_.set_values.size()};
+                  ast_.calls.size(),          ast_.set_values.size(),
+                  ast_.locals.size()};
 }
 
 void AstBuilder::rollback() {
@@ -358,6 +365,7 @@ void AstBuilder::rollback() {
     ast_.modules.truncate(watermark_.modules);
     ast_.calls.truncate(watermark_.calls);
     ast_.set_values.truncate(watermark_.set_values);
+    ast_.locals.truncate(watermark_.locals);
 }
 
 SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {

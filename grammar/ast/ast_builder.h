@@ -103,6 +103,8 @@ public:
                           SourceSpan label,
                           SourceSpan condition,
                           Stage stage = Stage::Rewrite);
+    /// The next local value of the current production.
+    void local(NameId name, SourceSpan name_span, ExpressionId value);
     void production(ModuleList successor);
 
     /// Lets finish_statement() roll the current statement back.
@@ -132,6 +134,7 @@ private:
         std::size_t modules = 0;
         std::size_t calls = 0;
         std::size_t set_values = 0;
+        std::size_t locals = 0;
     };
 
     ExpressionId add(const Expression& expression);

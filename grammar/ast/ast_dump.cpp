@@ -128,6 +128,13 @@ private:
             out_ += "\n      probability ";
             expression(node.condition.probability);
         }
+        for (std::uint32_t i = 0; i < node.locals.count; ++i) {
+            const LocalNode& local = ast_.locals[node.locals.first + i];
+            out_ += "\n      local ";
+            name(local.name);
+            out_ += ' ';
+            expression(local.value);
+        }
         out_ += "\n      successor ";
         modules(node.successor);
     }

@@ -97,6 +97,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
             return OPENING;
         case Part::Value:
         case Part::Condition:
+        case Part::Locals:
             return EXPRESSION;
         case Part::ObjectName:
             return OBJECT_NAME;
@@ -400,6 +401,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
   {IDENT}               {
+                          if (const auto token = local_value_token(session, TEXT)) {
+                              return *token;
+                          }
                           if (is_word_for_operator(session, TEXT)) {
                               if (yytext[0] == 'a') {
                                   OPERATOR(AND);
@@ -436,7 +440,12 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               return *token;
                           }
                         }
-  ","                   { OPERATOR(COMMA); }
+  ","                   {
+                          if (const auto token = local_value_token(session, TEXT)) {
+                              return *token;
+                          }
+                          OPERATOR(COMMA);
+                        }
   "*"                   { OPERATOR(STAR); }
   "/"                   { OPERATOR(SLASH); }
   "+"                   { OPERATOR(PLUS); }
@@ -481,6 +490,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_OTHER, session.token());
                         }
   "="                   {
+                          if (const auto token = local_value_token(session, TEXT)) {
+                              return *token;
+                          }
                           if (!is_needless_sign(session)) {
                               report_assignment(session);
                               OPERATOR(EQUAL);

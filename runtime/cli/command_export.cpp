@@ -46,9 +46,13 @@ struct Export {
     const Project& project;
     const Plant& plant;
     ExportTiming timing;
-    Mesh mesh;                      // of the last file
-    DetailLevels levels;            // of the plant; empty until a coarser level is asked for
-    std::set<std::string> pictures; // names of the written ones, shared by all frames
+    Mesh mesh;                           // of the last file
+    DetailLevels levels;                 // of the plant; empty until a coarser level is asked for
+    std::set<std::string> pictures;      // names of the written ones, shared by all frames
+    std::optional<glm::vec3> pivot = {}; // of all frames of a growth: that of the last plant
+    bool is_placed = false;              // the mesh has its pivot and unit
+    std::vector<Mesh>* collected = nullptr; // receives meshes in place of files; null: none
+    const PlantVariants* variants = nullptr;
 };
 
 /// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
@@ -161,8 +165,12 @@ ExportInfo export_info(const Export& run) {
 
 /// The place of the plant in its files; the pivot is that of the plant at rest.
 PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
+    if (run.is_placed) {
+        return {};
+    }
     const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
-    return {pivot_of(rest, run.command.pivot), units_per_metre(run.command.unit)};
+    return {run.pivot.value_or(pivot_of(rest, run.command.pivot)),
+            units_per_metre(run.command.unit)};
 }
 
 /// Makes the mesh of `skeleton`; with `segments` those of its vertices too.
@@ -196,6 +204,7 @@ ExitStatus write_mesh(Export& run,
     ExportInfo info = export_info(run);
     info.animation = movement.animation;
     info.film = movement.film;
+    info.variants = run.variants;
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = command.bones.value_or(kDefaultJoints);
     const PlantPlacement placement = placement_of(run, skeleton);
@@ -293,6 +302,12 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
         meshes.erase(meshes.begin());
         ExportInfo info = origin;
         info.coarser = &meshes;
+        if (is_regular(command.output)) {
+            status = add_side_files(run, placed, command.output, info, files);
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
         status = files.add(command.output, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, placed, run.format, info, sink);
         });
@@ -342,6 +357,14 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
 
 /// Writes a plant that does not move.
 ExitStatus write_still(Export& run, const Skeleton& skeleton) {
+    if (run.collected != nullptr) {
+        const ExitStatus status = mesh_frame(run, skeleton, false);
+        if (status == ExitStatus::Ok) {
+            place(placement_of(run, skeleton), run.mesh);
+            run.collected->push_back(std::move(run.mesh));
+        }
+        return status;
+    }
     return run.command.lods != 0 ? write_lods(run, skeleton)
                                  : write_plant(run, skeleton, run.command.output);
 }
@@ -496,6 +519,21 @@ pose_growth(const Export& run, PlantGrowth& growth, const GrowthMoment& moment, 
                                      : run.console.take(growth.pose(moment, run.project, grown));
 }
 
+/// Sets the pivot of all frames: that of the last plant. Without an option nothing is derived.
+ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
+    if (run.command.pivot == PlantPivot::Origin) {
+        return ExitStatus::Ok;
+    }
+    Skeleton last;
+    const Outcome<void> posed = growth.pose({growth.last_generation(), 0.0}, run.project, last);
+    if (!posed) {
+        run.console.show(posed.messages());
+        return status_of(posed.stop());
+    }
+    run.pivot = pivot_of(last, run.command.pivot); // the last frame shows the messages
+    return ExitStatus::Ok;
+}
+
 /// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
@@ -512,6 +550,9 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
         run.console.info(fmt::format("nothing is drawn before generation {}; the first frame is on "
                                      "the way to it",
                                      first));
+    }
+    if (const ExitStatus status = find_growth_pivot(run, growth); status != ExitStatus::Ok) {
+        return status;
     }
     for (std::uint32_t frame = 0; frame < command.frames; ++frame) {
         GrowthMoment moment = moment_of_frame(frame + skipped, command.frames + skipped,
@@ -549,6 +590,8 @@ ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
         }
     }
     MeshFilm film = builder.finish();
+    place(placement_of(run, grown), film);
+    run.is_placed = true;
     run.mesh = std::move(film.mesh);
     return write_mesh(run, grown, command.output, {nullptr, &film});
 }
@@ -562,13 +605,20 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
         return {};
     }
     if (command.mesh.level != 0) {
-        return "--lods and --level do not go together: --lods writes the levels from 0 on";
+        return "--lods and --level do not go together: --lods writes the levels from 0 on, --level "
+               "one "
+               "of them";
     }
     if (command.frames != 0) {
-        return "--lods and --frames do not go together";
+        return "--lods and --frames do not go together: levels have other vertices, and only one "
+               "set "
+               "of them can have the skin or the shapes; --level K writes one coarser level that "
+               "moves";
     }
     if (command.mesh.method == MeshMethod::Solid) {
-        return "--lods and --method solid do not go together: a solid has no coarser levels";
+        return "--lods and --method solid do not go together: a solid has no coarser levels; a "
+               "larger "
+               "--min-width gives it fewer triangles";
     }
     if (!traits_of(format).uses_mesh) {
         return fmt::format("--lods needs a format with triangles, which {} is not",
@@ -576,7 +626,8 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     }
     const bool one_file = traits_of(format).lods && !command.lod_files;
     if (one_file && command.buffers == BufferPlace::Separate) {
-        return "--lods with --buffers separate needs --lod-files";
+        return "--lods in one file holds its buffer and pictures, so --buffers separate needs "
+               "--lod-files";
     }
     if (!one_file && !is_regular(command.output)) {
         return fmt::format("--lods writes several files here, which need a file name; {} hold all "
@@ -586,10 +637,49 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     return {};
 }
 
+/// A message about options that --variants does not go with; empty if there are none.
+std::string find_variant_conflict(const ExportCommand& command, ExportFormat format) {
+    if (!command.variants) {
+        return {};
+    }
+    const std::string instead = fmt::format(
+        "a file for each value: -D {}={}", command.variants->name, command.variants->texts.front());
+    if (!traits_of(format).variants) {
+        return fmt::format("--variants is for {}; other formats take {}",
+                           format_names("and", [](const auto& each) { return each.variants; }),
+                           instead);
+    }
+    if (command.lods != 0) {
+        return "--variants and --lods do not go together, because each plant has levels of its "
+               "own; write " +
+               instead;
+    }
+    if (command.frames != 0) {
+        return "--variants and --frames do not go together, because each plant moves in its own "
+               "way; write " +
+               instead;
+    }
+    if (is_standard_input(command.file)) {
+        return "--variants reads the grammar for each value, so it needs a file and not standard "
+               "input";
+    }
+    const auto& given = command.grammar.definitions;
+    if (std::any_of(given.begin(), given.end(),
+                    [&](const Definition& each) { return each.name == command.variants->name; })) {
+        return fmt::format("`{}` has one value by -D and several by --variants; leave out one of "
+                           "them",
+                           command.variants->name);
+    }
+    return {};
+}
+
 /// A message about options that do not go together; empty if there are none.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
-    if (const std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+    if (std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
+        return conflict;
+    }
+    if (const std::string conflict = find_variant_conflict(command, format); !conflict.empty()) {
         return conflict;
     }
     const auto names_with = [](bool FormatTraits::*feature) {
@@ -607,15 +697,18 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
         return "--grow needs the number of its frames: --frames N";
     }
     if (command.grow && bends) {
-        return "--grow and --gravity or --wind do not go together";
+        return "--grow and --gravity or --wind do not go together: the frames show either the "
+               "generations of a plant or the motion of the last one";
     }
     if (command.grow && (command.wind_data || command.bones)) {
-        return "--grow and --wind-data or --bones do not go together, because branches come and go";
+        return "--grow and --wind-data or --bones do not go together, because branches come and "
+               "go; "
+               "both are for the plant that has grown, without --grow";
     }
     if (command.grow &&
         command.compression.value_or(ExportCompression::None) != ExportCompression::None) {
         return "--grow and --compress do not go together: the changes from frame to frame are not "
-               "quantised";
+               "quantised; fewer --frames or --level K make a smaller file";
     }
     if (command.grow && command.stream) {
         return "--grow and --stream do not go together, because a generation is drawn between "
@@ -649,13 +742,9 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
             "--collision has a place in {}",
             format_names("and", [](const FormatTraits& each) { return each.collision; }));
     }
-    if (command.grow && command.pivot != PlantPivot::Origin) {
-        return "--grow and --pivot do not go together, because base and middle of a plant change "
-               "as "
-               "it grows";
-    }
     if (command.grow && command.collision != CollisionKind::None) {
-        return "--grow and --collision do not go together, because branches come and go";
+        return "--grow and --collision do not go together, because branches come and go; take the "
+               "shapes from a file of the plant that has grown, without --grow";
     }
     if (command.loop && command.grow) {
         return "--loop and --grow do not go together, because a plant that has grown is another";
@@ -681,6 +770,90 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     return {};
 }
 
+/// The plant of one value of --variants.
+struct VariantPlant {
+    ExportCommand command;
+    Grammar grammar;
+    Plant plant;
+};
+
+/// Takes the value of an outcome and shows its messages, unless the same ones have been shown.
+template <typename T>
+ExitStatus
+take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::string>& shown) {
+    if (shown.insert(messages_text(outcome.messages(), console.options(), "lsc")).second) {
+        console.show(outcome.messages());
+    }
+    if (!outcome) {
+        return status_of(outcome.stop());
+    }
+    value = std::move(outcome.value());
+    return ExitStatus::Ok;
+}
+
+/// Writes a plant for each value of --variants into one file.
+ExitStatus export_variants(const ExportCommand& command,
+                           ExportFormat format,
+                           const Project& project,
+                           const Console& console) {
+    const VariantValues& values = *command.variants;
+    PlantVariants variants{.set = values.name, .names = values.texts, .others = {}};
+    VariantPlant first;
+    std::set<std::string> shown;
+    ExportTiming timing;
+    for (std::size_t i = 0; i < values.values.size(); ++i) {
+        VariantPlant later;
+        VariantPlant& grown = i == 0 ? first : later;
+        grown.command = command;
+        grown.command.grammar.definitions.push_back({values.name, values.values[i]});
+        ExitStatus status = take_once(load_grammar(command.file, grown.command.grammar, project),
+                                      grown.grammar, console, shown);
+        if (status == ExitStatus::Ok) {
+            grown.grammar.program.reset();
+            status = take_once(grow_plant(plant_options(command), grown.grammar, project),
+                               grown.plant, console, shown);
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        Export run{grown.command,
+                   format,
+                   grown.grammar,
+                   console,
+                   project,
+                   grown.plant,
+                   timing,
+                   {},
+                   {},
+                   {},
+                   {}};
+        run.collected = &variants.others;
+        status = command.gravity || command.wind ? write_bent(run)
+                                                 : write_still(run, grown.plant.skeleton);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        timing = run.timing;
+    }
+    Export run{first.command,
+               format,
+               first.grammar,
+               console,
+               project,
+               first.plant,
+               timing,
+               {},
+               {},
+               {},
+               {}};
+    run.mesh = std::move(variants.others.front());
+    variants.others.erase(variants.others.begin());
+    run.is_placed = true;
+    run.variants = &variants;
+    const ExitStatus status = write_mesh(run, first.plant.skeleton, command.output, {});
+    return status == ExitStatus::Ok && command.stats ? write_stats(run, first.plant) : status;
+}
+
 /// Grows the plant of a compiled grammar in frames and writes them.
 ExitStatus export_growth(const ExportCommand& command,
                          ExportFormat format,
@@ -693,7 +866,7 @@ ExitStatus export_growth(const ExportCommand& command,
         return status_of(begun.stop());
     }
     PlantGrowth& growth = begun.value();
-    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}};
+    Export run{command, format, grammar, console, project, growth.plant(), {}, {}, {}, {}, {}};
     Skeleton grown;
     const ExitStatus status =
         traits_of(format).film ? write_film(run, growth, grown) : write_growth(run, growth, grown);
@@ -725,6 +898,9 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     }
     Grammar grammar;
     Project project = make_project(console, command.run);
+    if (command.variants) {
+        return export_variants(command, *format, project, console);
+    }
     ExitStatus status = console.take(load_grammar(command.file, command.grammar, project), grammar);
     if (status != ExitStatus::Ok) {
         return status;
@@ -742,7 +918,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
-    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}};
+    Export run{command, *format, grammar, console, project, plant, {}, {}, {}, {}, {}};
     const SteadyClock::time_point start = SteadyClock::now();
     status = bends ? write_bent(run) : write_still(run, plant.skeleton);
     if (status != ExitStatus::Ok || !command.stats) {

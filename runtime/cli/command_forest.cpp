@@ -2,6 +2,7 @@
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/surface_options.h"
 #include "runtime/export/export_forest.h"
+#include "runtime/export/placed_plant.h"
 #include "runtime/forest/different_trees.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/forest_growth.h"
@@ -67,13 +68,42 @@ Result<OutputTarget> target_of(const ForestCommand& command) {
     return OutputTarget{OutputKind::Instances, *format};
 }
 
+/// A message about options of the place of a forest; empty if there are none.
+std::string find_place_conflict(const ForestCommand& command, const OutputTarget& target) {
+    const bool has_format = target.kind == OutputKind::Instances || target.kind == OutputKind::Mesh;
+    if (command.collision != CollisionKind::None) {
+        if (target.kind != OutputKind::Instances || !traits_of(target.format).collision) {
+            return fmt::format(
+                "--collision has a place in {} with instances",
+                format_names("and", [](const auto& each) { return each.collision; }));
+        }
+        if (command.instances != ForestInstances::Trees) {
+            return "--collision is for whole trees of one level of detail: --instances trees";
+        }
+    }
+    const bool metres = command.unit == LengthUnit::Metres;
+    if (!has_format && !(metres && command.pivot == ForestPivot::Origin)) {
+        return "--unit and --pivot are for files of trees";
+    }
+    if (has_format && !metres && !traits_of(target.format).units) {
+        return fmt::format("--unit is for {}; {}",
+                           format_names("and", [](const auto& each) { return each.units; }),
+                           traits_of(target.format).collision
+                               ? "glTF is in metres by definition, and importers scale it to the "
+                                 "unit of the engine"
+                               : "this format has a scale of its own");
+    }
+    return {};
+}
+
 /// A message about conflicting options; empty if there are none.
 std::string find_conflict(const ForestCommand& command, const OutputTarget& target) {
     if (command.output.empty() && !command.stats && !command.check) {
         return "nothing is asked for; say where to write with -o, or --stats, or --check";
     }
     if (command.expand && command.bake) {
-        return "--expand and --bake do not go together";
+        return "--expand and --bake do not go together: the one writes a node for each tree, the "
+               "other one mesh of all";
     }
     if (command.expand &&
         (target.kind != OutputKind::Instances || !traits_of(target.format).expands_forest)) {
@@ -88,14 +118,18 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
     const bool lods = command.instances == ForestInstances::Lods;
     if (command.instances != ForestInstances::Branches &&
         command.overrides.rho.value_or(0.0F) > 0.0F) {
-        return fmt::format("--instances {} shows heroes as they are, so --rho does not go with it",
-                           lods ? "lods" : "trees");
+        return fmt::format(
+            "--instances {} shows heroes as they are, so --rho does not go with it; more "
+            "--heroes make more different trees",
+            lods ? "lods" : "trees");
     }
     if (command.viewpoint && !lods) {
         return "--viewpoint is for --instances lods, whose trees have levels by distance";
     }
     if (lods && command.frames != 0) {
-        return "--instances lods and --frames do not go together";
+        return "--instances lods and --frames do not go together: levels are fitted to the trees "
+               "of "
+               "one moment; --instances trees writes a series";
     }
     if (lods && target.kind == OutputKind::Statistics) {
         return "--instances lods writes a forest; its statistics are those of --instances trees";
@@ -107,8 +141,11 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
         if (command.surface.up != UpAxis::Y || command.surface.both_sides) {
             return "--up and --both-sides are for files of trees";
         }
-    } else if (const std::string conflict = find_surface_conflict(command.surface, target.format);
+    } else if (std::string conflict = find_surface_conflict(command.surface, target.format);
                !conflict.empty()) {
+        return conflict;
+    }
+    if (const std::string conflict = find_place_conflict(command, target); !conflict.empty()) {
         return conflict;
     }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {
@@ -173,6 +210,17 @@ ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
     return ExitStatus::Ok;
 }
 
+/// The place of the scene that is the origin of the file.
+glm::vec3 pivot_of(const Run& run) {
+    if (run.command.pivot == ForestPivot::Origin) {
+        return glm::vec3(0.0F);
+    }
+    const Region& region = run.scene.placement.region;
+    const auto x = static_cast<float>(region.x + 0.5 * region.width);
+    const auto z = static_cast<float>(region.z + 0.5 * region.depth);
+    return {x, run.grown.terrain->height(x, z), z};
+}
+
 ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string& path) {
     ForestExportInfo info;
     info.name = std::filesystem::path(path).stem().string();
@@ -181,6 +229,10 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     const bool whole_trees = run.command.instances != ForestInstances::Branches;
     info.cell = run.command.cell.value_or(whole_trees ? 0.0F : kCell);
     info.up = run.command.surface.up;
+    info.unit = run.command.unit;
+    info.pivot = pivot_of(run);
+    info.collision = run.command.collision;
+    info.collision_names = run.command.collision_names;
     info.threads = run.command.run.threads;
     info.compression = run.command.compression.value_or(ExportCompression::None);
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
@@ -214,8 +266,10 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     if (status != ExitStatus::Ok) {
         return status;
     }
+    place(PlantPlacement{pivot_of(run), units_per_metre(run.command.unit)}, mesh);
     ExportInfo info;
     info.subject = ExportSubject::Forest;
+    info.unit = run.command.unit;
     info.grammar = std::filesystem::path(path).stem().string();
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;

@@ -168,16 +168,63 @@ void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
                             "that is given too wins");
 }
 
-/// Options of the file of a plant.
-void add_placement(CLI::App& app, ExportCommand& command) {
+/// `season=0,0.5`: a name and several numbers.
+Result<VariantValues> parse_variants(const std::string& text) {
+    VariantValues variants;
+    const std::size_t equals = std::min(text.find('='), text.size());
+    variants.name = text.substr(0, equals);
+    for (std::size_t at = equals; at < text.size();) {
+        const std::size_t end = std::min(text.find(',', at + 1), text.size());
+        variants.texts.push_back(text.substr(at + 1, end - at - 1));
+        at = end;
+        const Result<Definition> value =
+            parse_definition(fmt::format("{}={}", variants.name, variants.texts.back()));
+        if (!value) {
+            return value.error();
+        }
+        if (std::find(variants.values.begin(), variants.values.end(), value.value().value) !=
+            variants.values.end()) {
+            return Error{fmt::format("`{}` is given twice", variants.texts.back())};
+        }
+        variants.values.push_back(value.value().value);
+    }
+    if (variants.values.size() < 2) {
+        return Error{
+            fmt::format("`{}` is not NAME=NUMBER,NUMBER,... with two numbers or more", text)};
+    }
+    return variants;
+}
+
+void add_unit(CLI::App& app, LengthUnit& target) {
     const std::string unit =
         fmt::format("Unit of lengths in {} (default m)",
                     format_names("and", [](const FormatTraits& format) { return format.units; }));
-    add_choice<LengthUnit>(app, "--unit", command.unit,
+    add_choice<LengthUnit>(app, "--unit", target,
                            {{"m", LengthUnit::Metres},
                             {"cm", LengthUnit::Centimetres},
                             {"mm", LengthUnit::Millimetres}},
                            unit.c_str());
+}
+
+void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
+    add_choice<CollisionKind>(app, "--collision", kind,
+                              {{"none", CollisionKind::None},
+                               {"capsules", CollisionKind::Capsules},
+                               {"hulls", CollisionKind::Hulls}},
+                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
+                              "glTF (default none)");
+    add_choice<CollisionNames>(
+        app, "--collision-names", names,
+        {{"unreal", CollisionNames::Unreal},
+         {"godot", CollisionNames::Godot},
+         {"unity", CollisionNames::Unity}},
+        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
+        "(default unreal)");
+}
+
+/// Options of the file of a plant.
+void add_placement(CLI::App& app, ExportCommand& command) {
+    add_unit(app, command.unit);
     add_choice<PlantPivot>(
         app, "--pivot", command.pivot,
         {{"origin", PlantPivot::Origin},
@@ -185,19 +232,7 @@ void add_placement(CLI::App& app, ExportCommand& command) {
          {"centre", PlantPivot::Centre}},
         "Point that becomes the origin of the file: the start of the turtle, the base of the trunk "
         "or the middle of the plant (default origin)");
-    add_choice<CollisionKind>(app, "--collision", command.collision,
-                              {{"none", CollisionKind::None},
-                               {"capsules", CollisionKind::Capsules},
-                               {"hulls", CollisionKind::Hulls}},
-                              "Shapes of trunk and boughs for the physics of engines, as nodes of "
-                              "glTF (default none)");
-    add_choice<CollisionNames>(
-        app, "--collision-names", command.collision_names,
-        {{"unreal", CollisionNames::Unreal},
-         {"godot", CollisionNames::Godot},
-         {"unity", CollisionNames::Unity}},
-        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
-        "(default unreal)");
+    add_collision(app, command.collision, command.collision_names);
 }
 
 void add_compression(CLI::App& app, std::optional<ExportCompression>& compression) {
@@ -249,18 +284,28 @@ void add_export(CLI::App& app, ExportCommand& command) {
                  "Print counts, sizes and times; with --message-format json as one JSON object");
     add_mesh(app, command.mesh);
     describe_detail_levels(app);
-    add_parsed(app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
-               fmt::format(
-                   "Write the first N levels of detail: {} hold them in one file (MSFT_lod), other "
-                   "formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
-                   format_names("and", [](const FormatTraits& format) { return format.lods; }))
-                   .c_str())
+    add_parsed(
+        app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
+        fmt::format(
+            "Write the first N levels of detail: {} hold them in one file (glTF as MSFT_lod, "
+            "USD as the variant set LOD), other formats are files tree.LOD0.obj, "
+            "tree.LOD1.obj, ... and tree.lods.json",
+            format_names("and", [](const FormatTraits& format) { return format.lods; }))
+            .c_str())
         ->type_name("N")
         ->group("Mesh");
     app.add_flag("--lod-files", command.lod_files,
                  "Write a file for each level in any format, and the list of distances "
                  "tree.lods.json")
         ->group("Mesh");
+    add_parsed(
+        app, "--variants", command.variants, parse_variants,
+        fmt::format("Write a plant for each value of a #define or #param into one file, as "
+                    "variants of a set with its name ({}); the first is shown unless another is "
+                    "selected",
+                    format_names("and", [](const FormatTraits& format) { return format.variants; }))
+            .c_str())
+        ->type_name("NAME=NUMBER,NUMBER,...");
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
     add_parsed(app, "--gravity", command.gravity, gravity,
                "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
@@ -322,7 +367,8 @@ void add_export(CLI::App& app, ExportCommand& command) {
         "the projection to the XY plane. A skin has at most 65,535 moving joints.\n"
         "Examples: lsc export tree.lsys -o tree.glb\n"
         "          lsc export tree.lsys -o tree.glb --wind 8,0,0,0.5 --frames 97 --loop\n"
-        "          lsc export tree.lsys -o tree.glb --grow --frames 100");
+        "          lsc export tree.lsys -o tree.glb --grow --frames 100\n"
+        "          lsc export tree.lsys -o tree.usdz --variants season=0,0.25,0.5,0.75");
 }
 
 void add_forest(CLI::App& app, ForestCommand& command) {
@@ -359,6 +405,13 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
                "Eye for --instances lods, in m (default: outside the edge of the forest)")
         ->type_name("X,Y,Z");
+    add_unit(app, command.unit);
+    add_choice<ForestPivot>(
+        app, "--pivot", command.pivot,
+        {{"origin", ForestPivot::Origin}, {"base", ForestPivot::Base}},
+        "Place that becomes the origin of the file: the origin of the scene, or the ground in the "
+        "middle of its rectangle (default origin)");
+    add_collision(app, command.collision, command.collision_names);
     add_surface(app, command.surface);
     add_parsed(
         app, "--cell", command.cell,
@@ -537,8 +590,13 @@ Result<std::vector<std::string>> find_preset_arguments(const Command& command,
         if (!suits(preset, kCommand, *format)) {
             return Error{unsuitable_text(preset, kCommand, format->name)};
         }
-        return preset_arguments(preset, kCommand, *format, [&app](std::string_view option) {
-            return app.get_option(std::string(option))->count() > 0;
+        return preset_arguments(preset, kCommand, *format, [&app](std::string_view word) {
+            const std::size_t end = std::min(word.find('='), word.size());
+            const std::vector<std::string> values =
+                app.get_option(std::string(word.substr(0, end)))->results();
+            return end == word.size() ? !values.empty()
+                                      : std::find(values.begin(), values.end(),
+                                                  word.substr(end + 1)) != values.end();
         });
     }
     return std::vector<std::string>{};

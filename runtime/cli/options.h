@@ -84,6 +84,13 @@ struct SurfaceOptions {
     bool both_sides = false;
 };
 
+/// Values of a constant of the grammar: a plant for each in one file.
+struct VariantValues {
+    std::string name;
+    std::vector<std::string> texts; // as they were given
+    std::vector<float> values;
+};
+
 struct ExportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -115,11 +122,18 @@ struct ExportCommand {
     bool stream = false;
     std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
     bool lod_files = false; // a file for each level
+    std::optional<VariantValues> variants;
     bool stats = false;
 };
 
 /// Parts of a forest that its file repeats.
 enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
+
+/// Place of a scene that is the origin of its file.
+enum class ForestPivot : std::uint8_t {
+    Origin, // that of the scene
+    Base,   // the ground in the middle of the scene's rectangle
+};
 
 struct ForestCommand {
     MessageOptions messages;
@@ -132,6 +146,10 @@ struct ForestCommand {
     bool expand = false;
     bool bake = false;
     SurfaceOptions surface;
+    LengthUnit unit = LengthUnit::Metres;
+    ForestPivot pivot = ForestPivot::Origin;
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
     ForestInstances instances = ForestInstances::Branches;
     std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
     /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.

@@ -88,14 +88,16 @@ preset_arguments(const Preset& preset,
                  const FormatTraits& format,
                  const std::function<bool(std::string_view option)>& is_given) {
     std::vector<std::string> arguments;
+    std::string_view last; // name of the last one; rows of an option follow one another
     for (const PresetOption& option : kOptions) {
-        if (option.preset != preset.name || option.command != command) {
+        if (option.preset != preset.name || option.command != command || option.name == last) {
             continue;
         }
         const std::vector<std::string_view> others = words_of(option.unless);
         if (!is_given(option.name) && std::none_of(others.begin(), others.end(), is_given) &&
             (option.takes == nullptr || option.takes(format))) {
             arguments.push_back(option_text(option, '='));
+            last = option.name;
         }
     }
     return arguments;
@@ -103,9 +105,11 @@ preset_arguments(const Preset& preset,
 
 std::string preset_text(const Preset& preset, PresetCommand command) {
     std::string text;
+    std::string_view last;
     for (const PresetOption& option : kOptions) {
-        if (option.preset == preset.name && option.command == command) {
+        if (option.preset == preset.name && option.command == command && option.name != last) {
             text += (text.empty() ? "" : " ") + option_text(option, ' ');
+            last = option.name;
         }
     }
     return text;

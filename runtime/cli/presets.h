@@ -19,9 +19,10 @@ enum class PresetCommand : std::uint8_t { Export, Forest };
 struct PresetOption {
     std::string_view preset;
     PresetCommand command = PresetCommand::Export;
-    std::string_view name;   // `--unit`
-    std::string_view value;  // empty: the option is a flag
-    std::string_view unless; // options that rule this one out, divided by blanks
+    std::string_view name;  // `--unit`
+    std::string_view value; // empty: the option is a flag
+    /// Options that rule this one out, divided by blanks; `--output=-`: with this value only.
+    std::string_view unless;
     /// Formats that take the option; null: all of the preset.
     bool (*takes)(const FormatTraits& format) = nullptr;
 };
@@ -43,14 +44,16 @@ struct Preset {
 unsuitable_text(const Preset& preset, PresetCommand command, std::string_view format);
 
 /// The options of a preset as on the command line, `--unit=mm`, without those for which `is_given`
-/// (their own name, or one that rules them out) and those that the format does not take.
+/// (their own name, or a word of PresetOption::unless) and those that the format does not take. Of
+/// several rows of an option the first that is left.
 [[nodiscard]] std::vector<std::string>
 preset_arguments(const Preset& preset,
                  PresetCommand command,
                  const FormatTraits& format,
                  const std::function<bool(std::string_view option)>& is_given);
 
-/// All options of a preset for a command: "--pivot base --unit mm".
+/// All options of a preset for a command: "--pivot base --unit mm". Of several rows of an option the
+/// first.
 [[nodiscard]] std::string preset_text(const Preset& preset, PresetCommand command);
 /// The presets of a command as a table for `--help`.
 [[nodiscard]] std::string preset_table(PresetCommand command);

@@ -96,6 +96,7 @@ private:
             };
             const bool formals_known = own_known && own_first == 0 &&
                                        !reads_others(production.condition) &&
+                                       !reads_others(production.successor.locals) &&
                                        !reads_others(production.successor.arguments);
             if (formals_known && !may_match(production, own.data())) {
                 continue;
@@ -123,10 +124,9 @@ private:
         }
         std::vector<float> values(successor.parameter_count);
         EvalFault fault;
-        const bool known =
-            formals_known && !has_random_parameters(program_, successor) &&
-            !contains(program_, successor.arguments, Opcode::Step) &&
-            evaluate(program_, successor.arguments, frame(own), nullptr, values.data(), fault);
+        const bool known = formals_known && !has_random_parameters(program_, successor) &&
+                           !contains(program_, successor, Opcode::Step) &&
+                           evaluate(program_, successor, frame(own), nullptr, values.data(), fault);
         note_modules(successor, known ? values.data() : nullptr);
     }
 

@@ -105,6 +105,15 @@ Outcome<void> export_mesh(const Mesh& mesh,
         if (triangles > traits.max_triangles || mesh.positions.size() > traits.max_vertices) {
             return too_large_for_format(info.subject);
         }
+        for (std::size_t i = 0; info.variants != nullptr && i < info.variants->others.size(); ++i) {
+            const Mesh& other = info.variants->others[i];
+            if (triangle_count(other) == 0) {
+                return nothing_to_draw(info.subject);
+            }
+            if (other.positions.size() > traits.max_vertices) {
+                return too_large_for_format(info.subject);
+            }
+        }
         PieceWriter out(sink);
         return traits.write({mesh, skeleton, info}, out);
     });

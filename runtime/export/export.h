@@ -67,6 +67,7 @@ struct FormatTraits {
     bool motion = false;     // one file holds all frames of an animation
     bool film = false;       // one file holds all frames of a growth
     bool lods = false;       // one file holds all levels of detail
+    bool variants = false;   // takes ExportInfo::variants
     bool compresses = false; // takes ExportInfo::compression
     bool separates = false;  // takes ExportInfo::buffer_name
     bool wind_data = false;  // takes ExportInfo::wind_data
@@ -109,6 +110,13 @@ struct CoarserMesh {
     Mesh mesh;
     /// The part of the screen, 0 to 1, that the box of the plant covers where this level begins.
     double coverage = 0.0;
+};
+
+/// Plants of which a reader shows one: the mesh of the file, its default, and others.
+struct PlantVariants {
+    std::string set;                // name of the choice
+    std::vector<std::string> names; // of the mesh of the file, then of `others`
+    std::vector<Mesh> others;
 };
 
 /// Origin and contents of a file.
@@ -156,6 +164,9 @@ struct ExportInfo {
     /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:
     /// none. Not together with an animation.
     const std::vector<CoarserMesh>* coarser = nullptr;
+    /// Other plants in the file, for FormatTraits::variants; null: none. Not together with an
+    /// animation or `coarser`.
+    const PlantVariants* variants = nullptr;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.

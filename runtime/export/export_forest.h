@@ -38,8 +38,13 @@ struct ForestExportInfo {
     /// Form of the arrays of vertices and indices, for FormatTraits::compresses. The ground keeps
     /// exact positions, and instances their transforms.
     ExportCompression compression = ExportCompression::None;
-    std::uint32_t threads = 0; // 0: as many as the machine has
-    UpAxis up = UpAxis::Y;     // for FormatTraits::up_axes
+    std::uint32_t threads = 0;            // 0: as many as the machine has
+    UpAxis up = UpAxis::Y;                // for FormatTraits::up_axes
+    LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
+    /// Of each hero at rest, in glTF of whole trees; named after its mesh.
+    CollisionKind collision = CollisionKind::None;
+    CollisionNames collision_names = CollisionNames::Unreal;
+    glm::vec3 pivot{0.0F}; // m, the place of the scene that is the origin of the file
     /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };

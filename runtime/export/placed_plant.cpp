@@ -1,8 +1,19 @@
 #include "runtime/export/placed_plant.h"
 
+#include "runtime/meshing/mesh_film.h"
 #include "runtime/physics/animation.h"
 
 namespace lsys {
+
+namespace {
+
+void place_points(const PlantPlacement& placement, LargeVector<glm::vec3>& points) {
+    for (glm::vec3& point : points) {
+        point = placement.scale * (point - placement.pivot);
+    }
+}
+
+} // namespace
 
 glm::vec3 pivot_of(const Skeleton& skeleton, PlantPivot pivot) {
     if (pivot == PlantPivot::Origin) {
@@ -17,8 +28,15 @@ glm::vec3 pivot_of(const Skeleton& skeleton, PlantPivot pivot) {
 }
 
 void place(const PlantPlacement& placement, Mesh& mesh) {
-    for (glm::vec3& position : mesh.positions) {
-        position = placement.scale * (position - placement.pivot);
+    place_points(placement, mesh.positions);
+}
+
+void place(const PlantPlacement& placement, MeshFilm& film) {
+    place(placement, film.mesh);
+    for (MeshFilm::Shape& shape : film.shapes) {
+        for (MeshFilm::Frame& frame : shape.earlier) {
+            place_points(placement, frame.positions);
+        }
     }
 }
 
@@ -34,9 +52,7 @@ void place(const PlantPlacement& placement, Skeleton& skeleton) {
         object.position = scale * (object.position - placement.pivot);
         object.size *= scale;
     }
-    for (glm::vec3& corner : skeleton.corners) {
-        corner = scale * (corner - placement.pivot);
-    }
+    place_points(placement, skeleton.corners);
 }
 
 void place(const PlantPlacement& placement, PlantAnimation& animation) {

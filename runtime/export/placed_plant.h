@@ -11,6 +11,7 @@
 
 namespace lsys {
 
+struct MeshFilm;
 struct PlantAnimation;
 
 /// Point of a plant that is the origin of its file.
@@ -33,6 +34,8 @@ struct PlantPlacement {
 
 /// Moves and scales positions, lengths and radii. Springs and masses stay as they are.
 void place(const PlantPlacement& placement, Mesh& mesh);
+/// The mesh of the film and all its frames.
+void place(const PlantPlacement& placement, MeshFilm& film);
 void place(const PlantPlacement& placement, Skeleton& skeleton);
 void place(const PlantPlacement& placement, PlantAnimation& animation);
 

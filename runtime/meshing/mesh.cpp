@@ -17,10 +17,13 @@ namespace lsys {
 
 namespace {
 
-std::vector<FilePictures> pictures_of(const std::vector<UserMesh>& user_meshes) {
+std::vector<FilePictures> pictures_of(const Skeleton& skeleton,
+                                      const std::vector<UserMesh>& user_meshes) {
+    std::vector<std::string> names = object_file_names(skeleton.mesh_files);
+    names.resize(user_meshes.size());
     std::vector<FilePictures> pictures;
-    for (const UserMesh& user_mesh : user_meshes) {
-        pictures.push_back({user_mesh.picture, user_mesh.relief});
+    for (std::size_t i = 0; i < user_meshes.size(); ++i) {
+        pictures.push_back({user_meshes[i].picture, user_meshes[i].relief, names[i]});
     }
     return pictures;
 }
@@ -36,7 +39,7 @@ std::optional<Stop> build_solid(const Skeleton& skeleton,
     plain.segments = true;
     Mesh flat;
     MeshBuilder flat_builder(plain, flat);
-    flat_builder.set_pictures(pictures_of(user_meshes));
+    flat_builder.set_pictures(pictures_of(skeleton, user_meshes));
     append_polygons(skeleton, user_meshes, plain, flat_builder);
     append_objects(skeleton, user_meshes, plain, flat_builder);
     std::optional<Stop> stop = flat_builder.finish();
@@ -63,7 +66,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
         return build_solid(skeleton, user_meshes, options, mesh);
     }
     MeshBuilder builder(options, mesh);
-    builder.set_pictures(pictures_of(user_meshes));
+    builder.set_pictures(pictures_of(skeleton, user_meshes));
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // other objects

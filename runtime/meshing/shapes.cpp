@@ -20,7 +20,7 @@ constexpr std::uint16_t kLeafGreen = 1;
 constexpr std::uint16_t kYellow = 18;
 constexpr std::uint16_t kPink = 20;
 constexpr std::uint16_t kPaleGreen = 14;
-constexpr std::uint16_t kGrey = 24;
+constexpr std::uint16_t kGrey = kGreyPalette;
 
 std::uint32_t halved(std::uint32_t finest, std::uint32_t level, std::uint32_t min_count) {
     return std::max(level < 32 ? finest >> level : 0, min_count);

@@ -1,7 +1,7 @@
 // Makes a prefab with an LODGroup of the levels of detail of a plant, for Unity 2021 or later. Put this file into a folder
 // `Editor`, and tree.lods.json with the files that it names into the project (GLB needs the package glTFast; OBJ and others
 // Unity reads itself). Select the list and use Assets > Make LOD prefab. The files are written by
-// `lsc export --lods N --lod-files`. Written by the documentation of LODGroup.
+// `lsc export --lods N --lod-files`. Written by the documentation of LODGroup and MeshCollider.
 using System;
 using System.IO;
 using System.Linq;
@@ -55,9 +55,18 @@ public static class UnityImportLods
             }
             var child = (GameObject)PrefabUtility.InstantiatePrefab(model, root.transform);
             child.name = name + "_LOD" + i;
+            Renderer[] all = child.GetComponentsInChildren<Renderer>();
+            Renderer[] shapes = all.Where(each => each.name.Contains("_collider_")).ToArray();
+            foreach (Renderer shape in shapes) // of --collision-names unity
+            {
+                shape.enabled = false;
+                var collider = shape.gameObject.AddComponent<MeshCollider>();
+                collider.sharedMesh = shape.GetComponent<MeshFilter>().sharedMesh;
+                collider.convex = true;
+            }
             // A level ends where the next one begins; the last is never hidden.
             float end = i + 1 < levels.Length ? levels[i + 1].screen_height : 0.0f;
-            lods[i] = new LOD(end, child.GetComponentsInChildren<Renderer>().ToArray());
+            lods[i] = new LOD(end, all.Except(shapes).ToArray());
         }
         var group = root.AddComponent<LODGroup>();
         group.SetLODs(lods);

@@ -36,10 +36,10 @@ function expect(file, what, found, expected) {
     }
 }
 
-// Pictures of ours have 256 texels a side; those of mesh files ("picture 1") keep their size, which is
-// 64 in the only sample that has one, samples/teach-picture.
+// Pictures of ours have 256 texels a side; those of mesh files keep their size, which is 64 in the
+// only sample that has one, samples/teach-picture.
 function expectSize(file, name, png) {
-    const side = /picture.\d/.test(name) ? 64 : 256;
+    const side = /maple/.test(name) ? 64 : 256;
     expect(file, `size of ${name}`, `${png.width} x ${png.height}`, `${side} x ${side}`);
 }
 

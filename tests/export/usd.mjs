@@ -54,7 +54,8 @@ export function readPlyTriangles(bytes) {
     return corners;
 }
 
-/// Functions that read the bytes of a file: `open` its meshes, `layer` what it says, as text.
+/// Functions that read the bytes of a file: `open` its meshes, `layer` what it says, as text,
+/// `composed` the same with its variants selected.
 /// tinyusdz is built for workers of browsers, and this looks like one.
 export async function tinyUsdz(module, modules) {
     process.type = 'renderer';
@@ -75,6 +76,15 @@ export async function tinyUsdz(module, modules) {
         open: (file, bytes) => loaded('loadFromBinary', file, bytes),
         layer: (file, bytes) => {
             const loader = loaded('loadAsLayerFromBinary', file, bytes);
+            const text = loader.layerToString();
+            loader.delete();
+            return text;
+        },
+        composed: (file, bytes) => {
+            const loader = loaded('loadAsLayerFromBinary', file, bytes);
+            if (!loader.composeVariants()) {
+                throw new Error(`tinyusdz does not compose it: ${loader.error()}`);
+            }
             const text = loader.layerToString();
             loader.delete();
             return text;

@@ -168,16 +168,21 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
 
     Environment environment = environment_of(reading, choice.bindings);
     environment.draw = [&] { return uniform(system.seed, position, reading.age, draw++); };
+    const auto value_of = [&](const Expr& expr) {
+        try {
+            return evaluate(expr, environment);
+        } catch (const BadRange&) {
+            stop(reading, production, position, Failure::BadRange);
+        }
+    };
+    for (const auto& [name, expr] : production.locals) {
+        environment.formals[name] = value_of(expr); // may be infinite or NaN
+    }
     for (const ModuleUse& use : production.successor) {
         Module module{
             use.name, {}, {&use, production.label, reading.age + (reading.decomposes ? 0 : 1)}};
         for (const Expr& argument : use.arguments) {
-            float value = 0;
-            try {
-                value = evaluate(argument, environment);
-            } catch (const BadRange&) {
-                stop(reading, production, position, Failure::BadRange);
-            }
+            const float value = value_of(argument);
             if (!std::isfinite(value)) {
                 stop(reading, production, position, Failure::NotFinite);
             }

@@ -148,6 +148,17 @@ float apply_operator(const std::string& name, const std::vector<float>& operands
 float apply_function(const std::string& name, const std::vector<float>& operands) {
     const float a = operands[0];
     const auto wide = static_cast<double>(a);
+    if (operands.size() == 3) {
+        if (name == "clamp") {
+            const float raised = operands[1] > a ? operands[1] : a;
+            return operands[2] < raised ? operands[2] : raised;
+        }
+        if (name == "mix") {
+            const double way = static_cast<double>(operands[1]) - wide;
+            return rounded(wide + way * static_cast<double>(operands[2]));
+        }
+        unknown(name);
+    }
     if (operands.size() == 2) {
         const float b = operands[1];
         if (name == "atan2") {
@@ -212,6 +223,25 @@ float apply_function(const std::string& name, const std::vector<float>& operands
     unknown(name);
 }
 
+namespace {
+
+std::size_t ranges_in(const Expr& expr) {
+    std::size_t count = expr.kind == ExprKind::Range ? 1 : 0;
+    for (const Expr& part : expr.parts) {
+        count += ranges_in(part);
+    }
+    return count;
+}
+
+// The numbers of the ranges of an expression that is not evaluated.
+void skip_ranges(const Expr& expr, const Environment& environment) {
+    for (std::size_t i = ranges_in(expr); i > 0; --i) {
+        environment.draw();
+    }
+}
+
+} // namespace
+
 float evaluate(const Expr& expr, const Environment& environment) {
     if (expr.kind == ExprKind::Number) {
         return expr.number;
@@ -232,6 +262,15 @@ float evaluate(const Expr& expr, const Environment& environment) {
     }
     if (expr.kind == ExprKind::Call && expr.text == "steps") {
         return environment.steps;
+    }
+    if (expr.kind == ExprKind::Call && expr.text == "if") {
+        if (holds(evaluate(expr.parts[0], environment))) {
+            const float value = evaluate(expr.parts[1], environment);
+            skip_ranges(expr.parts[2], environment);
+            return value;
+        }
+        skip_ranges(expr.parts[1], environment);
+        return evaluate(expr.parts[2], environment);
     }
     // Every operand is evaluated, those of && and || too: a range in it takes its number.
     std::vector<float> operands;

@@ -129,6 +129,12 @@ private:
         if (production.condition) {
             expression(*production.condition, "condition: ");
         }
+        if (!production.locals.empty()) {
+            found_.insert("local values, " + mode);
+            for (const auto& [name, value] : production.locals) {
+                expression(value, "local: ");
+            }
+        }
         arguments(production);
         formals(production);
     }
@@ -243,6 +249,11 @@ const std::vector<std::string>& feature_names() {
                                                     "param: range",
                                                     "axiom: range",
                                                     "successor: range",
+                                                    "local: range",
+                                                    "local values, parallel",
+                                                    "local values, sequential",
+                                                    "local values, cyclic",
+                                                    "local values, leftmost",
                                                     "left context",
                                                     "right context",
                                                     "both contexts",
@@ -311,6 +322,9 @@ const std::vector<std::string>& feature_names() {
                                                     "function min",
                                                     "function max",
                                                     "function mod",
+                                                    "function if",
+                                                    "function clamp",
+                                                    "function mix",
                                                     "function step",
                                                     "function steps",
                                                     "consider",

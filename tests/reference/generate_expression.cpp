@@ -72,6 +72,9 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
         }
         return low <= high ? expr : range(expr.parts[1], expr.parts[0]);
     }
+    if (expr.text == "if" && is_constant(expr.parts[0], scope)) {
+        return literal(); // the compiler would leave one side out
+    }
     if (is_constant(expr, scope) && !std::isfinite(constant_value(expr))) {
         return literal();
     }
@@ -206,6 +209,13 @@ Expr ExpressionMaker::any(const Scope& scope, int depth) {
     if (scope.ranges > 0 && random_.percent(8)) {
         return range_of(scope, depth);
     }
+    if (random_.percent(12)) {
+        const Expr first = random_.percent(50) ? comparison(scope) : any(scope, depth - 1);
+        const Expr second = any(scope, depth - 1);
+        const Expr third = any(scope, depth - 1);
+        static const std::vector<std::string> kFunctions3 = {"if", "if", "if", "clamp", "mix"};
+        return legal(call(random_.pick(kFunctions3), {first, second, third}), scope);
+    }
     switch (random_.below(10)) {
     case 0:
         return legal(unary("-", any(scope, depth - 1)), scope);
@@ -249,6 +259,14 @@ Expr ExpressionMaker::argument(const Scope& scope) {
         return legal(binary(text, formal, literal()), scope);
     }
     return any(scope, random_.between(2, 4));
+}
+
+Expr ExpressionMaker::local(const Scope& scope) {
+    const Expr value = argument(scope);
+    if (!is_constant(value, scope)) {
+        return value;
+    }
+    return scope.ranges > 0 ? range(number(0), number(1)) : call("step", {});
 }
 
 Expr ExpressionMaker::comparison(const Scope& scope) {

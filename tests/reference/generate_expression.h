@@ -42,6 +42,7 @@ public:
 
     Expr argument(const Scope& scope);  // of a module
     Expr condition(const Scope& scope); // often about the formals
+    Expr local(const Scope& scope);     // a local value, never a constant
     Expr any(const Scope& scope, int depth);
     Expr literal();
 

@@ -40,6 +40,7 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     plan.condition_percent = random.pick(std::vector<std::size_t>{0, 40, 70});
     plan.stochastic_percent = random.pick(std::vector<std::size_t>{0, 30, 70});
     plan.range_percent = random.pick(std::vector<std::size_t>{0, 8, 15, 60});
+    plan.local_percent = random.pick(std::vector<std::size_t>{0, 0, 30, 70});
 
     std::vector<std::string> letters = {"A", "B", "C", "S", "X", "Y", "F", "f", "a", "b", "e"};
     std::vector<std::string> words = {

@@ -26,6 +26,7 @@ struct Plan {
     std::size_t condition_percent = 0;
     std::size_t stochastic_percent = 0;
     std::size_t range_percent = 0; // of the arguments of successors
+    std::size_t local_percent = 0; // of the productions
     std::vector<Species> species;  // all
     std::vector<Species> active;   // to be rewritten
     std::vector<std::string> ignored;

@@ -165,6 +165,18 @@ void ProductionMaker::name_formals(Pattern& pattern, std::vector<std::string>& u
     }
 }
 
+// Keywords, functions and constants are names like others here.
+std::string ProductionMaker::name_local(const std::vector<std::string>& used) {
+    static const std::vector<std::string> kNames = {"d", "len", "q", "let", "if", "mix", "p", "k"};
+    std::string text;
+    do {
+        const bool hides = !constants_.values.empty() && random_.percent(10);
+        text = hides ? constants_.values.begin()->first : random_.pick(kNames);
+        text += !hides && random_.percent(30) ? std::to_string(random_.between(1, 9)) : "";
+    } while (std::find(used.begin(), used.end(), text) != used.end());
+    return text;
+}
+
 Skeleton ProductionMaker::skeleton(int length, bool letters, bool polygon) {
     Skeleton list;
     const auto nest = [&](const char* open, const char* close, bool in_polygon) {
@@ -315,6 +327,14 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
             production.probability = probability(parts[static_cast<std::size_t>(i)], formals);
         }
         scope.ranges = plan_.range_percent;
+        if (random_.percent(plan_.local_percent)) {
+            const int locals = random_.between(1, 3);
+            for (int k = 0; k < locals; ++k) {
+                const std::string text = name_local(scope.formals);
+                production.locals.emplace_back(text, expressions_.local(scope));
+                scope.formals.push_back(text);
+            }
+        }
         static const std::vector<int> kLengths = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 5, 8};
         production.successor = modules(random_.pick(kLengths), scope, letters);
         bundle.push_back(production);

@@ -35,6 +35,7 @@ private:
     Pattern context(int length, bool brackets, int depth, bool letters);
     // Gives the modules of `pattern` names for their parameters, each only once in `used`.
     void name_formals(Pattern& pattern, std::vector<std::string>& used);
+    std::string name_local(const std::vector<std::string>& used);
     Expr probability(float value, const std::vector<std::string>& formals);
     std::vector<float> shares(int count);
 

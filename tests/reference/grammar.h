@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys::reference {
@@ -49,6 +50,7 @@ struct Production {
     std::optional<Pattern> right;
     std::optional<Expr> condition; // absent: `*`, or nothing before `~`
     std::optional<Expr> probability;
+    std::vector<std::pair<std::string, Expr>> locals; // `let name = value`
     std::vector<ModuleUse> successor;
 };
 

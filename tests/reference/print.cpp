@@ -216,6 +216,17 @@ private:
             add("~");
             add_expression(*production.probability);
         }
+        for (std::size_t i = 0; i < production.locals.size(); ++i) {
+            if (i == 0) {
+                add(":");
+                add("let");
+            } else {
+                add(",");
+            }
+            add(production.locals[i].first);
+            add("=");
+            add_expression(production.locals[i].second);
+        }
         add(":");
         add_modules(production.successor);
     }

@@ -1,5 +1,6 @@
 #include "tests/support/bytecode_builder.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/verify.h"
 #include "tests/support/builder_text.h"
 
@@ -288,6 +289,9 @@ Bytecode BytecodeBuilder::build() const {
     }
     bytecode.rule_count = static_cast<std::uint32_t>(rules.size());
     bytecode.group_count = static_cast<std::uint32_t>(groups.size());
+    const CodeRoom room = room_of(bytecode.instructions);
+    bytecode.stack_depth = room.stack_depth;
+    bytecode.local_count = room.local_count;
     if (const std::optional<std::string> problem = verify(bytecode)) {
         mistake("does not verify", *problem);
     }

@@ -4,6 +4,7 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
+//   rare_number   a number that is kNone in most programs; kNone leaves the digest as it is
 //   implied       a truth on which the word depends, computed from a field of beside_word()
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
@@ -24,6 +25,8 @@ namespace lsys {
 struct IgnoringStream {
     template <typename Value>
     void number(const Value& /*value*/) {}
+    template <typename Value>
+    void rare_number(const Value& /*value*/) {}
     void real(const float& /*value*/) {}
     void truth(const bool& /*value*/) {}
     template <typename Enum>
@@ -101,8 +104,9 @@ void describe_range(Stream& stream, Value& range) {
 
 template <typename Stream, typename Value>
 void describe_word(Stream& stream, Value& word) {
-    auto& [codes, arguments, parameter_count, draw_count] = word;
+    auto& [codes, locals, arguments, parameter_count, draw_count] = word;
     describe_range(stream, codes);
+    stream.rare_number(locals);
     stream.number(arguments);
     stream.number(parameter_count);
     stream.number(draw_count);
@@ -206,7 +210,8 @@ template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps] = bytecode;
+           rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps, stack_depth,
+           local_count] = bytecode;
     auto&& beside = stream.beside_word();
     describe_settings(stream, settings);
     beside.optional_number(generations);
@@ -229,6 +234,8 @@ void describe(Stream& stream, Value& bytecode) {
     beside.number(axiom_site);
     stream.number(axiom_draw_position);
     stream.truth(uses_steps);
+    beside.number(stack_depth);
+    beside.number(local_count);
 }
 
 } // namespace lsys

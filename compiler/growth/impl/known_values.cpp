@@ -3,6 +3,8 @@
 #include "compiler/bytecode/arithmetic.h"
 #include "compiler/bytecode/interpret.h"
 
+#include <bit>
+
 namespace lsys::analysis {
 
 namespace {
@@ -45,6 +47,19 @@ struct Known : UnknownDomain<KnownValue> {
         const bool decides = one.known && (one.value != 0.0F) == (opcode == Opcode::Or);
         return logical && decides ? known(arithmetic::truth(opcode == Opcode::Or)) : KnownValue{};
     }
+    static KnownValue mix(KnownValue x, KnownValue y, KnownValue t) {
+        return x.known && y.known && t.known ? known(arithmetic::mix(x.value, y.value, t.value))
+                                             : KnownValue{};
+    }
+    static KnownValue choice(KnownValue x, KnownValue y, KnownValue z) {
+        if (x.known) {
+            return x.value != 0.0F ? y : z;
+        }
+        const bool same =
+            y.known && z.known &&
+            std::bit_cast<std::uint32_t>(y.value) == std::bit_cast<std::uint32_t>(z.value);
+        return same ? y : KnownValue{};
+    }
     bool take(KnownValue /*x*/, const std::uint32_t* /*at*/) const {
         --work; // enter() has counted an Emit or Test, which compute nothing
         return false;
@@ -55,9 +70,14 @@ struct Known : UnknownDomain<KnownValue> {
 
 KnownValue Evaluator::run(std::span<const std::uint32_t> instructions,
                           std::uint32_t first,
-                          const ExpressionInputs& inputs) {
+                          const ExpressionInputs& inputs,
+                          std::uint32_t locals) {
     Known domain(inputs, work_);
-    interpret(instructions.data() + first, domain, stack_.data());
+    for (const std::uint32_t code : {locals, first}) {
+        if (code != kNone) {
+            interpret(instructions.data() + code, domain, stack_.data(), slots_.data());
+        }
+    }
     return stack_.front();
 }
 

@@ -6,10 +6,11 @@
 #include "compiler/bytecode/bytecode.h"
 #include "compiler/bytecode/verify.h"
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace lsys::analysis {
 
@@ -28,15 +29,22 @@ struct ExpressionInputs {
 /// Runs expressions in the domain of known and unknown values (interpret.h).
 class Evaluator {
 public:
-    /// The value of the expression at `first` up to the next Emit or Test.
+    /// For code whose stack and slots are no larger.
+    explicit Evaluator(std::size_t stack_depth = kUsualStack, std::size_t slots = 0)
+        : stack_(std::max<std::size_t>(stack_depth, 1)), slots_(slots) {}
+
+    /// The value of the expression at `first` up to the next Emit or Test. `locals`: the code of
+    /// local values before it, or kNone.
     KnownValue run(std::span<const std::uint32_t> instructions,
                    std::uint32_t first,
-                   const ExpressionInputs& inputs);
+                   const ExpressionInputs& inputs,
+                   std::uint32_t locals = kNone);
     /// Instructions run so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
 private:
-    std::array<KnownValue, kMaxStack> stack_;
+    std::vector<KnownValue> stack_;
+    std::vector<KnownValue> slots_;
     std::uint64_t work_ = 0;
 };
 

@@ -21,7 +21,8 @@ constexpr std::size_t kMaxVariableModules = 65'536; // of one word
 
 ModuleClasses::ModuleClasses(const Bytecode& bytecode, std::uint32_t steps)
     : bytecode_(&bytecode), index_(bytecode), steps_(steps),
-      fixed_ids_(bytecode.code_count(), kNone) {}
+      fixed_ids_(bytecode.code_count(), kNone),
+      evaluator_(bytecode.stack_depth, bytecode.local_count) {}
 
 // --- classes
 
@@ -113,6 +114,7 @@ std::vector<KnownValue> ModuleClasses::parameters(ClassId id) const {
 
 void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
     out.made = true;
+    out.locals = word.locals;
     work_ += word.codes.count;
     if (code_counts_.empty()) {
         code_counts_.assign(bytecode_->code_count(), 0);
@@ -165,7 +167,8 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionI
         if (!exhausted()) {
             for (std::size_t i = 0; i < values.size(); ++i) {
                 values[i] = evaluator_.run(bytecode_->instructions,
-                                           argument_starts_[module.first_argument + i], inputs);
+                                           argument_starts_[module.first_argument + i], inputs,
+                                           word.locals);
             }
         }
         terms.push_back({valued_class(module.code, values), 1});

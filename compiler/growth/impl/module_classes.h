@@ -97,6 +97,7 @@ private:
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
         bool made = false;
+        std::uint32_t locals = kNone; // code of the local values
         std::vector<ClassTerm> fixed;
         std::vector<VariableModule> variable;
     };

@@ -92,6 +92,7 @@ private:
         Effects effects;
         std::string key; // of the modules read so far
         std::vector<std::uint32_t> formals;
+        std::vector<std::uint32_t> locals;
     };
     /// A closed branch, valid or not.
     struct Found {
@@ -102,6 +103,7 @@ private:
     /// A set of equal branches, valid or not.
     struct FoundKind {
         std::vector<std::uint32_t> formals;
+        std::vector<std::uint32_t> locals;
         Effects effects;
         std::uint32_t id = 0; // 0 until a valid branch is of this kind
     };
@@ -214,6 +216,10 @@ private:
     void walk(const ProgramWord& word, const char* where, std::uint32_t production) {
         open_.clear();
         found_.clear();
+        local_count_ =
+            production == kNone
+                ? 0
+                : static_cast<std::uint32_t>(program_.productions[production].locals.size());
         std::uint32_t index = 0;
         std::uint32_t polygons = 0;
         std::size_t argument = word.first_argument;
@@ -303,7 +309,14 @@ private:
                 open.formals.push_back(value.index);
                 append_bytes(open.key, value.index);
                 break;
+            case Opcode::Local:
+                if (value.index < local_count_) {
+                    open.locals.push_back(value.index);
+                }
+                append_bytes(open.key, value.index);
+                break;
             case Opcode::Global:
+            case Opcode::SetLocal:
                 append_bytes(open.key, value.index);
                 break;
             case Opcode::Range:
@@ -312,11 +325,10 @@ private:
             default:
                 break;
             }
-            if (value.right != kNoValue) {
-                values_.push_back(value.right);
-            }
-            if (value.left != kNoValue) {
-                values_.push_back(value.left);
+            for (const ValueId operand : value.operands()) {
+                if (operand != kNoValue) {
+                    values_.push_back(operand);
+                }
             }
         }
     }
@@ -330,13 +342,14 @@ private:
         if (open.valid && (open.polygons != 0 || polygons != 0)) {
             across_polygon(word, open.index);
         }
-        std::sort(open.formals.begin(), open.formals.end());
-        open.formals.erase(std::unique(open.formals.begin(), open.formals.end()),
-                           open.formals.end());
+        for (std::vector<std::uint32_t>* const used : {&open.formals, &open.locals}) {
+            std::sort(used->begin(), used->end());
+            used->erase(std::unique(used->begin(), used->end()), used->end());
+        }
         const auto [known, is_new] = kind_of_key_.emplace(
             std::move(open.key), static_cast<std::uint32_t>(found_kinds_.size()));
         if (is_new) {
-            found_kinds_.push_back({open.formals, open.effects, 0});
+            found_kinds_.push_back({open.formals, open.locals, open.effects, 0});
         }
         Found& found = found_[open.site];
         found.site.production = production;
@@ -354,6 +367,7 @@ private:
         outer.valid = outer.valid || open.valid;
         outer.effects.add(open.effects);
         outer.formals.insert(outer.formals.end(), open.formals.begin(), open.formals.end());
+        outer.locals.insert(outer.locals.end(), open.locals.begin(), open.locals.end());
     }
 
     void give_ids() {
@@ -365,9 +379,9 @@ private:
             FoundKind& kind = found_kinds_[found.kind];
             if (kind.id == 0) {
                 kind.id = static_cast<std::uint32_t>(branches_.kinds.size()) + 1;
-                branches_.kinds.push_back({static_cast<std::uint32_t>(branches_.sites.size()),
-                                           kind.formals, kind.effects.depends_on_vertical,
-                                           kind.effects.is_random});
+                branches_.kinds.push_back(
+                    {static_cast<std::uint32_t>(branches_.sites.size()), kind.formals, kind.locals,
+                     kind.effects.depends_on_vertical, kind.effects.is_random});
             }
             found.site.id = kind.id;
             found.site.number = number++;
@@ -385,6 +399,7 @@ private:
     std::vector<FoundKind> found_kinds_;
     std::unordered_map<std::string, std::uint32_t> kind_of_key_;
     std::vector<ValueId> values_;
+    std::uint32_t local_count_ = 0; // of the current production
     Branches branches_;
     bool instanceable_ = true;
 };

@@ -26,6 +26,7 @@ struct BranchSite {
 struct BranchKind {
     std::uint32_t first_site = 0;
     std::vector<std::uint32_t> formals; // used in its text, ascending
+    std::vector<std::uint32_t> locals;  // local values of its production used in it, ascending
     /// Its drawing depends on the vertical: by `$` or tropism, at once or after rewriting.
     bool depends_on_vertical = false;
     /// A production that its modules can reach is stochastic or draws a number.

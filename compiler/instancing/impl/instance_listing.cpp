@@ -103,6 +103,10 @@ private:
             if (rewrites || production.stochastic) {
                 out_ += fmt::format(" ~ {:.9g}", probability);
             }
+            for (std::size_t i = 0; i < production.locals.size(); ++i) {
+                out_ += i == 0 ? " : let " : ", ";
+                out_ += text_of(production.locals[i].span);
+            }
             out_ += " : ";
             successor(production.successor, form, sites);
             out_ += ";\n";

@@ -70,7 +70,14 @@ private:
             value.index = formal;
             program_.arguments.push_back(add(span, value));
         }
-        return symbol(bracket, kBranchArguments + static_cast<std::uint32_t>(kind.formals.size()));
+        for (const std::uint32_t local : kind.locals) {
+            Value value;
+            value.opcode = Opcode::Local;
+            value.index = local;
+            program_.arguments.push_back(add(span, value));
+        }
+        return symbol(bracket, kBranchArguments + static_cast<std::uint32_t>(kind.formals.size() +
+                                                                             kind.locals.size()));
     }
 
     ValueId add(SourceSpan span, Value value) {

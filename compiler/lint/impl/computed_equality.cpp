@@ -70,12 +70,27 @@ private:
                 }
             }
         }
-        for_each_value(program_, expressions_of(program_, production),
-                       [&](ValueId id, const Value& value) {
-                           if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
-                               source_[static_cast<std::size_t>(id)] = parameter[value.index];
-                           }
-                       });
+        std::vector<ValueId> slots;
+        for (const LocalValue& local : production.locals) {
+            slots.push_back(local.value);
+        }
+        const auto for_each = [&](auto&& visit) {
+            for_each_value(program_, expressions_of(program_, production), visit);
+        };
+        for_each([&](ValueId, const Value& value) {
+            if (value.opcode == Opcode::SetLocal) {
+                slots.resize(std::max<std::size_t>(slots.size(), value.index + 1U), kNoValue);
+                slots[value.index] = value.left;
+            }
+        });
+        for_each([&](ValueId id, const Value& value) {
+            if (value.opcode == Opcode::Formal && value.index < parameter.size()) {
+                source_[static_cast<std::size_t>(id)] = parameter[value.index];
+            } else if (value.opcode == Opcode::Local && value.index < slots.size()) {
+                source_[static_cast<std::size_t>(id)] =
+                    static_cast<std::uint32_t>(slots[value.index]);
+            }
+        });
     }
 
     /// Calls visit(argument, parameter) for each argument of a word.
@@ -108,6 +123,8 @@ private:
         }
         case Opcode::Formal:
             return source_[i] == kNone ? Level::Exact : parameter_levels_[source_[i]];
+        case Opcode::Local:
+            return source_[i] == kNone ? Level::Computed : level(ValueId{source_[i]});
         case Opcode::Step:
         case Opcode::Steps:
         case Opcode::Floor:
@@ -141,6 +158,9 @@ private:
                                 std::fabs(std::frexp(divisor.literal, &exponent)) == 0.5F;
             return halves && left == Level::Exact ? Level::Exact : Level::Computed;
         }
+        case Opcode::If:
+        case Opcode::SetLocal:
+            return value.opcode == Opcode::If ? std::max(left, right) : right;
         default:
             return Level::Computed;
         }
@@ -176,7 +196,7 @@ private:
                 report(value);
                 continue;
             }
-            for (const ValueId child : {value.right, value.left}) {
+            for (const ValueId child : value.operands()) {
                 if (child != kNoValue) {
                     work.push_back(child);
                 }
@@ -209,9 +229,10 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<Level> levels_;         // by value
-    std::vector<std::uint32_t> source_; // by value: the module parameter of a formal, or kNone
-    std::vector<std::uint32_t> base_;   // by symbol: its first parameter
+    std::vector<Level> levels_; // by value
+    /// By value: the module parameter of a formal, the value in the slot of a Local, or kNone.
+    std::vector<std::uint32_t> source_;
+    std::vector<std::uint32_t> base_; // by symbol: its first parameter
     std::vector<Level> parameter_levels_;
 };
 

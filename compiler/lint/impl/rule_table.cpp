@@ -43,7 +43,7 @@ std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
     table.grid = std::move(*grid);
     table.points = table.grid.point_count();
     table.truth.resize(table.productions.size() * table.points);
-    analysis::Evaluator evaluator;
+    analysis::Evaluator evaluator(bytecode.stack_depth, bytecode.local_count);
     std::vector<analysis::KnownValue> values;
     for (std::size_t row = 0; row < table.productions.size(); ++row) {
         const std::uint32_t p = table.productions[row];

@@ -1,5 +1,6 @@
 #include "compiler/lower/impl/code_emitter.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/verify.h"
 #include "grammar/base/contract.h"
 
@@ -14,8 +15,8 @@ namespace {
 /// Maximum stack depth of operands computed from left to right. In deeper expressions the deeper
 /// operand is computed first (Sethi and Ullman 1970), so that the depth grows with the logarithm of
 /// the size of the expression.
-constexpr std::uint8_t kMaxLeftToRightStack = 64;
-static_assert(kMaxLeftToRightStack + 32 < kMaxStack);
+constexpr std::uint32_t kMaxLeftToRightStack = 64;
+static_assert(kMaxLeftToRightStack + 32 < kUsualStack);
 
 bool is_commutative(Opcode opcode) {
     switch (opcode) {
@@ -42,22 +43,37 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
         if (value.left == kNoValue) {
             continue;
         }
-        const std::uint8_t left = stack_need_[static_cast<std::size_t>(value.left)];
+        const std::uint32_t left = need(value.left);
         if (value.right == kNoValue) {
             stack_need_[i] = left;
             continue;
         }
-        const std::uint8_t right = stack_need_[static_cast<std::size_t>(value.right)];
-        const auto natural = static_cast<std::uint8_t>(std::max<int>(left, right + 1));
-        const auto reversed = static_cast<std::uint8_t>(std::max<int>(right, left + 1));
-        stack_need_[i] = natural <= kMaxLeftToRightStack ? natural : std::min(natural, reversed);
+        const std::uint32_t right = need(value.right);
+        const std::uint32_t natural = std::max(left, right + 1);
+        switch (value.opcode) {
+        case Opcode::If: // the condition stays below both sides
+            stack_need_[i] = std::max({need(value.third), left + 1, right + 2});
+            break;
+        case Opcode::Mix:
+            stack_need_[i] = std::max(natural, need(value.third) + 2);
+            break;
+        case Opcode::SetLocal:
+            stack_need_[i] = std::max(left, right);
+            break;
+        default:
+            stack_need_[i] = natural <= kMaxLeftToRightStack
+                                 ? natural
+                                 : std::min(natural, std::max(right, left + 1));
+            break;
+        }
     }
 }
 
 bool CodeEmitter::right_first(const Value& value) const {
-    const std::uint8_t left = stack_need_[static_cast<std::size_t>(value.left)];
-    const std::uint8_t right = stack_need_[static_cast<std::size_t>(value.right)];
-    return std::max<int>(left, right + 1) > kMaxLeftToRightStack && right > left;
+    const std::uint32_t left = need(value.left);
+    const std::uint32_t right = need(value.right);
+    return value.opcode != Opcode::SetLocal && value.opcode != Opcode::Mix &&
+           std::max(left, right + 1) > kMaxLeftToRightStack && right > left;
 }
 
 std::uint32_t CodeEmitter::add_site(SourceSpan span) {
@@ -69,6 +85,14 @@ std::uint32_t CodeEmitter::add_site(SourceSpan span) {
 void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
     overflowed_ = overflowed_ || operand > kMaxOperand;
     bytecode_.instructions.push_back(encode(opcode, operand & kMaxOperand));
+}
+
+/// Sets the skip at `at` to lead to the next instruction.
+void CodeEmitter::end_skip(std::size_t at) {
+    const std::size_t words = bytecode_.instructions.size() - at - 1;
+    overflowed_ = overflowed_ || words > kMaxOperand;
+    bytecode_.instructions[at] = encode(opcode_of(bytecode_.instructions[at]),
+                                        static_cast<std::uint32_t>(words) & kMaxOperand);
 }
 
 void CodeEmitter::begin_site(std::uint32_t site) {
@@ -93,6 +117,7 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
         return;
     case Opcode::Formal:
     case Opcode::Global:
+    case Opcode::Local:
     case Opcode::BranchDraw:
         instruction(value.opcode, value.index);
         return;
@@ -118,28 +143,73 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
 }
 
 void CodeEmitter::expression(ValueId root, std::uint32_t site) {
-    frames_.push_back({root, false});
+    frames_.push_back({root, Step::Operands, 0});
     while (!frames_.empty()) {
-        Frame& frame = frames_.back();
+        const Frame frame = frames_.back();
+        frames_.pop_back();
         const Value& value = program_.value(frame.value);
-        const bool binary = value.right != kNoValue;
-        const bool swapped = binary && right_first(value);
-        if (frame.operands_done || value.left == kNoValue) {
-            leaf_or_operation(value, swapped, site);
-            frames_.pop_back();
-            continue;
+        switch (frame.step) {
+        case Step::Operands:
+            operands(frame.value, value, site);
+            break;
+        case Step::Operation:
+            leaf_or_operation(value, value.right != kNoValue && right_first(value), site);
+            break;
+        case Step::Store:
+            instruction(Opcode::SetLocal, value.index);
+            break;
+        case Step::If:
+        case Step::Else: {
+            const bool is_if = frame.step == Step::If;
+            instruction(is_if ? Opcode::If : Opcode::Else);
+            const std::size_t skip = bytecode_.instructions.size() - 1;
+            if (is_if) {
+                frames_.push_back({frame.value, Step::Else, skip});
+                frames_.push_back({value.left, Step::Operands, 0});
+            } else {
+                end_skip(frame.skip);
+                frames_.push_back({frame.value, Step::EndIf, skip});
+                frames_.push_back({value.right, Step::Operands, 0});
+            }
+            break;
         }
-        frame.operands_done = true;
-        if (!binary) {
-            frames_.push_back({value.left, false});
-        } else if (swapped) {
-            frames_.push_back({value.left, false});
-            frames_.push_back({value.right, false});
-        } else {
-            frames_.push_back({value.right, false});
-            frames_.push_back({value.left, false});
+        case Step::EndIf:
+            instruction(Opcode::EndIf);
+            end_skip(frame.skip);
+            break;
         }
     }
+}
+
+/// Pushes the steps that compute a value, the first on top.
+void CodeEmitter::operands(ValueId id, const Value& value, std::uint32_t site) {
+    if (value.left == kNoValue) {
+        leaf_or_operation(value, false, site);
+        return;
+    }
+    const auto later = [&](ValueId operand) { frames_.push_back({operand, Step::Operands, 0}); };
+    switch (value.opcode) {
+    case Opcode::If:
+        frames_.push_back({id, Step::If, 0});
+        later(value.third);
+        return;
+    case Opcode::SetLocal:
+        later(value.right);
+        frames_.push_back({id, Step::Store, 0});
+        later(value.left);
+        return;
+    default:
+        break;
+    }
+    frames_.push_back({id, Step::Operation, 0});
+    if (value.opcode == Opcode::Mix) {
+        later(value.third);
+    }
+    const bool swapped = value.right != kNoValue && right_first(value);
+    if (value.right != kNoValue) {
+        later(swapped ? value.left : value.right);
+    }
+    later(swapped ? value.right : value.left);
 }
 
 std::uint32_t CodeEmitter::condition(ValueId value, SourceSpan span) {
@@ -148,6 +218,21 @@ std::uint32_t CodeEmitter::condition(ValueId value, SourceSpan span) {
     begin_site(site);
     expression(value, site);
     instruction(Opcode::Test);
+    instruction(Opcode::End);
+    return first;
+}
+
+std::uint32_t CodeEmitter::locals(std::span<const LocalValue> values) {
+    const auto first = static_cast<std::uint32_t>(bytecode_.instructions.size());
+    for (std::uint32_t i = 0; i < values.size(); ++i) {
+        if (program_.value(values[i].value).left == kNoValue) {
+            continue; // a leaf stands in its uses
+        }
+        const std::uint32_t site = add_site(program_.value(values[i].value).span);
+        begin_site(site);
+        expression(values[i].value, site);
+        instruction(Opcode::SetLocal, i);
+    }
     instruction(Opcode::End);
     return first;
 }

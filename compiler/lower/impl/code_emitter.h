@@ -21,6 +21,8 @@ public:
 
     /// Emits code for `value` that ends with Test, End; returns its first instruction.
     std::uint32_t condition(ValueId value, SourceSpan span);
+    /// Emits code that moves the local value i to slot i, ending with End.
+    std::uint32_t locals(std::span<const LocalValue> values);
     /// Emits code that computes `values` and emits each, ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);
 
@@ -33,17 +35,25 @@ private:
     void expression(ValueId root, std::uint32_t site);
     void leaf_or_operation(const Value& value, bool swapped, std::uint32_t site);
     [[nodiscard]] bool right_first(const Value& value) const;
+    [[nodiscard]] std::uint32_t need(ValueId id) const {
+        return stack_need_[static_cast<std::size_t>(id)];
+    }
+    void operands(ValueId id, const Value& value, std::uint32_t site);
+    void end_skip(std::size_t at);
 
     const Program& program_;
     const SourceMap& sources_;
     Bytecode& bytecode_;
-    std::vector<std::uint8_t> stack_need_; // by ValueId
-    std::uint32_t current_site_ = kNone;   // of the next instruction
+    std::vector<std::uint32_t> stack_need_; // by ValueId
+    std::uint32_t current_site_ = kNone;    // of the next instruction
     bool overflowed_ = false;
 
+    /// A part of the code of a value, written when the parts before it are.
+    enum class Step : std::uint8_t { Operands, Operation, Store, If, Else, EndIf };
     struct Frame {
         ValueId value;
-        bool operands_done;
+        Step step = Step::Operands;
+        std::size_t skip = 0; // Else, EndIf: the skip that leads behind it
     };
     std::vector<Frame> frames_;
 };

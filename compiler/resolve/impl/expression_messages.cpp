@@ -54,6 +54,14 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
         error.help.emplace_back("move the definition above this statement");
         return;
     }
+    if (locals_.contains(name)) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::UsedBeforeDefinition, expression.span(),
+            fmt::format("the local value `{}` is not known here", text));
+        error.help.emplace_back("local values are computed after the condition, from left to "
+                                "right, and serve the values after them and the successor");
+        return;
+    }
     if (formals_incomplete_ || files_missing_ || attempted_.defines(text)) {
         return;
     }
@@ -73,6 +81,11 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     std::vector<std::string_view> candidates;
     for (const NameId formal : formals_) {
         candidates.push_back(resolution_.text(formal));
+    }
+    for (const auto& [local, value] : locals_) {
+        if (value != kNoValue) {
+            candidates.push_back(resolution_.text(local));
+        }
     }
     if (suggestions_.may_compare(candidates.size() + resolution_.program.constants.size())) {
         const std::vector<std::string_view> constants = constants_.known_names();

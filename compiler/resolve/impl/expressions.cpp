@@ -1,5 +1,6 @@
 #include "compiler/resolve/impl/expressions.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "compiler/resolve/impl/folding_faults.h"
 #include "grammar/base/contract.h"
 
@@ -29,8 +30,16 @@ constexpr std::array kFunctions{
     FunctionRow{"round", Opcode::Round}, FunctionRow{"sign", Opcode::Sign},
     FunctionRow{"min", Opcode::Min},     FunctionRow{"max", Opcode::Max},
     FunctionRow{"mod", Opcode::Mod},     FunctionRow{"step", Opcode::Step},
-    FunctionRow{"steps", Opcode::Steps},
+    FunctionRow{"steps", Opcode::Steps}, FunctionRow{"mix", Opcode::Mix},
+    FunctionRow{"clamp", Opcode::Min},   FunctionRow{"if", Opcode::If},
 };
+
+/// `clamp(x, low, high)` is min(max(x, low), high); a choice has both sides as operands.
+constexpr std::uint32_t argument_count(const FunctionRow& row) {
+    return row.name == "clamp" || row.name == "if"
+               ? 3
+               : kOpcodePops[static_cast<std::size_t>(row.opcode)];
+}
 
 Opcode opcode_of(UnaryOperation operation) {
     return operation == UnaryOperation::Negate ? Opcode::Negate : Opcode::Not;
@@ -48,13 +57,15 @@ static_assert(opcode_of(BinaryOperation::Power) == Opcode::Power &&
               opcode_of(BinaryOperation::Or) == Opcode::Or);
 
 bool in_production(ExpressionPlace place) {
-    return place == ExpressionPlace::Condition || place == ExpressionPlace::Successor;
+    return place == ExpressionPlace::Condition || place == ExpressionPlace::Local ||
+           place == ExpressionPlace::Successor;
 }
 
 /// Whether `{min, max}` may be written here.
 bool ranges_allowed(ExpressionPlace place) {
     return place == ExpressionPlace::Define || place == ExpressionPlace::Param ||
-           place == ExpressionPlace::Axiom || place == ExpressionPlace::Successor;
+           place == ExpressionPlace::Axiom || place == ExpressionPlace::Local ||
+           place == ExpressionPlace::Successor;
 }
 
 /// Whether constants that are drawn when the derivation starts may be used here.
@@ -80,7 +91,7 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
       step_(resolution.names.intern("step")), steps_(resolution.names.intern("steps")) {
     for (const FunctionRow& row : kFunctions) {
         functions_.emplace(resolution.names.intern(row.name),
-                           Function{row.opcode, info(row.opcode).pops});
+                           Function{row.opcode, argument_count(row)});
     }
     for (const IncludeNode& include : resolution.ast.includes) {
         files_missing_ = files_missing_ || include.file == kNoFile;
@@ -97,6 +108,8 @@ void ExpressionResolver::begin_statement() {
     }
     formals_.clear();
     formal_spans_.clear();
+    locals_.clear();
+    used_locals_.clear();
     formals_incomplete_ = false;
     reported_.clear();
     drawn_once_noted_ = false;
@@ -112,6 +125,15 @@ bool ExpressionResolver::add_formal(NameId name, SourceSpan where) {
     formals_.push_back(name);
     formal_spans_.push_back(where);
     return true;
+}
+
+void ExpressionResolver::expect_local(NameId name) {
+    locals_.emplace(name, kNoValue);
+}
+
+void ExpressionResolver::add_local(NameId name, ValueId value, std::uint32_t slot) {
+    const bool is_known = value == kPoison || values_.is_leaf(value);
+    locals_[name] = is_known ? value : values_.leaf(Opcode::Local, slot, values_[value].span);
 }
 
 SourceSpan ExpressionResolver::formal_span(NameId name) const {
@@ -259,6 +281,11 @@ ValueId ExpressionResolver::name_value(const Expression& expression, ExpressionP
         }
         return values_.leaf(Opcode::Formal, formal, expression.span());
     }
+    if (const auto local = locals_.find(expression.name);
+        local != locals_.end() && local->second != kNoValue) {
+        used_locals_.insert(expression.name);
+        return values_.leaf_at(local->second, expression.span());
+    }
     if (constants_.state(expression.name) == ConstantState::Known) {
         return constant_of(expression, place);
     }
@@ -297,7 +324,7 @@ ValueId ExpressionResolver::range_value(const Expression& expression, Expression
     if (!check_range(expression, minimum, maximum)) {
         return kPoison;
     }
-    if (place != ExpressionPlace::Successor && !drawn_once_noted_) {
+    if (!in_production(place) && !drawn_once_noted_) {
         drawn_once_noted_ = true;
         Diagnostic& note =
             resolution_.diagnostics.add(DiagnosticCode::DrawnOnce, expression.span(),
@@ -309,10 +336,9 @@ ValueId ExpressionResolver::range_value(const Expression& expression, Expression
 
 ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionPlace place) {
     const std::uint32_t count = operand_count(expression);
-    const auto arguments = operands_.end() - static_cast<std::ptrdiff_t>(count);
-    const ValueId first = count > 0 ? arguments[0] : kNoValue;
-    const ValueId second = count > 1 ? arguments[1] : kNoValue;
-    operands_.erase(arguments, operands_.end());
+    const std::vector<ValueId> arguments(operands_.end() - static_cast<std::ptrdiff_t>(count),
+                                         operands_.end());
+    operands_.resize(operands_.size() - count);
 
     const auto found = functions_.find(expression.name);
     if (found == functions_.end()) {
@@ -326,7 +352,8 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
                                     fmt::format("`{}` takes {}, not {}", name,
                                                 function.argument_count == 0   ? "no arguments"
                                                 : function.argument_count == 1 ? "one argument"
-                                                                               : "two arguments",
+                                                : function.argument_count == 2 ? "two arguments"
+                                                                               : "three arguments",
                                                 count));
         return kPoison;
     }
@@ -341,7 +368,41 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
         }
         return values_.leaf(function.opcode, 0, expression.span());
     }
-    return apply(function.opcode, first, second, expression);
+    if (count < 3) {
+        return apply(function.opcode, arguments[0], count > 1 ? arguments[1] : kNoValue,
+                     expression);
+    }
+    switch (function.opcode) {
+    case Opcode::If:
+        return choice_value(expression, arguments);
+    case Opcode::Mix:
+        return values_.mix(arguments[0], arguments[1], arguments[2], expression.span());
+    default: // clamp
+        return apply(Opcode::Min, apply(Opcode::Max, arguments[0], arguments[1], expression),
+                     arguments[2], expression);
+    }
+}
+
+ValueId ExpressionResolver::choice_value(const Expression& expression,
+                                         std::span<const ValueId> arguments) {
+    if (const auto condition = constant_value(arguments[0])) {
+        // A fault on the side that is not chosen is none.
+        const bool holds = *condition != 0.0F;
+        forget_faults(resolution_.ast.expression(operand(expression, holds ? 2 : 1)).span());
+    }
+    return values_.choice(arguments[0], arguments[1], arguments[2], expression.span());
+}
+
+/// Forgets the causes of faults within `unchosen`.
+void ExpressionResolver::forget_faults(SourceSpan unchosen) {
+    const auto is_inside = [&](SourceSpan span) {
+        return span.file == unchosen.file && span.begin >= unchosen.begin &&
+               span.end <= unchosen.end;
+    };
+    std::erase_if(zero_divisors_, is_inside);
+    if (culprit_ && is_inside(culprit_->span)) {
+        culprit_.reset();
+    }
 }
 
 } // namespace lsys

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -26,6 +27,7 @@ enum class ExpressionPlace : std::uint8_t {
     Axiom,
     Condition,
     Probability,
+    Local, // the value of a `let`
     Successor,
 };
 
@@ -39,6 +41,12 @@ public:
     /// the name is a formal already.
     bool add_formal(NameId name, SourceSpan where);
     [[nodiscard]] SourceSpan formal_span(NameId name) const;
+    /// Names a local value of the current production that add_local() will define, for messages.
+    void expect_local(NameId name);
+    /// Defines a local value: its name means `value`, or slot `slot` if that is no leaf.
+    void add_local(NameId name, ValueId value, std::uint32_t slot);
+    /// Whether an expression since add_local() has the name of a local value.
+    [[nodiscard]] bool is_local_used(NameId name) const { return used_locals_.contains(name); }
     /// Suppresses messages about unknown names, since the head of the production is in error.
     void set_formals_incomplete() { formals_incomplete_ = true; }
 
@@ -79,6 +87,9 @@ private:
     [[nodiscard]] ValueId call_value(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId
     apply(Opcode opcode, ValueId left, ValueId right, const Expression& expression);
+    [[nodiscard]] ValueId choice_value(const Expression& expression,
+                                       std::span<const ValueId> arguments);
+    void forget_faults(SourceSpan unchosen);
     [[nodiscard]] ValueId pop();
     [[nodiscard]] std::uint32_t operand_count(const Expression& expression) const;
     [[nodiscard]] ExpressionId operand(const Expression& expression, std::uint32_t index) const;
@@ -105,6 +116,9 @@ private:
     std::vector<NameId> formals_;
     std::vector<SourceSpan> formal_spans_;
     bool formals_incomplete_ = false;
+    /// By name: the value of a local value, or kNoValue for one that is not defined yet.
+    std::unordered_map<NameId, ValueId> locals_;
+    std::unordered_set<NameId> used_locals_;
     std::unordered_set<NameId> reported_; // names with an error in this statement
     bool drawn_once_noted_ = false;
     std::uint32_t draw_count_ = 0;

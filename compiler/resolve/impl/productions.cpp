@@ -11,8 +11,9 @@
 namespace lsys {
 
 ProductionResolver::ProductionResolver(ModuleReading& reading, ConstantTable& constants)
-    : reading_(reading), resolution_(reading.resolution), heads_(reading, constants),
-      classes_(reading.resolution.program), first_of_name_(reading.resolution.names.count()) {
+    : reading_(reading), resolution_(reading.resolution), constants_(constants),
+      heads_(reading, constants), classes_(reading.resolution.program),
+      first_of_name_(reading.resolution.names.count()) {
     resolution_.program.productions.reserve(resolution_.ast.productions.size());
 }
 
@@ -39,8 +40,22 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
         reading_.expressions.set_formals_incomplete();
         ok = false;
     }
+    for (std::uint32_t i = 0; i < node.locals.count; ++i) {
+        reading_.expressions.expect_local(resolution_.ast.locals[node.locals.first + i].name);
+    }
     resolve_condition(node.condition, production);
+    resolve_locals(node.locals, production);
     production.successor = resolve_word(reading_, node.successor, ExpressionPlace::Successor);
+    for (LocalValue& local : production.locals) {
+        local.is_used = reading_.expressions.is_local_used(local.name);
+        if (!local.is_used) {
+            Diagnostic& warning =
+                resolution_.diagnostics.add(DiagnosticCode::UnusedLocal, local.name_span,
+                                            fmt::format("the local value {} is never used",
+                                                        quoted(resolution_.text(local.name))));
+            warning.help.emplace_back("remove it, or use its name in the successor");
+        }
+    }
     check_draws(production.successor);
     reading_.splits.finish();
     if (!ok) {
@@ -76,6 +91,51 @@ void ProductionResolver::resolve_condition(const ConditionNode& node, Production
         production.weight = weight_of(node.probability);
         production.weight_span = resolution_.ast.expression(node.probability).span();
     }
+}
+
+void ProductionResolver::resolve_locals(ListRange locals, Production& production) {
+    for (std::uint32_t i = 0; i < locals.count; ++i) {
+        const LocalNode& node = resolution_.ast.locals[locals.first + i];
+        const ValueId value = reading_.expressions.resolve(node.value, ExpressionPlace::Local);
+        if (is_new_local(node, production)) {
+            const auto slot = static_cast<std::uint32_t>(production.locals.size());
+            reading_.expressions.add_local(node.name, value, slot);
+            const SourceSpan span{node.name_span.file, node.name_span.begin,
+                                  resolution_.ast.expression(node.value).end};
+            production.locals.push_back({node.name, node.name_span, span, value, false});
+        }
+    }
+}
+
+/// Whether no parameter and no earlier local value has the name; reports one that has.
+bool ProductionResolver::is_new_local(const LocalNode& node, const Production& production) {
+    const auto report = [&](const char* what, SourceSpan first) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::DuplicateLocal, node.name_span,
+            fmt::format("{} has the name {} already", what, quoted(resolution_.text(node.name))));
+        error.labels.push_back({first, "the first is here"});
+        error.help.emplace_back("each parameter and local value of a production needs a name of "
+                                "its own");
+        return false;
+    };
+    for (std::size_t i = 0; i < production.formals.size(); ++i) {
+        if (production.formals[i] == node.name) {
+            return report("a parameter", production.formal_spans[i]);
+        }
+    }
+    for (const LocalValue& earlier : production.locals) {
+        if (earlier.name == node.name) {
+            return report("a local value", earlier.name_span);
+        }
+    }
+    if (constants_.state(node.name) == ConstantState::Known) {
+        Diagnostic& warning = resolution_.diagnostics.add(
+            DiagnosticCode::HiddenConstant, node.name_span,
+            fmt::format("the local value {} hides a constant of that name",
+                        quoted(resolution_.text(node.name))));
+        warning.labels.push_back({constants_.definition_span(node.name), "the constant"});
+    }
+    return true;
 }
 
 /// The probability, or NaN after an error.

@@ -22,11 +22,14 @@ public:
 private:
     [[nodiscard]] bool is_first_of_name(const ProductionNode& node);
     void resolve_condition(const ConditionNode& node, Production& production);
+    void resolve_locals(ListRange locals, Production& production);
+    [[nodiscard]] bool is_new_local(const LocalNode& node, const Production& production);
     [[nodiscard]] float weight_of(ExpressionId probability);
     void check_draws(const ProgramWord& successor);
 
     ModuleReading& reading_;
     Resolution& resolution_;
+    ConstantTable& constants_;
     HeadResolver heads_;
     ProductionClasses classes_;
     std::array<std::vector<Production>, 2> later_; // of Decompose, of Interpret

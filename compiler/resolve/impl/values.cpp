@@ -100,4 +100,46 @@ ValueId ValueBuilder::operation(Opcode opcode, ValueId left, ValueId right, Sour
     return add(node);
 }
 
+ValueId ValueBuilder::mix(ValueId from, ValueId to, ValueId part, SourceSpan span) {
+    if (from == kPoison || to == kPoison || part == kPoison) {
+        return kPoison;
+    }
+    if (is_literal(from) && is_literal(to) && is_literal(part)) {
+        return literal(
+            arithmetic::mix((*this)[from].literal, (*this)[to].literal, (*this)[part].literal),
+            span);
+    }
+    Value node;
+    node.opcode = Opcode::Mix;
+    node.span = span;
+    node.left = from;
+    node.right = to;
+    node.third = part;
+    return add(node);
+}
+
+ValueId ValueBuilder::choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span) {
+    if (condition == kPoison || yes == kPoison || no == kPoison) {
+        return kPoison;
+    }
+    if (is_literal(condition)) {
+        return (*this)[condition].literal != 0.0F ? yes : no;
+    }
+    Value node;
+    node.opcode = Opcode::If;
+    node.span = span;
+    node.left = yes;
+    node.right = no;
+    node.third = condition;
+    return add(node);
+}
+
+ValueId ValueBuilder::leaf_at(ValueId id, SourceSpan span) {
+    if (id == kPoison) {
+        return kPoison;
+    }
+    const Value& value = (*this)[id];
+    return value.opcode == Opcode::Literal ? id : leaf(value.opcode, value.index, span);
+}
+
 } // namespace lsys

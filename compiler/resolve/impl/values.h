@@ -16,17 +16,24 @@ public:
     explicit ValueBuilder(ChunkedVector<Value>& values);
 
     [[nodiscard]] ValueId literal(float value, SourceSpan span);
-    /// A value without operands: Formal, Global, Step, Steps.
+    /// A value without operands: Formal, Global, Local, Step, Steps.
     [[nodiscard]] ValueId leaf(Opcode opcode, std::uint32_t index, SourceSpan span);
     /// A random range, which is never folded since it draws.
     [[nodiscard]] ValueId
     range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span);
     /// An operation on one or two values: a literal if all operands are, kPoison if one is.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
+    /// arithmetic::mix().
+    [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);
+    /// `yes` where the condition is not 0, else `no`; one of these if the condition is a literal.
+    [[nodiscard]] ValueId choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span);
+    /// A value without operands at another place.
+    [[nodiscard]] ValueId leaf_at(ValueId leaf, SourceSpan span);
 
     [[nodiscard]] const Value& operator[](ValueId id) const {
         return values_[static_cast<std::size_t>(id)];
     }
+    [[nodiscard]] bool is_leaf(ValueId id) const { return (*this)[id].left == kNoValue; }
     [[nodiscard]] bool is_literal(ValueId id) const {
         return id != kPoison && (*this)[id].opcode == Opcode::Literal;
     }

@@ -1,6 +1,7 @@
 #include "grammar/format/impl/lexemes.h"
 
 #include "grammar/base/characters.h"
+#include "grammar/base/local_values.h"
 
 #include <algorithm>
 #include <cctype>
@@ -53,7 +54,7 @@ bool LexemeReader::skip_blanks() {
 }
 
 void LexemeReader::take(LexemeKind kind, std::size_t length) {
-    lexeme_ = {kind, text_.substr(at_, length), newlines_, blank_, false, false};
+    lexeme_ = {kind, text_.substr(at_, length), newlines_, blank_, false, false, false};
     at_ += length;
     if (kind != LexemeKind::BlockComment) {
         previous_ = kind;
@@ -82,6 +83,7 @@ void LexemeReader::keyword() {
     take(LexemeKind::Keyword, name.size() + 1);
     depth_ = 0;
     part_ = 0;
+    has_locals_ = false;
     after_value_ = false;
     const char next = next_character();
     if (name == "w" || name == "ignore" || name == "consider") {
@@ -130,8 +132,12 @@ void LexemeReader::next_part() {
     if (part_ == 0) {
         return;
     }
-    ++part_;
+    // Local values are a part of their own.
+    const bool has_locals = part_ == 3 && !has_locals_ && begins_local_values(text_, at_);
+    has_locals_ = has_locals_ || has_locals;
+    part_ += has_locals ? 0U : 1U;
     area_ = part_ == 3 ? Area::Expression : Area::Modules;
+    lexeme_.ends_head = part_ == 4;
     after_value_ = false;
 }
 

@@ -37,6 +37,7 @@ struct Lexeme {
     bool blank_before = false;
     bool opens_call = false;   // for Left: the `(` of a function call
     bool opens_bounds = false; // for Left: the `{` after the value of a `#param`
+    bool ends_head = false;    // for Colon of a production: the successor is next
 };
 
 /// The form of a statement for its layout.
@@ -94,7 +95,8 @@ private:
     bool blank_ = false;
     Area area_ = Area::Between;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t part_ = 0;
+    std::uint32_t part_ = 0; // 1 head, 3 condition and local values, 4 successor
+    bool has_locals_ = false;
     std::uint32_t depth_ = 0;
     bool after_value_ = false;
     LexemeKind previous_ = LexemeKind::Semicolon;

@@ -226,8 +226,7 @@ void PieceReader::take(Piece& piece) {
         break;
     case LexemeKind::Colon:
         ++colons_;
-        in_list_ = in_list_ || (shape_ == StatementShape::Production && colons_ == 3) ||
-                   shape_ == StatementShape::List;
+        in_list_ = in_list_ || current_.ends_head || shape_ == StatementShape::List;
         break;
     case LexemeKind::Module:
         if (opens_bracket(current_)) {

@@ -111,9 +111,8 @@ void report_conditional(ParseSession& session, TextRange word) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, session.scanned.span(word.begin, word.end),
-                           "there is no conditional expression");
-        diagnostic.help.emplace_back("a comparison is 1 or 0 and can be a factor: "
-                                     "`(x > 2)*a + (x <= 2)*b`");
+                           "a conditional value is written `if(condition, a, b)`");
+        diagnostic.help.emplace_back("it is `a` where the condition holds, else `b`");
     }
 }
 
@@ -136,13 +135,28 @@ bool is_number_end(char c) {
     return is_digit(c) || c == '.';
 }
 
+/// Whether the current name begins a local value, `b = 2`, without a `,` before it.
+bool begins_next_local(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    std::uint32_t end = scan.begin;
+    while (end < text.size() && is_word_character(text[end])) {
+        ++end;
+    }
+    const std::size_t sign = text.find('=', end);
+    return scan.part == Part::Locals && scan.open.empty() && next_character(text, end) == '=' &&
+           text.substr(sign, 2) != "==";
+}
+
 Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool had_name = scan.name_before;
     scan.after_operator();
     const SourceSpan place = session.insertion_place();
-    const bool in_list = !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
     const std::string_view text = session.scanned.text;
+    const bool begins_local = begins_next_local(session);
+    const bool in_list =
+        begins_local || (!scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group);
     const bool adjacent = scan.begin == scan.last_end;
     for (const std::uint32_t word_end : {scan.last_end, scan.end}) {
         if (const std::optional<TextRange> word = conditional_word(text, word_end)) {
@@ -159,6 +173,9 @@ Token between_values(ParseSession& session) {
                                                     "two values without a `,` between them");
             add_fix(diagnostic, "add `,`", place, ",",
                     lacks_comma(text, scan.last_end, scan.begin, scan.end));
+        }
+        if (begins_local) {
+            scan.local_place = LocalPlace::Name;
         }
         return Token(Parser::token::TOK_COMMA, place).as_inserted();
     }

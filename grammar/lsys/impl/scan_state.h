@@ -43,7 +43,16 @@ enum class Part : std::uint8_t {
     Axiom,
     Head,
     Condition,
+    Locals, // `let` and local values
     Successor,
+};
+
+/// The place among local values, `let a = 1, b = 2`.
+enum class LocalPlace : std::uint8_t {
+    Let,
+    Name,
+    Sign,
+    Value,
 };
 
 /// The text before which the scanner inserts missing tokens.
@@ -73,10 +82,12 @@ struct ScanState {
     Part ended_part = Part::Between; // last part of the last complete statement
     bool statement_open = false;     // between `#word` and `;`
     bool part_empty = true;          // the part has no token yet
+    bool has_locals = false;         // the statement has Part::Locals
     bool skipping = false;           // to the `;` of the statement
     bool semicolon_inserted = false;
-    bool value_before = false; // the last token ends a value
-    bool name_before = false;  // the last token is a name in an expression
+    bool value_before = false;                  // the last token ends a value
+    bool name_before = false;                   // the last token is a name in an expression
+    LocalPlace local_place = LocalPlace::Value; // what is next in Part::Locals
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // of the statement, once counted
     std::size_t first_diagnostic = 0;    // of the statement, as an index of the diagnostics
@@ -103,6 +114,8 @@ struct ScanState {
         end_chain();
         value_before = false;
         name_before = false;
+        has_locals = has_locals || next == Part::Locals;
+        local_place = next == Part::Locals ? LocalPlace::Let : LocalPlace::Value;
     }
     void end_chain() {
         depth -= chain;

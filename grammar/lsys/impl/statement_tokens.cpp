@@ -2,6 +2,7 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
+#include "grammar/base/local_values.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 
@@ -51,6 +52,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.keyword = keyword;
     scan.statement_open = true;
     scan.statement_begin = scan.begin;
+    scan.has_locals = false;
     scan.colons.reset();
     scan.skipping = false;
     session.failed = false;
@@ -361,7 +363,9 @@ bool is_needless_sign(ParseSession& session) {
 bool is_doubled_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
-    const std::uint32_t wanted = scan.part == Part::Axiom || scan.part == Part::Ignored ? 1u : 3u;
+    const std::uint32_t wanted = scan.part == Part::Axiom || scan.part == Part::Ignored ? 1u
+                                 : scan.has_locals                                      ? 4u
+                                                                                        : 3u;
     if (!scan.part_empty || !scan.open.empty() || character_before(text, scan.begin) != ':' ||
         scan.bracket_searches++ >= kMaxBracketSearches ||
         !has_more_colons(text, scan.statement_begin, wanted)) {
@@ -387,7 +391,7 @@ Token colon_after_modules(ParseSession& session) {
         const std::string word(spelling(scan.keyword));
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::ExtraColon, scan.part == Part::Successor
-                                                           ? "a production has no fifth part"
+                                                           ? "a production has no further part"
                                                            : "`#" + word + "` has no further part");
         if (scan.part == Part::Successor) {
             diagnostic.help.emplace_back(kFourParts);
@@ -398,16 +402,63 @@ Token colon_after_modules(ParseSession& session) {
     return discard_statement(session);
 }
 
+namespace {
+
+/// The part behind the `:` that ends at scan.end.
+Part part_after_colon(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    switch (scan.part) {
+    case Part::Head:
+        return Part::Condition;
+    case Part::Condition:
+        return begins_local_values(session.scanned.text, scan.end) ? Part::Locals : Part::Successor;
+    default:
+        return Part::Successor;
+    }
+}
+
+} // namespace
+
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
-    if (!scan.open.empty() && (scan.part == Part::Head || scan.part == Part::Condition)) {
+    const bool in_production =
+        scan.part == Part::Head || scan.part == Part::Condition || scan.part == Part::Locals;
+    if (!scan.open.empty() && in_production) {
         return begin_insertion(session, Insertion::Colon, session.match());
     }
     const SourceSpan span = session.token();
-    if (scan.part == Part::Condition) {
-        scan.enter(Part::Successor);
+    if (in_production) {
+        scan.enter(part_after_colon(session));
     }
     return Token(Parser::token::TOK_COLON, span);
+}
+
+std::optional<Token> local_value_token(ParseSession& session, std::string_view text) {
+    ScanState& scan = session.scan;
+    const LocalPlace place = scan.local_place;
+    const bool fits =
+        place == LocalPlace::Let || (place == LocalPlace::Name && is_letter(text[0])) ||
+        (place == LocalPlace::Sign && text == "=") || (place == LocalPlace::Value && text == ",");
+    if (scan.part != Part::Locals || !scan.open.empty() || !fits) {
+        return std::nullopt;
+    }
+    const SourceSpan span = session.token();
+    switch (place) {
+    case LocalPlace::Let:
+        scan.local_place = LocalPlace::Name;
+        return Token(Parser::token::TOK_LET, span);
+    case LocalPlace::Name:
+        scan.local_place = LocalPlace::Sign;
+        return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(text), span);
+    case LocalPlace::Sign:
+        scan.local_place = LocalPlace::Value;
+        return Token(Parser::token::TOK_ASSIGN, span);
+    case LocalPlace::Value:
+        scan.after_operator();
+        scan.local_place = LocalPlace::Name;
+        return Token(Parser::token::TOK_COMMA, span);
+    }
+    return std::nullopt;
 }
 
 std::optional<Token> semicolon(ParseSession& session) {
@@ -486,6 +537,13 @@ void report_missing_parts(ParseSession& session) {
         }
         return;
     }
+    if (scan.part == Part::Locals) {
+        Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::MissingColon, place,
+                                                 "the production ends before its successor");
+        diagnostic.help.emplace_back("local values stand between two `:`, as in `#grow : A(x) : * "
+                                     ": let l = x / 2 : F(l) A(l);`");
+        return;
+    }
     const std::string_view condition =
         session.scanned.text.substr(scan.part_begin, scan.last_end - scan.part_begin);
     const bool is_condition = condition.find_first_of("<>=!~&|") != std::string_view::npos ||
@@ -516,7 +574,8 @@ Token begin_insertion(ParseSession& session, Insertion kind, SourceSpan written)
     if (!scan.skipping && !scan.open.empty()) {
         report_unclosed(session);
     }
-    if (kind != Insertion::Colon && (scan.part == Part::Head || scan.part == Part::Condition)) {
+    if (kind != Insertion::Colon &&
+        (scan.part == Part::Head || scan.part == Part::Condition || scan.part == Part::Locals)) {
         if (!scan.skipping) {
             report_missing_parts(session);
         }
@@ -544,10 +603,10 @@ Token insert_token(ParseSession& session) {
         const SourceSpan colon = scan.pending_span;
         scan.inserting = Insertion::None;
         scan.last_end = scan.end;
-        scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
+        scan.enter(part_after_colon(session));
         return Token(Parser::token::TOK_COLON, colon);
     }
-    if (scan.part == Part::Condition) {
+    if (scan.part == Part::Condition || scan.part == Part::Locals) {
         scan.enter(Part::Successor);
         return Token(Parser::token::TOK_COLON, session.insertion_place()).as_inserted();
     }
@@ -654,8 +713,9 @@ bool report_missing_condition(ParseSession& session) {
 
 bool lacks_colon(ParseSession& session, std::string_view inserted) {
     ScanState& scan = session.scan;
-    if ((scan.part != Part::Head && scan.part != Part::Condition) ||
-        colons_of_statement(session) >= 3) {
+    const bool in_production =
+        scan.part == Part::Head || scan.part == Part::Condition || scan.part == Part::Locals;
+    if (!in_production || colons_of_statement(session) >= (scan.part == Part::Locals ? 4U : 3U)) {
         return false;
     }
     if (inserted.empty() && session.wants(DiagnosticCode::MissingColon) &&

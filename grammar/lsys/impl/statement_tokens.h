@@ -31,6 +31,9 @@ bool is_needless_sign(ParseSession& session);
 /// Whether the current `:` repeats the one before it in a statement with too many; reports it.
 bool is_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
+/// The current token if it is `let`, a name, `=` or `,` of local values outside of their
+/// expressions.
+std::optional<Token> local_value_token(ParseSession& session, std::string_view text);
 Token colon_in_expression(ParseSession& session);
 /// The current `;`; nothing for a `;` between statements, which is reported.
 std::optional<Token> semicolon(ParseSession& session);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace lsys {
 
@@ -33,8 +34,12 @@ Fault check_range(float minimum, float maximum) {
 
 namespace {
 
+constexpr std::uint32_t kUsualSlots = 32;
+
 /// The domain of numbers.
 struct Numbers : UnknownDomain<float> {
+    static constexpr bool kKnowsChoices = true;
+
     const EvalFrame& frame;
     RangeDraws* draws;
     float* out;
@@ -63,6 +68,8 @@ struct Numbers : UnknownDomain<float> {
             return arithmetic::apply(opcode, x, y);
         }
     }
+    static float mix(float x, float y, float t) { return arithmetic::mix(x, y, t); }
+    static bool holds(float x) { return x != 0.0F; }
     bool range(float& x, float maximum, std::uint32_t index, const std::uint32_t* at) {
         const Fault kind = check_range(x, maximum);
         if (kind != Fault::None) {
@@ -91,10 +98,35 @@ bool evaluate(const Bytecode& bytecode,
               RangeDraws* draws,
               float* out,
               EvalFault& fault) {
-    std::array<float, kMaxStack> stack; // NOLINT: written before it is read, as verify() promises
+    WordTemplate word;
+    word.arguments = first;
+    return evaluate(bytecode, word, frame, draws, out, fault);
+}
+
+bool evaluate(const Bytecode& bytecode,
+              const WordTemplate& word,
+              const EvalFrame& frame,
+              RangeDraws* draws,
+              float* out,
+              EvalFault& fault) {
     const std::uint32_t* const begin = bytecode.instructions.data();
     Numbers numbers{{}, frame, draws, out, begin, fault};
-    return interpret(begin + first, numbers, stack.data());
+    const auto run = [&](float* stack, float* slots) {
+        for (const std::uint32_t first : {word.locals, word.arguments}) {
+            if (first != kNone && !interpret(begin + first, numbers, stack, slots)) {
+                return false;
+            }
+        }
+        return true;
+    };
+    if (bytecode.stack_depth <= kUsualStack && bytecode.local_count <= kUsualSlots) {
+        // NOLINTNEXTLINE: written before they are read, as verify() promises
+        std::array<float, kUsualStack> stack;
+        std::array<float, kUsualSlots> slots; // NOLINT
+        return run(stack.data(), slots.data());
+    }
+    std::vector<float> room(std::size_t{bytecode.stack_depth} + bytecode.local_count);
+    return run(room.data(), room.data() + bytecode.stack_depth);
 }
 
 } // namespace lsys

@@ -77,5 +77,12 @@ struct EvalFault {
                             RangeDraws* draws,
                             float* out,
                             EvalFault& fault);
+/// Evaluates the arguments of a word after its local values, as evaluate().
+[[nodiscard]] bool evaluate(const Bytecode& bytecode,
+                            const WordTemplate& word,
+                            const EvalFrame& frame,
+                            RangeDraws* draws,
+                            float* out,
+                            EvalFault& fault);
 
 } // namespace lsys

@@ -69,7 +69,7 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
                               plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
         }
         const Entry& entry = plan.entries()[record == 0 ? code : row.base + record];
-        if (entry.candidate != kNone && entry.parameter_count != 0) {
+        if (entry.candidate != kNone && (entry.parameter_count != 0 || entry.general)) {
             EvalFault fault;
             values.resize(entry.parameter_count);
             if (!evaluate_entry(plan, keys, matcher, word.first_position + place.index, place,

@@ -21,8 +21,9 @@ void append_code(Code code, std::uint32_t width, std::vector<std::byte>& pool) {
 /// Programs with more codes are rewritten without folded templates.
 constexpr Code kMaxFoldedCodes = 4096;
 
-bool uses_step(const Bytecode& bytecode, std::uint32_t first) {
-    return first != kNone && contains(bytecode, first, Opcode::Step);
+bool uses_step(const Bytecode& bytecode, const BytecodeProduction& production) {
+    return contains(bytecode, production.condition, Opcode::Step) ||
+           contains(bytecode, production.successor, Opcode::Step);
 }
 
 template <typename T>
@@ -171,6 +172,8 @@ void Plan::make_families() {
         candidate.has_context = production.has_left || production.has_right;
         candidate.reads_context =
             uses_formal_outside(bytecode_, production.condition, item.first_formal, own_end) ||
+            uses_formal_outside(bytecode_, production.successor.locals, item.first_formal,
+                                own_end) ||
             uses_formal_outside(bytecode_, production.successor.arguments, item.first_formal,
                                 own_end);
         candidate.gathers = candidate.reads_context || item.first_formal != 0 ||
@@ -179,8 +182,7 @@ void Plan::make_families() {
         family.has_context = family.has_context || candidate.has_context;
         family.reads_context = family.reads_context || candidate.reads_context;
         family.varies = family.varies || (one_choice && production.stochastic) ||
-                        uses_step(bytecode_, production.condition) ||
-                        uses_step(bytecode_, production.successor.arguments);
+                        uses_step(bytecode_, production);
     }
     for (std::uint32_t i = 0; i < families_.size(); ++i) {
         if (families_[i].varies) {

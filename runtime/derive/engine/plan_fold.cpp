@@ -44,13 +44,13 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
     if (candidate.gathers || has_random_parameters(bytecode_, successor) ||
         folding_.codes.size() + successor.codes.count > kMaxFoldedTemplateCodes ||
-        contains(bytecode_, successor.arguments, Opcode::Step)) {
+        contains(bytecode_, successor, Opcode::Step)) {
         return kNone;
     }
     const EvalFrame frame{own, inputs_.globals, 0.0F, inputs_.steps};
     std::vector<float> values(successor.parameter_count);
     EvalFault fault;
-    if (!evaluate(bytecode_, successor.arguments, frame, nullptr, values.data(), fault)) {
+    if (!evaluate(bytecode_, successor, frame, nullptr, values.data(), fault)) {
         return kNone;
     }
     std::vector<Code> codes;

@@ -46,7 +46,7 @@ void Plan::shape_condition(Candidate& candidate) {
     }
     candidate.condition = ConditionKind::Expression;
     const std::vector<ValueShape> shapes =
-        shapes_of(bytecode_, production.condition, knowledge(candidate));
+        shapes_of(bytecode_, kNone, production.condition, knowledge(candidate));
     if (shapes.size() != 1) {
         return;
     }
@@ -69,14 +69,16 @@ void Plan::shape_condition(Candidate& candidate) {
 
 void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    entry.general = false;
+    // Ranges of local values may be at fault where no argument uses them.
+    const bool has_drawn_locals = successor.locals != kNone && successor.draw_count != 0;
+    entry.general = has_drawn_locals;
     entry.reads_own = false;
-    if (successor.parameter_count == 0) {
+    if (successor.parameter_count == 0 || has_drawn_locals) {
         set_special(entry);
         return;
     }
     const std::vector<ValueShape> shapes =
-        shapes_of(bytecode_, successor.arguments, knowledge(candidate));
+        shapes_of(bytecode_, successor.locals, successor.arguments, knowledge(candidate));
     entry.general = shapes.size() != successor.parameter_count;
     for (std::uint32_t i = 0; i < shapes.size() && !entry.general; ++i) {
         AffineTerm term;
@@ -343,14 +345,13 @@ bool Plan::bake(const Row& row, Entry& entry) const {
     std::array<float, kEntryTerms> values{};
     if (entry.general) {
         const bool steady =
-            each_generation_ || !contains(bytecode_, production.successor.arguments, Opcode::Step);
+            each_generation_ || !contains(bytecode_, production.successor, Opcode::Step);
         if (has_random_parameters(bytecode_, production.successor) || !steady) {
             return false;
         }
         const EvalFrame frame{own, inputs_.globals, static_cast<float>(generation_), inputs_.steps};
         EvalFault fault;
-        if (!evaluate(bytecode_, production.successor.arguments, frame, nullptr, values.data(),
-                      fault)) {
+        if (!evaluate(bytecode_, production.successor, frame, nullptr, values.data(), fault)) {
             return false;
         }
     } else {

@@ -88,6 +88,15 @@ public:
         return {};
     }
 
+    static Term mix(const Term& x, const Term& y, const Term& t) {
+        const bool known = x.kind == ShapeKind::Constant && y.kind == ShapeKind::Constant &&
+                           t.kind == ShapeKind::Constant;
+        return known ? constant_term(arithmetic::mix(x.constant, y.constant, t.constant)) : Term{};
+    }
+    static Term choice(const Term& x, const Term& y, const Term& z) {
+        return x.kind != ShapeKind::Constant ? Term{} : x.constant != 0.0F ? y : z;
+    }
+
     bool take(const Term& term, const std::uint32_t* /*at*/) {
         const auto first =
             comparisons_.begin() + static_cast<std::ptrdiff_t>(term.first_comparison);
@@ -187,18 +196,30 @@ private:
 
 } // namespace
 
-std::vector<ValueShape>
-shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge) {
+std::vector<ValueShape> shapes_of(const Bytecode& bytecode,
+                                  std::uint32_t locals,
+                                  std::uint32_t first,
+                                  const ShapeKnowledge& knowledge) {
     std::vector<ValueShape> shapes;
     AffineDomain domain(knowledge, shapes);
-    std::vector<Term> stack(stack_room(bytecode.instructions, first));
-    if (!interpret(bytecode.instructions.data() + first, domain, stack.data())) {
-        shapes.clear();
+    std::vector<Term> slots(bytecode.local_count);
+    for (const std::uint32_t code : {locals, first}) {
+        if (code == kNone) {
+            continue;
+        }
+        std::vector<Term> stack(stack_room(bytecode.instructions, code));
+        if (!interpret(bytecode.instructions.data() + code, domain, stack.data(), slots.data())) {
+            shapes.clear();
+            break;
+        }
     }
     return shapes;
 }
 
 bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
+    if (first == kNone) {
+        return false;
+    }
     for (const Instruction each : InstructionRange(bytecode.instructions, first)) {
         if (each.opcode == opcode) {
             return true;
@@ -207,10 +228,12 @@ bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode) {
     return false;
 }
 
+bool contains(const Bytecode& bytecode, const WordTemplate& word, Opcode opcode) {
+    return contains(bytecode, word.locals, opcode) || contains(bytecode, word.arguments, opcode);
+}
+
 bool has_random_parameters(const Bytecode& bytecode, const WordTemplate& successor) {
-    return successor.draw_count != 0 ||
-           (successor.arguments != kNone &&
-            contains(bytecode, successor.arguments, Opcode::BranchDraw));
+    return successor.draw_count != 0 || contains(bytecode, successor, Opcode::BranchDraw);
 }
 
 bool uses_formal_outside(const Bytecode& bytecode,

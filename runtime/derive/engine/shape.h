@@ -65,12 +65,16 @@ struct ValueShape {
 
 inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
 /// The shapes of the values of the expression at `first`, in order; an empty list for expressions
-/// longer than kMaxShapedInstructions.
-[[nodiscard]] std::vector<ValueShape>
-shapes_of(const Bytecode& bytecode, std::uint32_t first, const ShapeKnowledge& knowledge);
+/// longer than kMaxShapedInstructions. `locals`: the code of local values before it, or kNone.
+[[nodiscard]] std::vector<ValueShape> shapes_of(const Bytecode& bytecode,
+                                                std::uint32_t locals,
+                                                std::uint32_t first,
+                                                const ShapeKnowledge& knowledge);
 
-/// Whether the expression at `first` contains `opcode`.
+/// Whether the expression at `first` contains `opcode`; false for kNone.
 [[nodiscard]] bool contains(const Bytecode& bytecode, std::uint32_t first, Opcode opcode);
+/// Whether the arguments of a word or its local values contain `opcode`.
+[[nodiscard]] bool contains(const Bytecode& bytecode, const WordTemplate& word, Opcode opcode);
 /// Whether the parameters that a successor stores depend on random numbers.
 [[nodiscard]] bool has_random_parameters(const Bytecode& bytecode, const WordTemplate& successor);
 /// Whether the expression at `first` (kNone: none) uses a formal outside [begin, end).

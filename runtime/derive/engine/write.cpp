@@ -307,7 +307,7 @@ private:
     }
 
     bool write_parameters(const Entry& entry) {
-        if (entry.parameter_count == 0) {
+        if (entry.parameter_count == 0 && !entry.general) {
             return true;
         }
         if (entry.general) {
@@ -376,7 +376,7 @@ bool evaluate_entry(const Plan& plan,
     const Bytecode& bytecode = plan.bytecode();
     const Candidate& candidate = plan.candidate(entry.candidate);
     const BytecodeProduction& production = bytecode.productions[candidate.production];
-    if (production.successor.arguments == kNone) {
+    if (production.successor.arguments == kNone && production.successor.locals == kNone) {
         return true;
     }
     const PlanInputs& inputs = plan.inputs();
@@ -386,7 +386,7 @@ bool evaluate_entry(const Plan& plan,
         candidate.stochastic && bytecode.settings.choice == ChoiceScope::Module;
     RangeDraws draws = RangeDraws::of_module(keys.seed, keys.generation, position,
                                              keys.first_draw + (draws_choice ? 1 : 0));
-    return evaluate(bytecode, production.successor.arguments, frame, &draws, out, fault);
+    return evaluate(bytecode, production.successor, frame, &draws, out, fault);
 }
 
 #define LSYS_WRITE(C, R)                                                                           \

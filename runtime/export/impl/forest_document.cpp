@@ -68,7 +68,11 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
     const std::size_t ground = ground_surface_ == kNoSurface ? 0 : 1;
     const std::size_t cells = plan_.cells().size();
     json.member("scene", 0).array("scenes").object().member("nodes", {0}).end().end();
-    json.array("nodes").object().member("name", "forest").array("children");
+    json.array("nodes").object().member("name", "forest");
+    if (const glm::vec3 at = glm::vec3(0.0F) - info_.pivot; at != glm::vec3(0.0F)) {
+        json.member("translation", {at.x, at.y, at.z});
+    }
+    json.array("children");
     for (std::size_t i = 0; i < ground + cells; ++i) {
         json.value(1 + i);
     }
@@ -79,10 +83,19 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         json.object().member("name", "ground").member("mesh", 0).end(); // positions are exact
     }
     std::uint64_t child = 1 + ground + cells;
+    std::vector<bool> met(collisions_.size()); // as in for_each_collider()
     for (const ForestCell& cell : plan_.cells()) {
         json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
         json.array("children");
-        const std::uint64_t count = instanced() ? cell.group_count : cell.branches;
+        std::uint64_t count = instanced() ? cell.group_count : cell.branches;
+        // Shapes of instances follow their trees, as nodes beside them.
+        for (std::size_t i = 0; instanced() && !collisions_.empty() && i < cell.group_count; ++i) {
+            const std::uint32_t instance = plan_.groups()[cell.first_group + i].instance;
+            if (!(met[instance] && collides_once())) {
+                met[instance] = true;
+                count += collisions_[instance].shapes.size();
+            }
+        }
         for (std::uint64_t i = 0; i < count; ++i) {
             json.value(child++);
         }
@@ -98,16 +111,48 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
 
 void ForestDocument::put_instanced_nodes(JsonWriter& json) const {
     std::size_t accessor = first_group_accessor_;
+    std::vector<bool> met(collisions_.size());
     for (const ForestGroup& group : plan_.groups()) {
-        json.object().member("mesh", mesh_of_instance_[group.instance]).object("extensions");
-        json.object("EXT_mesh_gpu_instancing").object("attributes");
-        json.member("TRANSLATION", accessor).member("ROTATION", accessor + 1);
-        json.member("SCALE", accessor + 2).end().end().end().end();
+        const auto put_instances = [&](std::size_t mesh) {
+            json.member("mesh", mesh).object("extensions");
+            json.object("EXT_mesh_gpu_instancing").object("attributes");
+            json.member("TRANSLATION", accessor).member("ROTATION", accessor + 1);
+            json.member("SCALE", accessor + 2).end().end().end().end();
+        };
+        json.object();
+        put_instances(mesh_of_instance_[group.instance]);
+        if (!collisions_.empty() && !(met[group.instance] && collides_once())) {
+            met[group.instance] = true;
+            const std::vector<CollisionShape>& shapes = collisions_[group.instance].shapes;
+            for (std::size_t i = 0; i < shapes.size(); ++i) {
+                json.object().member("name", shapes[i].name);
+                put_instances(collision_meshes_[group.instance] + i);
+            }
+        }
         accessor += 3;
     }
 }
 
+std::uint64_t ForestDocument::node_count() const {
+    std::uint64_t count = 1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() +
+                          (instanced() ? plan_.groups().size() : plan_.branches());
+    for_each_collider(
+        [&](std::uint32_t instance) { count += collisions_[instance].shapes.size(); });
+    return count;
+}
+
+std::string ForestDocument::mesh_name(const ForestKind& kind, std::uint32_t instance) const {
+    const ForestSpecies& species = scene_.forest.species[kind.species];
+    return species.stages.size() == 1
+               ? fmt::format("{} {}", species.name, instance)
+               : fmt::format("{} n{} {}", species.name, species.stages[kind.stage].generations,
+                             instance);
+}
+
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
+    std::uint64_t child =
+        1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() + plan_.branches();
+    std::vector<bool> met(collisions_.size());
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
                                         const BranchInstance& branch) {
@@ -120,11 +165,23 @@ void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
             const glm::vec3& t = pose.translation;
             const glm::quat& r = pose.rotation;
             json.object().member("mesh", mesh_of_instance_[instance]);
+            if (!collisions_.empty() && !collisions_[instance].shapes.empty() &&
+                !(met[instance] && collides_once())) {
+                met[instance] = true;
+                json.array("children");
+                for (std::size_t i = 0; i < collisions_[instance].shapes.size(); ++i) {
+                    json.value(child++);
+                }
+                json.end();
+            }
             json.member("translation", {t.x, t.y, t.z});
             json.member("rotation", {r.x, r.y, r.z, r.w});
             json.member("scale", {pose.scale, pose.scale, pose.scale}).end();
         });
     }
+    for_each_collider([&](std::uint32_t instance) {
+        put_collision_nodes(json, collisions_[instance], collision_meshes_[instance]);
+    });
 }
 
 void ForestDocument::put_mesh(JsonWriter& json,
@@ -154,17 +211,17 @@ void ForestDocument::put_meshes(JsonWriter& json) const {
     }
     for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
         const ForestKind& kind = plan_.kinds()[k];
-        const ForestSpecies& species = scene_.forest.species[kind.species];
-        const std::string name =
-            species.stages.size() == 1
-                ? species.name
-                : fmt::format("{} n{}", species.name, species.stages[kind.stage].generations);
         for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
             if (plan_.uses()[kind.first + i] > 0) {
-                put_mesh(json, fmt::format("{} {}", name, i), surfaces_[surface_of_kind_[k]],
+                put_mesh(json, mesh_name(kind, i), surfaces_[surface_of_kind_[k]],
                          kind.meshes->parts_of(i), accessor);
             }
         }
+    }
+    accessor = first_collision_accessor_;
+    for (const GltfCollision& collision : collisions_) {
+        put_collision_meshes(json, collision, accessor);
+        accessor += collision.accessor_count();
     }
     json.end();
 }
@@ -228,6 +285,11 @@ void ForestDocument::put_accessors(JsonWriter& json) const {
     });
     if (instanced()) {
         put_group_accessors(json);
+    }
+    std::size_t view = first_collision_view_;
+    for (const GltfCollision& collision : collisions_) {
+        put_collision_accessors(json, collision, view);
+        view += collision.shapes.empty() ? 0U : 2U;
     }
     json.end();
 }
@@ -293,6 +355,10 @@ void ForestDocument::put_views(JsonWriter& json) const {
     for (const std::string& image : images_) {
         put_plain_view(json, offset, image.size());
         offset += image.size();
+    }
+    for (const GltfCollision& collision : collisions_) {
+        put_collision_views(json, collision, offset);
+        offset += collision.byte_count();
     }
     json.end();
 }

@@ -5,6 +5,7 @@
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/forest_slices.h"
+#include "runtime/export/impl/gltf_collision.h"
 #include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/json_writer.h"
@@ -79,6 +80,7 @@ public:
                    const ForestExportInfo& info);
 
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
+    [[nodiscard]] std::uint64_t node_count() const;
     /// Size of the buffer that exists when the arrays have been decoded; 0: there is none.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
     /// Writes all members of the document but `buffers`.
@@ -96,6 +98,18 @@ private:
                      std::span<const PartList> lists);
     /// Plans the forms of texture coordinates, by material of the scene.
     void plan_texture_forms();
+    /// Makes the shapes of collision of all instances in use.
+    void add_collisions();
+    /// Whether the shapes are written for the first tree of a hero only: Unreal Engine adds them to
+    /// the mesh.
+    [[nodiscard]] bool collides_once() const {
+        return info_.collision_names == CollisionNames::Unreal;
+    }
+    [[nodiscard]] std::string mesh_name(const ForestKind& kind, std::uint32_t instance) const;
+    /// Calls visit(instance among all kinds) for each tree that has shapes of its own, in the order
+    /// of nodes.
+    template <typename Visit>
+    void for_each_collider(const Visit& visit) const;
     /// Plans the views of a surface, without their places.
     void add_views(ForestSurface& surface);
     void compress_views();
@@ -133,7 +147,12 @@ private:
     const ForestExportInfo& info_;
     ForestMaterials materials_;
     std::vector<ForestSurface> surfaces_;
-    std::vector<ItemGrid> grids_;                // of kinds
+    std::vector<ItemGrid> grids_;           // of kinds
+    std::vector<GltfCollision> collisions_; // by instance among all kinds; empty: there are none
+    std::vector<std::size_t> collision_meshes_; // numbers of the first mesh of each
+    std::size_t first_collision_accessor_ = 0;
+    std::size_t first_collision_view_ = 0;
+    std::uint64_t collisions_offset_ = 0;
     std::vector<GltfTextureForm> texture_forms_; // by material of the scene
     std::vector<std::size_t> surface_of_kind_;
     std::size_t ground_surface_ = kNoSurface;
@@ -166,6 +185,34 @@ void ForestDocument::for_each_view(const Visit& visit) {
                 }
             }
         }
+    }
+}
+
+template <typename Visit>
+void ForestDocument::for_each_collider(const Visit& visit) const {
+    if (collisions_.empty()) {
+        return;
+    }
+    std::vector<bool> met(collisions_.size());
+    const auto take = [&](std::uint32_t instance) {
+        if (!collisions_[instance].shapes.empty() && !(met[instance] && collides_once())) {
+            met[instance] = true;
+            visit(instance);
+        }
+    };
+    if (instanced()) {
+        for (const ForestGroup& group : plan_.groups()) {
+            take(group.instance);
+        }
+        return;
+    }
+    for (const ForestCell& cell : plan_.cells()) {
+        plan_.for_each_branch(
+            cell, [&](const ForestKind&, std::uint32_t instance, const BranchInstance&) {
+                if (plan_.uses()[instance] > 0) {
+                    take(instance);
+                }
+            });
     }
 }
 

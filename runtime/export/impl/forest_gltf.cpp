@@ -9,6 +9,7 @@
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_parts.h"
+#include "runtime/forest/instance_skeleton.h"
 
 #include <glm/common.hpp>
 
@@ -79,6 +80,44 @@ ForestDocument::ForestDocument(const ForestScene& scene,
     for (std::string& image : images_) {
         image.resize((image.size() + 3) / 4 * 4, '\0');
         bytes_ += image.size();
+    }
+    first_collision_view_ = first_image_view_ + images_.size();
+    first_collision_accessor_ =
+        first_group_accessor_ + (instanced() ? 3 * plan.groups().size() : 0);
+    if (info.collision != CollisionKind::None) {
+        add_collisions();
+    }
+    std::size_t mesh = meshes;
+    for (const GltfCollision& collision : collisions_) {
+        collision_meshes_.push_back(mesh);
+        mesh += collision.shapes.size();
+        bytes_ += collision.byte_count();
+    }
+}
+
+void ForestDocument::add_collisions() {
+    collisions_.resize(plan_.uses().size());
+    ExportInfo shapes;
+    shapes.collision = info_.collision;
+    shapes.collision_names = info_.collision_names;
+    for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
+        const ForestKind& kind = plan_.kinds()[k];
+        const ItemGrid& grid = grids_[k];
+        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
+            if (plan_.uses()[kind.first + i] == 0) {
+                continue;
+            }
+            shapes.name = mesh_name(kind, i);
+            GltfCollision& made = collisions_[kind.first + i];
+            made.shapes =
+                make_collision(skeleton_of(*kind.cache, kind.cache->instances[i]), shapes);
+            for (CollisionShape& shape : made.shapes) { // in the steps of the tree's positions
+                for (glm::vec3& vertex : shape.vertices) {
+                    vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
+                                       static_cast<double>(grid.step));
+                }
+            }
+        }
     }
 }
 
@@ -355,6 +394,11 @@ void ForestDocument::put_data(const GltfSink& write) const {
     for (const std::string& image : images_) {
         write(std::as_bytes(std::span(image)));
     }
+    for (const GltfCollision& collision : collisions_) {
+        if (!collision.shapes.empty()) {
+            write_collision(collision, write);
+        }
+    }
 }
 
 namespace {
@@ -367,6 +411,13 @@ Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
                                  "without --expand, branches are instances"))};
     }
     const ForestDocument document(job.scene, job.plan, job.form, job.info);
+    if (job.form == ForestForm::Expanded && document.node_count() > 2 * kMaxForestNodes) {
+        return {
+            Stop::Limit,
+            messages_of(plant_limit_diagnostic(
+                "the expanded forest", fmt::format("{} nodes", grouped_digits(2 * kMaxForestNodes)),
+                "each tree has nodes for its shapes of collision: leave out --collision"))};
+    }
     if (document.data_bytes() > kMaxGltfBytes || document.decoded_bytes() > kMaxGltfBytes) {
         return too_large_for_format(ExportSubject::Forest);
     }

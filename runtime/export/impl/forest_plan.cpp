@@ -3,6 +3,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/material_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,26 +13,7 @@ namespace lsys {
 
 namespace {
 
-bool same(const Material& a, const Material& b) {
-    return a.name == b.name && a.kind == b.kind && a.colour == b.colour &&
-           a.two_sided == b.two_sided && a.cut_out == b.cut_out && a.textured == b.textured &&
-           a.picture == b.picture && a.relief == b.relief;
-}
-
 constexpr std::uint64_t kPieceTrees = 512;
-
-std::uint32_t add_material(Mesh& samples, const Material& material) {
-    const auto found =
-        std::find_if(samples.materials.begin(), samples.materials.end(),
-                     [&material](const Material& other) { return same(material, other); });
-    if (found != samples.materials.end()) {
-        return static_cast<std::uint32_t>(found - samples.materials.begin());
-    }
-    const auto number = static_cast<std::uint32_t>(samples.materials.size());
-    samples.materials.push_back(material);
-    samples.parts.push_back({number, 0, 3});
-    return number;
-}
 
 } // namespace
 
@@ -198,9 +180,7 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
             materials.of_ground.push_back(add_material(materials.samples, material));
         }
     }
-    materials.samples.positions.resize(1);
-    materials.samples.texture_coordinates.resize(textured ? 1 : 0);
-    materials.samples.tangents.resize(tangents ? 1 : 0);
+    finish_samples(materials.samples, textured, tangents); // species may have files of one name
     return materials;
 }
 

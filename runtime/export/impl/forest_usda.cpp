@@ -32,7 +32,7 @@ public:
         out_ = &out;
         put_header();
         out_->put("def Xform \"Forest\" (\n    kind = \"assembly\"\n)\n{\n");
-        out_->put(usda_turn(info_.up));
+        out_->put(usda_place(info_.up, info_.unit, info_.pivot));
         if (scene_.ground != nullptr && triangle_count(*scene_.ground) > 0) {
             put_ground(*scene_.ground);
         }
@@ -64,7 +64,7 @@ private:
                               "(\n"
                               "    defaultPrim = \"Forest\"\n"
                               "    doc = \"{0}\"\n"
-                              "    metersPerUnit = 1\n"
+                              "    metersPerUnit = {6}\n"
                               "    upAxis = \"{5}\"\n"
                               "    customLayerData = {{\n"
                               "        string generator = \"{0}\"\n"
@@ -76,7 +76,7 @@ private:
                               ")\n\n",
                               json_text(one_line(info_.generator)), json_text(one_line(info_.name)),
                               scene_.forest.key, scene_.forest.trees.size(), plan_.branches(),
-                              usda_axis(info_.up)));
+                              usda_axis(info_.up), metres_per_unit(info_.unit)));
     }
 
     /// Material names of the parts. `materials`: index in names_ of each material of their mesh.

@@ -78,7 +78,7 @@ public:
                 renumber(texture, "sampler", samplers);
             });
         const std::vector<std::size_t> materials =
-            add_missing("materials", take_list(file.document, "materials"), [&](Json& material) {
+            add_materials(take_list(file.document, "materials"), level, [&](Json& material) {
                 Json& surface = material["pbrMetallicRoughness"];
                 if (surface.contains("baseColorTexture")) {
                     renumber(surface["baseColorTexture"], "index", textures);
@@ -200,6 +200,29 @@ private:
             }
         }
         return numbers;
+    }
+
+    /// As add_missing(); a material that only has the name of another one gets its own.
+    template <typename Adapt>
+    std::vector<std::size_t> add_materials(Json items, std::size_t level, const Adapt& adapt) {
+        Json& there = file_.document["materials"];
+        for (Json& item : items) {
+            adapt(item);
+            const std::string name = item["name"];
+            const auto looks_same = [&](const Json& other) {
+                Json renamed = other;
+                renamed["name"] = name;
+                return renamed == item && other["name"].get<std::string>().starts_with(name);
+            };
+            const auto same_name = [&](const Json& other) { return other["name"] == name; };
+            if (const auto found = std::find_if(there.begin(), there.end(), looks_same);
+                found != there.end()) {
+                item = *found;
+            } else if (std::any_of(there.begin(), there.end(), same_name)) {
+                item["name"] = level_name(item["name"], level);
+            }
+        }
+        return add_missing("materials", std::move(items), [](Json&) {});
     }
 
     std::vector<std::size_t> add_images(Json images, const Json& views, const std::string& data) {

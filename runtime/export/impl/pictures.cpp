@@ -4,6 +4,7 @@
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
+#include "runtime/export/impl/usda_variants.h"
 
 #include <algorithm>
 #include <array>
@@ -170,7 +171,10 @@ make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info
         std::vector<PictureFile> files;
         const ExportPictures kind = traits_of(format).pictures;
         if (kind != ExportPictures::Inside || !info.buffer_name.empty()) {
-            const Pictures pictures = find_pictures(mesh, kind, info);
+            const std::optional<UsdaVariants> variants =
+                traits_of(format).variants ? find_usda_variants(mesh, info) : std::nullopt;
+            const Pictures pictures =
+                find_pictures(variants ? variants->samples : mesh, kind, info);
             std::vector<std::string> encoded = encode_pictures(pictures.list, info.threads);
             for (std::size_t i = 0; i < encoded.size(); ++i) {
                 files.push_back({pictures.list[i].name, std::move(encoded[i])});

@@ -1,11 +1,12 @@
 // USD as text (OpenUSD, "UsdGeomMesh", "UsdPreviewSurface specification",
 // https://openusd.org/release/): one mesh, its parts as subsets bound to materials; moving plants
-// with a skin. v of texture coordinates goes upwards.
+// with a skin; one of several meshes by a variant set. v of texture coordinates goes upwards.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 #include "runtime/export/impl/usda_parts.h"
 #include "runtime/export/impl/usda_skin.h"
+#include "runtime/export/impl/usda_variants.h"
 #include "runtime/export/impl/usdz.h"
 
 #include <fmt/format.h>
@@ -61,23 +62,81 @@ void put_header(const ExportInfo& info, const UsdaMotion* motion, PieceWriter& o
                         info.seed, info.generations));
 }
 
+constexpr std::string_view kRoot = "/Plant";
+
+/// `name`: of the prim; `names`: of the materials of the parts. `put_skin` may be empty.
+void put_mesh(const Mesh& mesh,
+              const std::string& name,
+              const std::vector<std::string>& names,
+              const std::function<void()>& put_skin,
+              PieceWriter& out) {
+    PartCursor cursor{mesh};
+    put_usda_surface(
+        out, {mesh, name, mesh.positions.size(), mesh.parts, names, kRoot, put_skin},
+        [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
+        [&cursor](std::uint64_t i) { return cursor.index(i); });
+}
+
+/// The first mesh is there without any choice, for readers that know no variants; the variants of
+/// others make it inactive, which the prim itself says nothing about.
+void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
+    put_header(job.info, nullptr, out);
+    out.put(fmt::format("def Xform \"Plant\" (\n"
+                        "    kind = \"component\"\n"
+                        "    variants = {{\n"
+                        "        string {0} = \"{1}\"\n"
+                        "    }}\n"
+                        "    prepend variantSets = \"{0}\"\n",
+                        variants.set, variants.names.front()));
+    if (!variants.coverages.empty()) {
+        out.put(fmt::format("    customData = {{\n        double[] screenCoverage = [{}]\n    }}\n",
+                            fmt::join(variants.coverages, ", ")));
+    }
+    out.put(")\n{\n");
+    out.put(usda_turn(job.info.up));
+    const std::vector<std::string> names = usda_part_names(variants.samples);
+    const auto put_variant_mesh = [&](std::size_t i, const std::string& name) {
+        std::vector<std::string> of_parts;
+        for (const std::uint32_t number : variants.materials[i]) {
+            of_parts.push_back(names[number]);
+        }
+        put_mesh(*variants.meshes[i], name, of_parts, {}, out);
+    };
+    put_variant_mesh(0, "Mesh");
+    out.put(fmt::format("\n    variantSet \"{}\" = {{\n    \"{}\" {{\n    }}\n", variants.set,
+                        variants.names.front()));
+    for (std::size_t i = 1; i < variants.meshes.size(); ++i) {
+        out.put(fmt::format("    \"{}\" {{\n"
+                            "    over \"Mesh\" (\n"
+                            "        active = false\n"
+                            "    )\n"
+                            "    {{\n"
+                            "    }}\n",
+                            variants.names[i]));
+        put_variant_mesh(i, "Mesh_" + variants.names[i]);
+        out.put("    }\n");
+    }
+    out.put("    }\n");
+    put_usda_materials(variants.samples, names, job.info, kRoot, out);
+    out.put("}\n");
+}
+
 void put_layer(const ExportJob& job, const UsdaMotion* motion, PieceWriter& out) {
+    if (const std::optional<UsdaVariants> variants = find_usda_variants(job.mesh, job.info)) {
+        put_choice(job, *variants, out);
+        return;
+    }
     const Mesh& mesh = job.mesh;
-    constexpr std::string_view kRoot = "/Plant";
     const std::vector<std::string> names = usda_part_names(mesh);
     put_header(job.info, motion, out);
     out.put(fmt::format("def {} \"Plant\" (\n    kind = \"component\"\n)\n{{\n",
                         motion != nullptr ? "SkelRoot" : "Xform"));
     out.put(usda_turn(job.info.up));
-    PartCursor cursor{mesh};
     std::function<void()> put_skin;
     if (motion != nullptr) {
         put_skin = [&] { put_usda_joints(mesh, *motion, kRoot, out); };
     }
-    put_usda_surface(
-        out, {mesh, "Mesh", mesh.positions.size(), mesh.parts, names, kRoot, put_skin},
-        [](std::uint64_t i) { return i; }, [](const glm::vec3& v, bool) { return v; },
-        [&cursor](std::uint64_t i) { return cursor.index(i); });
+    put_mesh(mesh, "Mesh", names, put_skin, out);
     if (motion != nullptr) {
         put_usda_skeleton(*motion, kRoot, out);
     }
@@ -117,11 +176,13 @@ Outcome<void> write_usdz(const ExportJob& job, PieceWriter& out) {
     ExportInfo info = job.info;
     info.picture_prefix = "plant";
     const ExportJob inside{job.mesh, job.skeleton, info};
+    const std::optional<UsdaVariants> variants = find_usda_variants(job.mesh, info);
+    const Mesh& materials = variants ? variants->samples : job.mesh;
     return with_motion(inside, [&](const UsdaMotion* motion) {
         return write_usdz_archive(
             {info.subject, "plant.usda",
              [&](PieceWriter& layer) { put_layer(inside, motion, layer); },
-             find_pictures(job.mesh, ExportPictures::FilesWithRelief, info).list, info.threads},
+             find_pictures(materials, ExportPictures::FilesWithRelief, info).list, info.threads},
             out);
     });
 }

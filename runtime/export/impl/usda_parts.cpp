@@ -102,6 +102,29 @@ void put_material(const Material& material,
 
 } // namespace
 
+std::string usda_place(UpAxis up, LengthUnit unit, const glm::vec3& pivot) {
+    // The last operation comes first.
+    std::vector<std::string_view> order;
+    std::string text;
+    if (up == UpAxis::Z) {
+        text += "    double xformOp:rotateX = 90\n";
+        order.emplace_back("\"xformOp:rotateX\"");
+    }
+    if (unit != LengthUnit::Metres) {
+        text += fmt::format("    double3 xformOp:scale = ({0}, {0}, {0})\n", units_per_metre(unit));
+        order.emplace_back("\"xformOp:scale\"");
+    }
+    if (pivot != glm::vec3(0.0F)) {
+        text += fmt::format("    double3 xformOp:translate = ({}, {}, {})\n", 0.0F - pivot.x,
+                            0.0F - pivot.y, 0.0F - pivot.z);
+        order.emplace_back("\"xformOp:translate\"");
+    }
+    if (!order.empty()) {
+        text += fmt::format("    uniform token[] xformOpOrder = [{}]\n\n", fmt::join(order, ", "));
+    }
+    return text;
+}
+
 std::vector<std::string> usda_part_names(const Mesh& mesh) {
     std::vector<std::string> names;
     for (const MeshPart& part : mesh.parts) {

@@ -32,6 +32,8 @@ inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
                              "    uniform token[] xformOpOrder = [\"xformOp:rotateX\"]\n\n"
                            : "";
 }
+/// The transform of a root prim whose `pivot` in metres is the origin of a file in `unit`.
+[[nodiscard]] std::string usda_place(UpAxis up, LengthUnit unit, const glm::vec3& pivot);
 
 /// A unique name for each part.
 [[nodiscard]] std::vector<std::string> usda_part_names(const Mesh& mesh);

@@ -50,7 +50,7 @@ Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
     Parts parts;
     for (const auto& [material, count] : sizes) {
         parts.of_colour[material.palette] = parts.sizes.size();
-        parts.sizes.push_back({.material = material, .index_count = count});
+        parts.sizes.push_back({.material = material, .index_count = count, .word = "wood"});
     }
     return parts;
 }

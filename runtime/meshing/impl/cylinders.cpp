@@ -220,7 +220,8 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
             indices += std::exchange(piece.indices, indices);
         }
         const auto palette = static_cast<std::uint16_t>(groups.groups[group].key);
-        sizes.push_back({.material = wood_material(palette), .index_count = indices});
+        sizes.push_back(
+            {.material = wood_material(palette), .index_count = indices, .word = "wood"});
     }
     MeshBlock block;
     std::vector<std::span<std::uint32_t>> indices;

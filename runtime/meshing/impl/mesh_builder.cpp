@@ -41,6 +41,17 @@ void use_or_clear(Vector& data, bool used) {
     }
 }
 
+void add_word(std::vector<std::string>& words, const std::string& word) {
+    if (!word.empty() && std::find(words.begin(), words.end(), word) == words.end()) {
+        words.push_back(word);
+    }
+}
+
+bool has_material(const std::vector<Material>& materials, const std::string& name) {
+    return std::any_of(materials.begin(), materials.end(),
+                       [&name](const Material& each) { return each.name == name; });
+}
+
 } // namespace
 
 MaterialKey wood_material(std::uint16_t palette) {
@@ -48,7 +59,7 @@ MaterialKey wood_material(std::uint16_t palette) {
                         : MaterialKey{.kind = MaterialKind::Plain, .palette = palette};
 }
 
-Material make_material(const MaterialKey& key) {
+Material make_material(const MaterialKey& key, std::span<const std::string> words) {
     Material material;
     switch (key.kind) {
     case MaterialKind::Bark:
@@ -64,14 +75,11 @@ Material make_material(const MaterialKey& key) {
         material.name = fmt::format("flower {}", key.palette);
         break;
     case MaterialKind::Plain:
-        material.name = fmt::format("colour {}", key.palette);
-        if (key.two_sided) {
-            material.name += ", two-sided";
+        material.name = words.empty() ? "colour" : fmt::format("{}", fmt::join(words, " and "));
+        if (words.empty() || key.palette != kGreyPalette) {
+            material.name += fmt::format(" {}", key.palette);
         }
         break;
-    }
-    if (key.picture != 0) {
-        material.name = fmt::format("picture {}", key.picture);
     }
     material.kind = key.kind;
     material.colour = glm::vec4(
@@ -167,6 +175,7 @@ bool MeshBuilder::place_parts(std::vector<WholePart> parts,
         LSYS_CHECK(parts_.empty() || parts_.back().material < part.material);
         parts_.push_back(
             {.material = part.material, .triangles = std::move(part.triangles), .indices = {}});
+        add_word(parts_.back().words, part.word);
     }
     first_parts_ = parts_.size();
     block = {};
@@ -191,6 +200,7 @@ bool MeshBuilder::reserve_parts(std::span<const PartSize> parts,
         Part& part =
             parts_.emplace_back(Part{.material = size.material, .triangles = {}, .indices = {}});
         indices.push_back(grow(part.indices, 0, size.index_count));
+        add_word(part.words, size.word);
     }
     first_parts_ = parts_.size();
     block = {};
@@ -198,14 +208,16 @@ bool MeshBuilder::reserve_parts(std::span<const PartSize> parts,
     return true;
 }
 
-std::uint32_t MeshBuilder::part(const MaterialKey& material) {
+std::uint32_t MeshBuilder::part(const MaterialKey& material, const std::string& word) {
     const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const Part& candidate) {
         return candidate.material == material;
     });
     if (found != parts_.end()) {
+        add_word(found->words, word);
         return static_cast<std::uint32_t>(found - parts_.begin());
     }
     parts_.push_back({.material = material, .triangles = {}, .indices = {}});
+    add_word(parts_.back().words, word);
     return static_cast<std::uint32_t>(parts_.size() - 1);
 }
 
@@ -253,12 +265,18 @@ std::optional<Stop> MeshBuilder::finish() {
         mesh_.parts.push_back({.material = static_cast<std::uint32_t>(mesh_.materials.size()),
                                .first_index = first,
                                .index_count = count});
-        mesh_.materials.push_back(make_material(part.material));
+        Material material = make_material(part.material, part.words);
         if (part.material.picture != 0) {
             const FilePictures& pictures = pictures_[part.material.picture - 1U];
-            mesh_.materials.back().picture = pictures.colour;
-            mesh_.materials.back().relief = pictures.relief;
+            material.picture = pictures.colour;
+            material.relief = pictures.relief;
+            material.name = pictures.name;
         }
+        const std::string name = material.name;
+        for (int number = 2; has_material(mesh_.materials, material.name); ++number) {
+            material.name = fmt::format("{}, {}", name, number);
+        }
+        mesh_.materials.push_back(std::move(material));
     }
     parts_.clear();
     return std::nullopt;

@@ -14,6 +14,9 @@
 
 namespace lsys {
 
+/// Palette index of objects without a colour of their own.
+inline constexpr std::uint16_t kGreyPalette = 24;
+
 /// Identity of a material. Parts of a mesh are sorted by it.
 struct MaterialKey {
     MaterialKind kind = MaterialKind::Plain;
@@ -32,11 +35,14 @@ struct MaterialKey {
 struct FilePictures {
     std::shared_ptr<const Texture> colour;
     std::shared_ptr<const Texture> relief;
+    std::string name; // of the material
 };
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
 [[nodiscard]] MaterialKey wood_material(std::uint16_t palette);
-[[nodiscard]] Material make_material(const MaterialKey& key);
+/// `words`: what is drawn with it: "wood", "sphere"; they name a plain material.
+[[nodiscard]] Material make_material(const MaterialKey& key,
+                                     std::span<const std::string> words = {});
 
 struct MeshVertex {
     glm::vec3 position{};
@@ -67,10 +73,12 @@ public:
     struct PartSize {
         MaterialKey material;
         std::uint64_t index_count = 0;
+        std::string word = {}; // what is drawn; empty: no name of its own
     };
     struct WholePart {
         MaterialKey material;
         TriangleList triangles;
+        std::string word = {};
     };
 
     /// Writes into `mesh` and reuses the memory of its vertices. Both arguments outlive the
@@ -100,8 +108,8 @@ public:
                                      MeshBlock& block,
                                      std::vector<std::span<std::uint32_t>>& indices);
 
-    /// The number of the part of a material, for the calls below.
-    [[nodiscard]] std::uint32_t part(const MaterialKey& material);
+    /// The number of the part of a material, for the calls below. `word`: what is drawn.
+    [[nodiscard]] std::uint32_t part(const MaterialKey& material, const std::string& word = {});
     /// Makes room for more vertices and indices of a part. Returns false, without effect, if it
     /// does not fit.
     [[nodiscard]] bool
@@ -115,6 +123,7 @@ private:
         MaterialKey material;
         TriangleList triangles; // by place_parts()
         LargeVector<std::uint32_t> indices;
+        std::vector<std::string> words = {}; // each once, in the order of drawing
     };
 
     bool take(std::uint64_t vertices, std::uint64_t triangle_bytes);

@@ -1,15 +1,19 @@
 #include "runtime/meshing/impl/objects.h"
 
+#include "grammar/base/characters.h"
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/droop.h"
 #include "runtime/meshing/impl/groups.h"
 #include "runtime/meshing/shapes.h"
 
+#include <fmt/format.h>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 
 namespace lsys {
 
@@ -118,7 +122,44 @@ void write_all(Workers& workers, const Instances& instances) {
     });
 }
 
+/// The name without its folder and ending, of characters that any format takes.
+std::string stem_of(const std::string& path) {
+    const std::size_t slash = path.find_last_of("/\\");
+    std::string stem = path.substr(slash == std::string::npos ? 0 : slash + 1);
+    stem.erase(std::min(stem.find_last_of('.'), stem.size()));
+    for (char& c : stem) {
+        const bool is_ascii = static_cast<unsigned char>(c) < 0x80;
+        if (is_ascii && !is_letter(c) && !is_digit(c) && c != '-') {
+            c = c == ' ' ? ' ' : '_';
+        }
+    }
+    return stem;
+}
+
+std::string small_letters(std::string text) {
+    for (char& c : text) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return text;
+}
+
 } // namespace
+
+std::vector<std::string> object_file_names(const std::vector<std::string>& files) {
+    // Names that materials of the library have, or pictures beside a file.
+    std::set<std::string> taken{"", "bark", "bark normals", "leaf", "polygon", "impostor"};
+    std::vector<std::string> names;
+    for (const std::string& file : files) {
+        const std::string stem = stem_of(file);
+        std::string name = stem;
+        for (int number = 1; !taken.insert(small_letters(name)).second; ++number) {
+            name = fmt::format("{}{}file{}", stem, stem.empty() ? "" : " ",
+                               number == 1 ? "" : fmt::format(" {}", number));
+        }
+        names.push_back(name);
+    }
+    return names;
+}
 
 void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
@@ -137,6 +178,9 @@ void append_objects(const Skeleton& skeleton,
     const float droop = options.droop.value_or(skeleton.leaf_droop);
     Shape shape;
     std::uint64_t shape_key = kNoGroup;
+    std::string word;
+    std::vector<std::string> names = object_file_names(skeleton.mesh_files);
+    names.resize(user_meshes.size());
     for (const Group& group : groups.groups) {
         const std::span<const std::uint32_t> items =
             std::span(groups.items).subspan(group.first, group.count);
@@ -146,6 +190,8 @@ void append_objects(const Skeleton& skeleton,
             shape = object.kind == TurtleOperation::MeshFile
                         ? make_shape(user_meshes[object.mesh_file])
                         : make_shape(object.kind, options.level);
+            word = object.kind == TurtleOperation::MeshFile ? names[object.mesh_file]
+                                                            : std::string(name_of(object.kind));
             for (ShapePart& part : shape.parts) {
                 if (object.kind == TurtleOperation::MeshFile &&
                     shows_pictures(user_meshes[object.mesh_file])) {
@@ -163,7 +209,7 @@ void append_objects(const Skeleton& skeleton,
                 material.palette = colour;
             }
             MeshBlock block;
-            if (!builder.reserve(builder.part(material), items.size() * part.positions.size(),
+            if (!builder.reserve(builder.part(material, word), items.size() * part.positions.size(),
                                  items.size() * part.indices.size(), block)) {
                 return;
             }

@@ -4,9 +4,15 @@
 #include "runtime/meshing/impl/mesh_builder.h"
 #include "runtime/meshing/mesh.h"
 
+#include <string>
 #include <vector>
 
 namespace lsys {
+
+/// Names of materials for the meshes and pictures of Skeleton::mesh_files: "maple" for
+/// "leaves/maple.obj". Each is there once, whatever the case of its letters, and differs from those
+/// of the library: "leaf file" for "leaf.png", "maple file" for the second maple.
+[[nodiscard]] std::vector<std::string> object_file_names(const std::vector<std::string>& files);
 
 /// Appends every object at its place, turned by its frame and multiplied by its size; those of size
 /// 0 are left out. A palette index other than 0 replaces the colour of the shape, or of the petals

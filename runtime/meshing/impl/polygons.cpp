@@ -239,7 +239,7 @@ void append_polygons(const Skeleton& skeleton,
                                    .textured = picture != 0,
                                    .picture = picture};
         MeshBlock block;
-        if (!builder.reserve(builder.part(material), vertices, indices, block)) {
+        if (!builder.reserve(builder.part(material, "polygon"), vertices, indices, block)) {
             return;
         }
         workers.for_each(pieces.size(),

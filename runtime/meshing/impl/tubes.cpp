@@ -270,7 +270,7 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     std::vector<MeshBuilder::WholePart> parts;
     for (const std::uint16_t colour : axes.colours) {
         slots[colour] = static_cast<std::uint32_t>(parts.size());
-        parts.push_back({.material = wood_material(colour), .triangles = {}});
+        parts.push_back({.material = wood_material(colour), .triangles = {}, .word = "wood"});
     }
     std::vector<Piece> pieces = make_pieces(skeleton.segments.size(), parts.size());
     workers.for_each(pieces.size(), [&](std::uint64_t i) {

@@ -31,6 +31,7 @@ public:
             value ^= 1;
         }
     }
+    void rare_number(std::uint32_t& value) { number(value); }
     void real(float& value) {
         if (is_target()) {
             value += 1.0F;

@@ -47,8 +47,8 @@ struct Run {
 Run run(const std::vector<std::uint32_t>& code, std::size_t limit = 100) {
     Formulas domain;
     domain.instructions_left = limit;
-    std::vector<std::string> stack(kMaxStack);
-    const bool finished = interpret(code.data(), domain, stack.data());
+    std::vector<std::string> stack(kUsualStack);
+    const bool finished = interpret(code.data(), domain, stack.data(), nullptr);
     return {finished, domain.taken};
 }
 
@@ -105,17 +105,17 @@ TEST_CASE("a domain stops the walk before an instruction, at a range and at a ta
 TEST_CASE("code needs room for its leaves, and never for more than a verified stack") {
     CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // the end counts
     std::string sum = "x";
-    for (std::uint32_t i = 0; i < 2 * kMaxStack; ++i) {
+    for (std::uint32_t i = 0; i < 2 * kUsualStack; ++i) {
         sum += " + x";
     }
-    CHECK(stack_room(compiled({sum}), 0) == kMaxStack);
+    CHECK(stack_room(compiled({sum}), 0) == kUsualStack);
 }
 
 TEST_CASE("nothing is known of any value in the domain from which others derive") {
     struct Nothing {};
     UnknownDomain<Nothing> domain;
-    std::vector<Nothing> stack(kMaxStack);
-    CHECK(interpret(compiled({"{x, 2} * sin(c) - steps()"}).data(), domain, stack.data()));
+    std::vector<Nothing> stack(kUsualStack);
+    CHECK(interpret(compiled({"{x, 2} * sin(c) - steps()"}).data(), domain, stack.data(), nullptr));
 }
 
 TEST_CASE("a range lists instructions with their operands and literals, the end included") {

@@ -114,8 +114,8 @@ TEST_CASE("code is checked") {
           "a successor stores 1 parameters, not 2");
 }
 
-TEST_CASE("an expression that needs too deep a stack does not verify") {
-    const auto deep = [](std::uint32_t pushes) {
+TEST_CASE("the depth of the stack is that of the deepest expression") {
+    const auto deep = [](std::uint32_t pushes, std::uint32_t depth) {
         return said_of([&](Bytecode& b) {
             std::vector<std::uint32_t> words;
             for (std::uint32_t i = 0; i < pushes; ++i) {
@@ -128,10 +128,12 @@ TEST_CASE("an expression that needs too deep a stack does not verify") {
             b.instructions.insert(b.instructions.begin() + 10, words.begin(), words.end());
             b.productions[0].successor.arguments =
                 10 + static_cast<std::uint32_t>(words.size()) + 2;
+            b.stack_depth = depth;
         });
     };
-    CHECK(deep(kMaxStack).empty());
-    CHECK(deep(kMaxStack + 1) == "instruction 266 needs too deep a stack");
+    CHECK(deep(kUsualStack, kUsualStack).empty());
+    CHECK(deep(2 * kUsualStack, 2 * kUsualStack).empty());
+    CHECK(deep(8, 9) == "a stack of 8 values and 0 slots, not 9 and 0");
 }
 
 TEST_CASE("sites are checked") {

@@ -28,6 +28,14 @@ TEST_CASE("modules keep the blanks between them, and contexts get theirs") {
     CHECK(format_text("#define : A : * : { . F } ;") == "#define : A : * : { . F };\n");
 }
 
+TEST_CASE("local values stand between condition and successor") {
+    CHECK(format_text("#p:A(x):*:let l=x*2,m=-l :F(l)[A(m)] ;") ==
+          "#p : A(x) : * : let l = x*2, m = -l : F(l)[A(m)];\n");
+    CHECK(format_text("#p:A:*:let A let(2);") == "#p : A : * : let A let(2);\n");
+    CHECK(format_text("#p:A:*:let/**/l/**/=2:F(l);\n#q:B:*:F;") ==
+          "#p : A : * : let /**/ l /**/ = 2 : F(l);\n#q : B : * : F;\n");
+}
+
 TEST_CASE("a quotation mark may be a module") {
     CHECK(format_text("#object   \" LEAF ;\n#w:F;") == "#object \" LEAF;\n#w : F;\n");
     CHECK(format_text("#module \" ;#w:\"F\";") == "#module \";\n#w : \"F\";\n");

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -45,6 +47,13 @@ nlohmann::json document_of(const std::string& glb) {
     return nlohmann::json::parse(glb.substr(20, length));
 }
 
+/// A file with the grammar, which scenes need.
+std::string tree_file(const ScratchFolder& folder) {
+    const std::string path = folder / "tree.lsys";
+    std::ofstream(path) << kTree;
+    return path;
+}
+
 } // namespace
 
 TEST_CASE("each preset sets what its options set one by one") {
@@ -79,6 +88,8 @@ TEST_CASE("each preset sets what its options set one by one") {
                     CHECK(named.collision == spelt.collision);
                     CHECK(named.collision_names == spelt.collision_names);
                     CHECK(named.wind_data == spelt.wind_data);
+                    CHECK(named.lods == spelt.lods);
+                    CHECK(named.lod_files == spelt.lod_files);
                     CHECK(named.height == spelt.height);
                 } else {
                     const auto named = parsed<ForestCommand>(by_name);
@@ -86,6 +97,10 @@ TEST_CASE("each preset sets what its options set one by one") {
                     CHECK(named.instances == spelt.instances);
                     CHECK(named.compression == spelt.compression);
                     CHECK(named.expand == spelt.expand);
+                    CHECK(named.pivot == spelt.pivot);
+                    CHECK(named.collision == spelt.collision);
+                    CHECK(named.collision_names == spelt.collision_names);
+                    CHECK(named.unit == spelt.unit);
                 }
             }
         }
@@ -109,6 +124,34 @@ TEST_CASE("an option that is given wins over the preset") {
     CHECK(with({"--pivot", "centre"}).pivot == PlantPivot::Centre);
     CHECK_FALSE(with({"--wind-data=false"}).wind_data);
     CHECK_FALSE(with({"--frames", "9", "--wind", "8,0,0"}).wind_data);
+    CHECK(with({}).lods == 12);
+    CHECK(with({"--lods", "3"}).lod_files);
+    CHECK_FALSE(with({"--lod-files=false"}).lod_files);
+    for (const auto& no_levels :
+         std::vector<std::vector<std::string>>{{"--frames", "9", "--wind", "8,0,0"},
+                                               {"--level", "2"},
+                                               {"--method", "solid"},
+                                               {"--output=-", "--format", "glb"}}) {
+        CAPTURE(no_levels[0]);
+        std::vector<std::string> all{"export", "a.lsys", "--preset", "unreal"};
+        all.insert(all.end(), no_levels.begin(), no_levels.end());
+        if (no_levels[0] != "--output=-") {
+            all.insert(all.end(), {"-o", "a.glb"});
+        }
+        const auto command = parsed<ExportCommand>(all);
+        CHECK(command.lods == 0);
+        CHECK_FALSE(command.lod_files);
+        CHECK(command.pivot == PlantPivot::Base);
+    }
+    CHECK(with({"--method", "tubes"}).lods == 12);
+    const auto web = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"forest", "a.lsys", "-o", "a.glb", "--preset", "web"});
+        return parsed<ForestCommand>(more).instances;
+    };
+    CHECK(web({}) == ForestInstances::Lods);
+    CHECK(web({"--frames", "3"}) == ForestInstances::Trees);
+    CHECK(web({"--instances", "branches"}) == ForestInstances::Branches);
+    CHECK(web({"--rho", "0.5"}) == ForestInstances::Branches);
     const auto forest =
         parsed<ForestCommand>({"forest", "a.lsys", "--preset", "unreal", "--bake", "-o", "a.glb"});
     CHECK_FALSE(forest.expand);
@@ -147,9 +190,11 @@ TEST_CASE("docs/files.md has the table of presets") {
 
 TEST_CASE("names of a file's nodes come from its own name, and shapes of collision are children") {
     const ScratchFolder folder;
-    const std::string path = folder / "old oak.glb";
-    REQUIRE(run_lsc({"export", "-", "-o", path, "--preset", "unreal"}, kTree).status == 0);
-    const nlohmann::json document = document_of(read_text(path));
+    REQUIRE(run_lsc({"export", "-", "-o", folder / "old oak.glb", "--preset", "unreal"}, kTree)
+                .status == 0);
+    const nlohmann::json document = document_of(read_text(folder / "old oak.LOD0.glb"));
+    CHECK(document_of(read_text(folder / "old oak.LOD1.glb"))["nodes"].size() == 1);
+    CHECK(nlohmann::json::parse(read_text(folder / "old oak.lods.json"))["levels"].size() >= 3);
     const nlohmann::json& plant = document["nodes"][0];
     CHECK(plant["name"] == "old oak");
     CHECK(document["meshes"][0]["name"] == "old oak");
@@ -233,4 +278,148 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     // Round ends of branches of 1 mm stand out by half of it.
     CHECK(tallest >= 149.9F);
     CHECK(tallest <= 151.5F);
+}
+
+TEST_CASE("a forest has its pivot and unit in every form") {
+    const ScratchFolder folder;
+    const auto written = [&folder](const std::string& name, std::vector<std::string> options) {
+        const std::string path = folder / name;
+        options.insert(options.begin(),
+                       {"forest", tree_file(folder), "--count", "3", "--size", "40", "-o", path});
+        const LscRun run = run_lsc(options, "");
+        CAPTURE(run.err);
+        REQUIRE(run.status == 0);
+        return read_text(path);
+    };
+    CHECK_FALSE(document_of(written("a.glb", {}))["nodes"][0].contains("translation"));
+    const nlohmann::json root = document_of(written("a.glb", {"--pivot", "base"}))["nodes"][0];
+    CHECK(root["translation"] == nlohmann::json::array({-20, 0, -20}));
+    const std::string usda = written("a.usda", {"--pivot", "base", "--unit", "cm", "--up", "z"});
+    CHECK(usda.find("metersPerUnit = 0.01\n") != std::string::npos);
+    CHECK(usda.find("double3 xformOp:translate = (-20, 0, -20)") != std::string::npos);
+    CHECK(usda.find("xformOpOrder = [\"xformOp:rotateX\", \"xformOp:scale\", "
+                    "\"xformOp:translate\"]") != std::string::npos);
+    // The same triangles, in other places.
+    const auto first_vertex = [](const std::string& obj) {
+        glm::dvec3 v{};
+        REQUIRE(std::sscanf(obj.c_str() + obj.find("\nv "), "\nv %lf %lf %lf", &v.x, &v.y, &v.z) ==
+                3);
+        return v;
+    };
+    const glm::dvec3 plain = first_vertex(written("a.obj", {"--bake"}));
+    const glm::dvec3 placed =
+        first_vertex(written("a.obj", {"--bake", "--pivot", "base", "--unit", "mm"}));
+    CHECK(placed.x == Approx(1000.0 * (plain.x - 20.0)).margin(0.01));
+    CHECK(placed.y == Approx(1000.0 * plain.y).margin(0.01));
+    CHECK(placed.z == Approx(1000.0 * (plain.z - 20.0)).margin(0.01));
+    const auto refusal = [&folder](std::vector<std::string> options, const std::string& name) {
+        options.insert(options.begin(), {"forest", tree_file(folder), "-o", folder / name});
+        const LscRun run = run_lsc(options, "");
+        CHECK(run.status == 2);
+        return run.err;
+    };
+    CHECK(refusal({"--unit", "cm"}, "a.glb").find("glTF is in metres by definition") !=
+          std::string::npos);
+    CHECK(refusal({"--pivot", "base"}, "a.json").find("are for files of trees") !=
+          std::string::npos);
+}
+
+TEST_CASE("whole trees of a forest have shapes of collision") {
+    const ScratchFolder folder;
+    const auto written = [&folder](std::vector<std::string> options) {
+        const std::string path = folder / "a.glb";
+        options.insert(options.begin(),
+                       {"forest", tree_file(folder), "--count", "7", "--heroes", "2", "-o", path,
+                        "--instances", "trees", "--collision", "capsules"});
+        const LscRun run = run_lsc(options, "");
+        CAPTURE(run.err);
+        REQUIRE(run.status == 0);
+        return document_of(read_text(path));
+    };
+    // The box of a node's mesh in its own coordinates.
+    const auto top_of = [](const nlohmann::json& document, const nlohmann::json& node) {
+        const auto& mesh = document["meshes"][node["mesh"].get<std::size_t>()];
+        const std::size_t at = mesh["primitives"][0]["attributes"]["POSITION"];
+        return document["accessors"][at]["max"][1].get<double>();
+    };
+    for (const std::string compression : {"none", "quantize"}) {
+        const nlohmann::json godot =
+            written({"--expand", "--collision-names", "godot", "--compress", compression});
+        std::size_t trees = 0;
+        for (const nlohmann::json& node : godot["nodes"]) {
+            if (!node.contains("scale")) {
+                continue;
+            }
+            ++trees;
+            REQUIRE(node["children"].size() > 3);
+            const nlohmann::json& shape = godot["nodes"][node["children"][0].get<std::size_t>()];
+            CHECK(shape["name"].get<std::string>().ends_with("_00-convcolonly"));
+            CHECK(shape["name"] == godot["meshes"][shape["mesh"].get<std::size_t>()]["name"]);
+            // The trunk, up to 3 m of the 5 m of the tree.
+            CHECK(top_of(godot, shape) < top_of(godot, node));
+            CHECK(top_of(godot, shape) > 0.4 * top_of(godot, node));
+        }
+        CHECK(trees == 7);
+    }
+    const nlohmann::json unreal = written({"--expand"});
+    std::set<std::string> names;
+    for (const nlohmann::json& node : unreal["nodes"]) {
+        const std::string name = node.value("name", "");
+        if (name.starts_with("UCP_")) {
+            CHECK(names.insert(name).second); // once a hero
+        }
+    }
+    CHECK(names.size() > 3);
+    const nlohmann::json unity = written({"--collision-names", "unity"});
+    std::size_t shapes = 0;
+    for (const nlohmann::json& node : unity["nodes"]) {
+        const std::string name = node.value("name", "");
+        if (name.find("_collider_") != std::string::npos) {
+            ++shapes;
+            CHECK(node["extensions"].contains("EXT_mesh_gpu_instancing"));
+        }
+    }
+    CHECK(shapes > 3);
+    const LscRun refused = run_lsc(
+        {"forest", tree_file(folder), "-o", folder / "b.glb", "--collision", "hulls"}, kTree);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find("--instances trees") != std::string::npos);
+}
+
+TEST_CASE("a growing plant has the pivot of the last plant in all frames") {
+    const ScratchFolder folder;
+    // Grows upwards from 2 m above the start of the turtle.
+    const char* const growing = "#n = 3; #w : f(2) A; #p : A : * : F(1) A;";
+    const std::string film = folder / "a.glb";
+    const auto lowest = [&](const std::string& glb) {
+        const nlohmann::json document = document_of(glb);
+        double low = 1e9;
+        for (const nlohmann::json& mesh : document["meshes"]) {
+            const nlohmann::json& primitive = mesh["primitives"][0];
+            const std::size_t positions = primitive["attributes"]["POSITION"];
+            const double rest = document["accessors"][positions]["min"][1];
+            low = std::min(low, rest);
+            for (const nlohmann::json& target :
+                 primitive.value("targets", nlohmann::json::array())) {
+                const std::size_t change = target["POSITION"];
+                CHECK(std::abs(document["accessors"][change]["max"][1].get<double>()) < 10.0);
+            }
+        }
+        return low;
+    };
+    const std::vector<std::string> grow{"export", "-", "--grow", "--frames", "7", "-o", film};
+    REQUIRE(run_lsc(grow, growing).status == 0);
+    CHECK(lowest(read_text(film)) == Approx(2.0));
+    std::vector<std::string> based = grow;
+    based.insert(based.end(), {"--pivot", "base"});
+    REQUIRE(run_lsc(based, growing).status == 0);
+    CHECK(lowest(read_text(film)) == Approx(0.0).margin(1e-6));
+    // The middle of the last plant, 3 m high, in a series too.
+    based = {"export", "-", "--grow", "--frames", "4", "--pivot", "centre", "-o", folder / "b.obj"};
+    REQUIRE(run_lsc(based, growing).status == 0);
+    for (const char* frame : {"1", "2", "3"}) {
+        const std::string text = read_text(folder / fmt::format("b.000{}.obj", frame));
+        CAPTURE(frame);
+        CHECK(text.find(" -1.5 ") != std::string::npos);
+    }
 }

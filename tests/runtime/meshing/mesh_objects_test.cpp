@@ -107,7 +107,7 @@ TEST_CASE("objects have a part for each material and colour") {
     }
     // Leaves of colour 0 and 1 are one part; the centre and the calyx of flowers keep their colour.
     CHECK(names == std::vector<std::string>{"leaf", "leaf 7", "flower 1", "flower 7", "flower 18",
-                                            "flower 20", "colour 14, two-sided"});
+                                            "flower 20", "flower 14"});
     // Yellow in pink.
     CHECK(palette_colour(18).g > palette_colour(20).g);
     CHECK(palette_colour(18).b < palette_colour(20).b);
@@ -237,4 +237,36 @@ TEST_CASE("objects over the limit leave the mesh empty") {
     const Meshed result = try_meshed(random_objects(4, 100), {}, options);
     CHECK(result.stop == Stop::Limit);
     CHECK(result.mesh.positions.empty());
+}
+
+TEST_CASE("materials of files are called by the file, once each and not as those of the library",
+          "[objects]") {
+    CHECK(object_file_names({"leaves/maple.obj", "leaf.png", "old/Maple.png", "two words.obj",
+                             "a\nb.obj", ".png", "other\\leaf.png"}) ==
+          std::vector<std::string>{"maple", "leaf file", "Maple file", "two words", "a_b", "file",
+                                   "leaf file 2"});
+}
+
+TEST_CASE("a plain material is called by all that it is on", "[objects]") {
+    Skeleton skeleton;
+    Segment segment;
+    segment.length = 1.0F;
+    segment.base_radius = 0.1F;
+    segment.tip_radius = 0.1F;
+    segment.colour = 3;
+    skeleton.segments.push_back(segment);
+    PlacedObject sphere;
+    sphere.kind = TurtleOperation::Sphere;
+    sphere.colour = 3;
+    skeleton.objects.push_back(sphere);
+    sphere.kind = TurtleOperation::Cube;
+    sphere.colour = 0;
+    skeleton.objects.push_back(sphere);
+    Mesh mesh;
+    REQUIRE_FALSE(make_mesh(skeleton, {}, MeshOptions{}, mesh));
+    std::vector<std::string> names;
+    for (const Material& material : mesh.materials) {
+        names.push_back(material.name);
+    }
+    CHECK(names == std::vector<std::string>{"wood and sphere 3", "cube"});
 }

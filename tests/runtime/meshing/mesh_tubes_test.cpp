@@ -209,8 +209,8 @@ TEST_CASE("each colour is a part with rings of its own", "[mesh][tubes]") {
     REQUIRE(mesh.parts.size() == 3);
     CHECK(mesh.materials[0].name == "bark");
     CHECK(mesh.materials[0].kind == MaterialKind::Bark);
-    CHECK(mesh.materials[1].name == "colour 3");
-    CHECK(mesh.materials[2].name == "colour 500");
+    CHECK(mesh.materials[1].name == "wood 3");
+    CHECK(mesh.materials[2].name == "wood 500");
     CHECK(glm::vec3(mesh.materials[1].colour) == palette_colour(3));
     const std::array<std::uint16_t, 3> colours{0, 3, 500};
     for (std::size_t i = 0; i < 3; ++i) {

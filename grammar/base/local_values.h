@@ -1,0 +1,13 @@
+// Where local values stand in a production (docs/language.md section 4.5).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace lsys {
+
+/// Whether the part of a production at `at`, behind its third `:`, begins with local values: `let`,
+/// an identifier and a single `=`, with blanks and comments between them.
+[[nodiscard]] bool begins_local_values(std::string_view text, std::size_t at);
+
+} // namespace lsys

@@ -1,0 +1,29 @@
+// Meshes of which a layer of USD shows one (OpenUSD, "VariantSet"): levels of detail, or plants.
+#pragma once
+
+#include "runtime/export/export.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+struct UsdaVariants {
+    std::string set;                 // name of the variant set
+    std::vector<std::string> names;  // of the variants; the first is the selected one
+    std::vector<const Mesh*> meshes; // of each variant
+    std::vector<double> coverages;   // of levels of detail: the least part of the screen each
+    Mesh samples;                    // their distinct materials in use (material_samples.h)
+    std::vector<std::vector<std::uint32_t>> materials; // of the parts of each mesh, in `samples`
+};
+
+/// The variants of a file; none where there is no choice. They refer to `mesh` and `info`.
+[[nodiscard]] std::optional<UsdaVariants> find_usda_variants(const Mesh& mesh,
+                                                             const ExportInfo& info);
+
+/// A name that USD takes for a variant: `0_25` for `0.25`.
+[[nodiscard]] std::string usda_variant_name(const std::string& text);
+
+} // namespace lsys

@@ -1,0 +1,91 @@
+// Local values and choices, derived in every way.
+#include "tests/compiler/compile_text.h"
+#include "tests/support/derived.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+namespace lsys {
+
+namespace {
+
+Bytecode compiled(const std::string& text) {
+    test::Compiled c = test::compile_text(text);
+    CAPTURE(text, c.said());
+    REQUIRE(c.outcome.bytecode);
+    return std::move(*c.outcome.bytecode);
+}
+
+std::string word_of(const std::string& text, std::uint32_t generations) {
+    return test::derived_every_way(compiled(text), generations, 7);
+}
+
+} // namespace
+
+TEST_CASE("one draw of a local value serves twice") {
+    const std::string once = word_of("#w : A A;\n#p : A : * : let r = {1, 2} : F(r) G(r);\n", 1);
+    // The same draws as those of one range a module.
+    const std::string apart = word_of("#w : A A;\n#p : A : * : F({1, 2});\n", 1);
+    const std::size_t middle = apart.find(")F(") + 1;
+    const std::string first = apart.substr(1, middle - 1);
+    const std::string second = apart.substr(middle + 1);
+    CHECK(once == "F" + first + "G" + first + "F" + second + "G" + second);
+}
+
+TEST_CASE("draws of local values come before those of the successor") {
+    const std::string local =
+        word_of("#w : A;\n#p : A : * : let r = {1, 2} : F({3, 4}) G(r);\n", 1);
+    const std::string plain = word_of("#w : A;\n#p : A : * : G({1, 2}) F({3, 4});\n", 1);
+    const std::size_t f = plain.find('F');
+    CHECK(local == plain.substr(f) + plain.substr(0, f));
+}
+
+TEST_CASE("local values that are affine, computed, unused or many give the word as written") {
+    CHECK(word_of("#w : A(8);\n#p : A(x) : x > 1 : let l = x*0.5 : F(l) [A(l)] A(l);\n", 2) ==
+          "F(4)[F(2)[A(2)]A(2)]F(2)[A(2)]A(2)");
+    CHECK(word_of("#w : A(9);\n#p : A(x) : * : let s = sqrt(x), t = s*s - x : F(s) F(t);\n", 1) ==
+          "F(3)F(0)");
+    CHECK(word_of("#w : A(9);\n#p : A(x) : * : let s = sqrt(x) : F B;\n", 1) == "F B");
+    std::string many = "#w : A(1);\n#p : A(x) : * : let v0 = x + 1";
+    for (int i = 1; i < 300; ++i) {
+        many += ", v" + std::to_string(i) + " = v" + std::to_string(i - 1) + " + 1";
+    }
+    CHECK(word_of(many + " : F(v299) F(v0);\n", 1) == "F(301)F(2)");
+}
+
+TEST_CASE("a choice evaluates the chosen side only") {
+    const std::string choice = "#w : A(0) A(4);\n"
+                               "#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3)) "
+                               "G(if(x, if(x > 3, 1, 2), {2, x}*0 + 5));\n";
+    // The range {2, x} is at fault for x = 0 alone, where it is chosen.
+    CHECK(test::error_every_way(compiled(choice), 1, 7).position == 0);
+    CHECK(word_of("#w : A(0) A(4);\n#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3));\n", 1) ==
+          "F(3)F(2)");
+    CHECK(word_of("#w : A(4);\n#p : A(x) : * : F(if(x, 1, {2, -x}));\n", 1) == "F(1)");
+    CHECK(word_of("#w : A(4);\n#p : A(x) : if(x > 2, 1, 0) : B;\n", 1) == "B");
+}
+
+TEST_CASE("choices within choices need no limit") {
+    std::string expression = "0";
+    for (int i = 1; i <= 2000; ++i) {
+        expression =
+            "if(x == " + std::to_string(i) + ", " + std::to_string(3 * i) + ", " + expression + ")";
+    }
+    CHECK(word_of("#w : A(1) A(700) A(2000) A(5);\n#p : A(x) : * : F(" + expression + ");\n", 1) ==
+          "F(3)F(2100)F(6000)F(15)");
+}
+
+TEST_CASE("a range of a local value that nothing uses is at fault all the same") {
+    const RuntimeError error = test::error_every_way(
+        compiled("#w : A(3) A(1);\n#p : A(x) : * : let r = {2, x} : B;\n"), 1, 7);
+    CHECK(error.position == 1);
+}
+
+TEST_CASE("clamp and mix") {
+    CHECK(word_of("#w : A(5) A(-5) A(0.5);\n"
+                  "#p : A(x) : * : F(clamp(x, -1, 1)) G(mix(10, 20, x));\n",
+                  1) == "F(1)G(60)F(-1)G(-40)F(0.5)G(15)");
+}
+
+} // namespace lsys
