@@ -3,9 +3,9 @@
 //   MODULES: node_modules of package.json beside this file; LSC: the program
 //   FOREST...: a scene or grammars with options of `lsc forest`, without -o
 // LSC writes the forest with `--preset web`, with `--expand --instances trees` and as USDA, with --levels also as USDA
-// of levels of detail, and each reader reads the file that suits it, each time in a process of its own. A table has the medians:
-// seconds that pass, seconds of processor, and the most memory of the process. The box of the trees, by the
-// reader's own positions and matrices, is compared with that of the file without compression; the table has the
+// of levels of detail, and each reader reads the file that suits it, each time in a process of its own. A table has
+// the medians: seconds that pass, seconds of processor, and the most memory of the process. The box of the trees, by
+// the reader's own positions and matrices, is compared with that of the file without compression; the table has the
 // greatest difference as a part of the shortest side. Fails where it is more than 0.1 %, or a tree is missing.
 //
 // As its own helper: node read_forest.mjs MODULES --reader NAME FILE prints what one reader finds as JSON.
