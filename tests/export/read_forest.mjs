@@ -55,7 +55,8 @@ process.on('exit', () => rmSync(folder, { recursive: true }));
 const forms = {
     plain: { file: 'plain.glb', options: ['--instances', 'trees'] },
     branches: { file: 'branches.glb', options: [] },
-    web: { file: 'web.glb', options: ['--preset', 'web'], like: 'plain', what: 'GLB, `--preset web`' },
+    webPlain: { file: 'web-plain.glb', options: ['--preset', 'web', '--compress', 'none'] },
+    web: { file: 'web.glb', options: ['--preset', 'web'], like: 'webPlain', what: 'GLB, `--preset web`' },
     expanded: { file: 'expanded.glb', options: ['--expand', '--instances', 'trees'], like: 'plain',
                 what: 'GLB, `--expand --instances trees`' },
     usda: { file: 'forest.usda', options: [], like: 'branches', what: 'USDA' },
@@ -71,7 +72,7 @@ for (const form of Object.values(forms)) {
     form.path = join(folder, form.file);
     execFileSync(lsc, ['forest', ...rest, ...form.options, '-o', form.path], { stdio: 'pipe' });
 }
-for (const name of ['plain', 'branches', 'levels'].filter(key => key in forms)) {
+for (const name of ['plain', 'branches', 'webPlain', 'levels'].filter(key => key in forms)) {
     forms[name].truth = boxOfPlainGlb(forms[name].path);
 }
 const bytes = readFileSync(forms.plain.path);

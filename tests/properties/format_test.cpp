@@ -81,15 +81,9 @@ private:
     }
 
     void write(const std::vector<Lexeme>& statement, int repeats, std::string& out) {
-        std::size_t list = statement.size(); // the first token after the last of three colons
-        int colons = 0;
-        int depth = 0;
-        for (std::size_t i = 0; i < statement.size() && colons < 3; ++i) {
-            depth += statement[i].kind == LexemeKind::Left ? 1 : 0;
-            depth -= statement[i].kind == LexemeKind::Right ? 1 : 0;
-            if (statement[i].kind == LexemeKind::Colon && depth == 0 && ++colons == 3) {
-                list = i + 1;
-            }
+        std::size_t list = statement.size(); // the first token of the successor
+        for (std::size_t i = 0; i < statement.size(); ++i) {
+            list = statement[i].ends_head ? i + 1 : list;
         }
         for (std::size_t i = 0; i < list; ++i) {
             put(statement[i], out);

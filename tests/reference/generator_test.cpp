@@ -11,7 +11,7 @@
 namespace lsys::reference {
 
 TEST_CASE("random grammars exercise every feature") {
-    constexpr std::uint64_t kSeeds = 200;
+    constexpr std::uint64_t kSeeds = 400;
     std::map<std::string, int> counts;
     std::size_t stopped = 0;
     std::size_t applied = 0;

@@ -95,8 +95,8 @@ TEST_CASE("files with pictures have that of a mesh") {
         run_lsc({"export", card.folder / "plant.lsys", "-o", card.folder / "out.obj"}, "");
     CAPTURE(run.err);
     REQUIRE(run.status == 0);
-    CHECK(read_text(card.folder / "out.mtl").find("map_Kd out.picture_1.png") != std::string::npos);
-    CHECK(lsys::tests::read_picture(card.folder / "out.picture_1.png").texels == half_red().texels);
+    CHECK(read_text(card.folder / "out.mtl").find("map_Kd out.card.png") != std::string::npos);
+    CHECK(lsys::tests::read_picture(card.folder / "out.card.png").texels == half_red().texels);
 }
 
 TEST_CASE("files that a mesh asks for are recorded, so that they can be watched") {
