@@ -1,6 +1,7 @@
 #include "compiler/bytecode/verify.h"
 
 #include "compiler/bytecode/impl/bytecode_contents.h"
+#include "compiler/bytecode/instructions.h"
 
 #include <fmt/format.h>
 
@@ -217,7 +218,7 @@ private:
                 global.minimum > global.maximum) {
                 return fail("global {} has bounds that hold nothing", i);
             }
-            end_slots(0);
+            begin_piece();
             if (!code(CodePlace::Global, global.instruction,
                       {.globals = static_cast<std::uint32_t>(i), .draws = global.draw_count})) {
                 return false;
@@ -267,7 +268,7 @@ private:
                 !class_of(i, p.group, group_example, true)) {
                 return false;
             }
-            end_slots(0);
+            begin_piece();
             if (p.condition != kNone &&
                 !code(CodePlace::Condition, p.condition, {.formals = p.formal_count})) {
                 return false;
@@ -402,7 +403,7 @@ private:
         if (stored != word.parameter_count || (stored == 0) != (word.arguments == kNone)) {
             return fail("a successor stores {} parameters, not {}", stored, word.parameter_count);
         }
-        end_slots(0);
+        begin_piece();
         if (word.locals != kNone &&
             (place != CodePlace::Successor ||
              !code(CodePlace::Locals, word.locals,
@@ -463,7 +464,7 @@ private:
                 fits = operand < bytecode_.globals.size() && operand < bounds.globals;
                 break;
             case OperandKind::Draw:
-                fits = operand < bounds.draws;
+                fits = operand < bounds.draws && is_first_draw(operand);
                 break;
             case OperandKind::Branch:
                 fits = true;
@@ -482,7 +483,6 @@ private:
                 return fail("instruction {} ({}) lacks values", at, row.mnemonic);
             }
             depth = depth - row.pops + row.pushes;
-            deepest_ = std::max(deepest_, depth);
             if (!choice(opcode, at, operand, depth)) {
                 return fail("instruction {} ({}) does not fit its choice", at, row.mnemonic);
             }
@@ -497,10 +497,24 @@ private:
         return fail("the code at {} has no end", first);
     }
 
+    /// Whether nothing of this word or constant has drawn the number before. One that was folded
+    /// away stays unused.
+    bool is_first_draw(std::uint32_t number) {
+        drawn_.resize(std::max<std::size_t>(drawn_.size(), std::size_t{number} + 1));
+        const bool is_first = !drawn_[number];
+        drawn_[number] = true;
+        return is_first;
+    }
+
+    /// Begins a word, constant or condition, which shares neither slots nor draws with others.
+    void begin_piece() {
+        end_slots(0);
+        drawn_.clear();
+    }
+
     /// Whether a slot has a value where it is read. Values of one side of a choice end with it.
     bool slot(Opcode opcode, std::uint32_t index) {
-        last_slot_ = std::max(last_slot_, index + 1);
-        is_set_.resize(std::max<std::size_t>(is_set_.size(), last_slot_));
+        is_set_.resize(std::max<std::size_t>(is_set_.size(), std::size_t{index} + 1));
         if (opcode == Opcode::SetLocal && !is_set_[index]) {
             is_set_[index] = true;
             set_slots_.push_back(index);
@@ -561,14 +575,16 @@ private:
     }
 
     bool ends() {
-        if (deepest_ != bytecode_.stack_depth || last_slot_ != bytecode_.local_count) {
-            return fail("a stack of {} values and {} slots, not {} and {}", deepest_, last_slot_,
-                        bytecode_.stack_depth, bytecode_.local_count);
+        if (next_pattern_ != bytecode_.patterns.size() ||
+            next_code_ != bytecode_.template_codes.size() ||
+            next_instruction_ != bytecode_.instructions.size()) {
+            return fail("a table holds more than the productions use");
         }
-        return (next_pattern_ == bytecode_.patterns.size() &&
-                next_code_ == bytecode_.template_codes.size() &&
-                next_instruction_ == bytecode_.instructions.size()) ||
-               fail("a table holds more than the productions use");
+        const CodeRoom room = room_of(bytecode_.instructions);
+        return (room.stack_depth == bytecode_.stack_depth &&
+                room.local_count == bytecode_.local_count) ||
+               fail("a stack of {} values and {} slots, not {} and {}", room.stack_depth,
+                    room.local_count, bytecode_.stack_depth, bytecode_.local_count);
     }
 
     const Bytecode& bytecode_;
@@ -584,8 +600,7 @@ private:
     std::vector<Choice> choices_;
     std::vector<std::uint32_t> set_slots_; // with a value, in the order in which they get it
     std::vector<bool> is_set_;             // by slot
-    std::uint32_t last_slot_ = 0;          // one past the highest slot
-    std::uint32_t deepest_ = 0;            // stack
+    std::vector<bool> drawn_;              // numbers of the current word or constant
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

@@ -37,6 +37,9 @@ struct Node {
     std::uint32_t parameter = 0;     // Chain
     std::vector<MonotoneStep> steps; // Chain: from the parameter to the value
 
+    [[nodiscard]] bool is_cell_constant() const {
+        return kind == Kind::Constant || kind == Kind::CellConstant;
+    }
     [[nodiscard]] bool is_parameter() const { return kind == Kind::Chain && steps.empty(); }
 };
 
@@ -223,10 +226,7 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
         Node right = y;
         return as_truth(left) && as_truth(right) ? cell_constant() : Node{};
     }
-    const auto is_cell_constant = [](const Node& node) {
-        return node.kind == Kind::Constant || node.kind == Kind::CellConstant;
-    };
-    if (is_cell_constant(x) && is_cell_constant(y)) {
+    if (x.is_cell_constant() && y.is_cell_constant()) {
         return cell_constant();
     }
     if (is_comparison(opcode)) {
@@ -255,12 +255,9 @@ Node GridBuilder::choice(const Node& x, const Node& y, const Node& z) {
     if (x.kind == Node::Kind::Constant) {
         return x.value != 0.0F ? y : z;
     }
-    const auto is_cell_constant = [](const Node& node) {
-        return node.kind == Node::Kind::Constant || node.kind == Node::Kind::CellConstant;
-    };
     Node condition = x;
-    return as_truth(condition) && is_cell_constant(y) && is_cell_constant(z) ? cell_constant()
-                                                                             : Node{};
+    return as_truth(condition) && y.is_cell_constant() && z.is_cell_constant() ? cell_constant()
+                                                                               : Node{};
 }
 
 bool GridBuilder::add(const ConditionView& condition) {

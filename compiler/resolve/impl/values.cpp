@@ -10,6 +10,19 @@
 
 namespace lsys {
 
+namespace {
+
+Value node_of(Opcode opcode, SourceSpan span, ValueId left, ValueId right) {
+    Value node;
+    node.opcode = opcode;
+    node.span = span;
+    node.left = left;
+    node.right = right;
+    return node;
+}
+
+} // namespace
+
 ValueBuilder::ValueBuilder(ChunkedVector<Value>& values)
     : values_(values), literals_(1024, kNoValue) {
     LSYS_CHECK(values.empty(), values.size());
@@ -74,12 +87,8 @@ ValueId ValueBuilder::range(ValueId minimum, ValueId maximum, std::uint32_t draw
     if (minimum == kPoison || maximum == kPoison) {
         return kPoison;
     }
-    Value node;
-    node.opcode = Opcode::Range;
-    node.span = span;
+    Value node = node_of(Opcode::Range, span, minimum, maximum);
     node.index = draw;
-    node.left = minimum;
-    node.right = maximum;
     return add(node);
 }
 
@@ -92,12 +101,7 @@ ValueId ValueBuilder::operation(Opcode opcode, ValueId left, ValueId right, Sour
         const float x = (*this)[left].literal;
         return literal(arithmetic::apply(opcode, x, binary ? (*this)[right].literal : 0.0F), span);
     }
-    Value node;
-    node.opcode = opcode;
-    node.span = span;
-    node.left = left;
-    node.right = binary ? right : kNoValue;
-    return add(node);
+    return add(node_of(opcode, span, left, binary ? right : kNoValue));
 }
 
 ValueId ValueBuilder::mix(ValueId from, ValueId to, ValueId part, SourceSpan span) {
@@ -109,11 +113,7 @@ ValueId ValueBuilder::mix(ValueId from, ValueId to, ValueId part, SourceSpan spa
             arithmetic::mix((*this)[from].literal, (*this)[to].literal, (*this)[part].literal),
             span);
     }
-    Value node;
-    node.opcode = Opcode::Mix;
-    node.span = span;
-    node.left = from;
-    node.right = to;
+    Value node = node_of(Opcode::Mix, span, from, to);
     node.third = part;
     return add(node);
 }
@@ -125,11 +125,7 @@ ValueId ValueBuilder::choice(ValueId condition, ValueId yes, ValueId no, SourceS
     if (is_literal(condition)) {
         return (*this)[condition].literal != 0.0F ? yes : no;
     }
-    Value node;
-    node.opcode = Opcode::If;
-    node.span = span;
-    node.left = yes;
-    node.right = no;
+    Value node = node_of(Opcode::If, span, yes, no);
     node.third = condition;
     return add(node);
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -134,6 +135,20 @@ TEST_CASE("the depth of the stack is that of the deepest expression") {
     CHECK(deep(kUsualStack, kUsualStack).empty());
     CHECK(deep(2 * kUsualStack, 2 * kUsualStack).empty());
     CHECK(deep(8, 9) == "a stack of 8 values and 0 slots, not 9 and 0");
+}
+
+TEST_CASE("a random number is drawn once") {
+    Bytecode bytecode = test::BytecodeBuilder()
+                            .declare("A(x)")
+                            .axiom("A({1, 2})")
+                            .production("p : A(x) : * : A({0, x} + {0, 1})")
+                            .build();
+    const auto second =
+        std::find(bytecode.instructions.begin(), bytecode.instructions.end(), op(Opcode::Range, 1));
+    REQUIRE(second != bytecode.instructions.end());
+    *second = op(Opcode::Range, 0);
+    REQUIRE(verify(bytecode));
+    CHECK(verify(bytecode)->ends_with("(range) may not stand there"));
 }
 
 TEST_CASE("sites are checked") {
