@@ -158,7 +158,7 @@ struct ExportInfo {
     /// Triangles of two-sided materials are written a second time, reversed, with normals of their
     /// own, for readers that draw front faces only; for FormatTraits::back_faces.
     bool both_sides = false;
-    /// Of the skeleton at rest, in glTF.
+    /// Shapes of collision of the plant at rest, in glTF files.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
     /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:

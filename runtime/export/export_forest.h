@@ -41,7 +41,7 @@ struct ForestExportInfo {
     std::uint32_t threads = 0;            // 0: as many as the machine has
     UpAxis up = UpAxis::Y;                // for FormatTraits::up_axes
     LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
-    /// Of each hero at rest, in glTF of whole trees; named after its mesh.
+    /// Shapes of collision of each hero at rest, in glTF of whole trees; named after its mesh.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
     glm::vec3 pivot{0.0F}; // m, the place of the scene that is the origin of the file

@@ -222,7 +222,7 @@ private:
         }
     }
 
-    /// Of the streams from `first` to `end`. Accessors have the numbers of their streams.
+    /// Writes the primitives of streams `first` to `end`. Accessors are numbered as streams are.
     void put_primitives(std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const GltfStream& stream = streams_.list[i];

@@ -18,7 +18,7 @@ struct GltfCollision {
     [[nodiscard]] std::size_t accessor_count() const { return 2 * shapes.size(); }
     [[nodiscard]] std::uint64_t position_bytes() const;
     [[nodiscard]] std::uint64_t index_bytes() const;
-    /// Of both views, a multiple of 4.
+    /// Bytes of positions and indices together, a multiple of 4.
     [[nodiscard]] std::uint64_t byte_count() const;
 };
 
