@@ -11,9 +11,8 @@ namespace lsys {
 namespace {
 
 constexpr double kRestAngle = 1e-6; // rad
-constexpr std::uint32_t kMaxRestRounds = 10'000;
-constexpr double kMismatch = 1e-3; // of the plant's size, at which the motion counts as periodic
-constexpr double kMaxRunIn = 30.0; // s
+constexpr double kMismatch = 1e-3;  // of the plant's size, at which the motion counts as periodic
+constexpr double kMaxRunIn = 30.0;  // s
 constexpr std::uint32_t kMinRunInLoops = 4;
 
 float usable_rate(float frames_per_second) {
@@ -173,7 +172,7 @@ PlantLoop record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_
         return loop;
     }
     const double size = std::max(size_of(plant), 1e-30);
-    physics.settle(kRestAngle, kMaxRestRounds);
+    physics.settle(kRestAngle, settle_rounds(plant.segments.size()));
     FrameSteps steps(physics, rate, period);
     const auto most_loops = std::max(
         kMinRunInLoops, static_cast<std::uint32_t>(kMaxRunIn / static_cast<double>(period)));

@@ -34,8 +34,16 @@
 // the end, steps use more of the true second derivative of the energy; the last ones are Newton's
 // method, which doubles the number of correct digits per round. On the ground it leaves friction
 // out, and stops where friction would hold the plant.
+//
+// A large plant that falls settles in stages (nested iteration; Trottenberg et al. 2001, section
+// 2.6): its main branches first, which bear their twigs as loads (impl/coarse.h), then more and
+// more of it, each from where the stage before lies. So the rounds that find where the branches go
+// cost little, and few are left for all bodies. The pose that the last stage begins with may have
+// more energy than the plant had, as its twigs have not moved yet; if so much is left when the
+// plant rests, it goes back and settles without stages. So the energy does not grow.
 #include "runtime/physics/physics.h"
 
+#include "runtime/physics/impl/coarse.h"
 #include "runtime/physics/impl/ground.h"
 #include "runtime/physics/impl/motion.h"
 #include "runtime/physics/impl/rotation.h"
@@ -45,6 +53,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace lsys {
 
@@ -61,6 +70,18 @@ constexpr double kRestStep = 1e6; // s, step of settle(), so long that inertia d
 // ice, would stop it. Compared are energy and friction of some ten rounds.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
+// The same for a stage of settle() with many bodies, whose main branches lie already: a fifth of
+// kFriction, and some three rounds.
+constexpr std::size_t kManyBodies = 10'000;
+constexpr double kStageFriction = 0.1;
+constexpr double kStageRememberedShare = 0.7;
+// A plant falls, so that stages pay, if a round of the first ones turns a body so far, or if it
+// does not rest after so many.
+constexpr double kFallingTurn = 0.3; // rad
+constexpr std::uint32_t kFallingRounds = 12;
+// Max rounds of a stage but the last: as many as move so many bodies, within limits.
+constexpr std::size_t kStageWork = 1'000'000;
+constexpr std::size_t kMaxStageRounds = 200;
 
 /// How little the rounds of settle() trust the true second derivatives: 1 - Forces::exactness. After
 /// steps that were taken whole it sinks. If that was too early it waits for more of them next time.
@@ -191,9 +212,9 @@ void lay_on_ground(const PlacedObject& rest, PlacedObject& object) {
         raised(body, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0)) * glm::dquat(object.frame)));
 }
 
-PlantBodies plant_of(const Skeleton& rest, double surface_mass) {
+PlantBodies plant_of(Bodies bodies) {
     PlantBodies plant;
-    plant.rest = make_bodies(rest, surface_mass);
+    plant.rest = std::move(bodies);
     const std::vector<std::uint32_t>& ends = plant.rest.level_ends;
     plant.schedule = Schedule(ends);
     std::uint32_t widest = 1; // bodies of two consecutive depths, at most
@@ -216,7 +237,7 @@ struct PlantPhysics::State {
     State(const Skeleton& skeleton, const PhysicsOptions& given)
         : rest(skeleton), options(usable(given)), forces(forces_of(options)),
           workers(given.threads),
-          plant(plant_of(skeleton, static_cast<double>(options.surface_mass))) {}
+          plant(plant_of(make_bodies(skeleton, static_cast<double>(options.surface_mass)))) {}
 
     Skeleton rest;
     PhysicsOptions options;
@@ -295,6 +316,99 @@ struct PlantPhysics::State {
         }
         return {};
     }
+
+    enum class End { Rest, Falling, OutOfRounds };
+    struct Rounds {
+        std::uint32_t most = 0;
+        bool in_stage = false;     // the first pose comes from another stage
+        bool stop_falling = false; // ends when the plant turns out to fall
+    };
+    /// Makes rounds of settle() and subtracts them from `rounds.most`.
+    End make_rounds(Forces now, double tolerance, Rounds& rounds) {
+        Doubt doubt;
+        now.exactness = 0.0;
+        const bool in_many = rounds.in_stage && plant.poses.size() >= kManyBodies;
+        const double remembered = in_many ? kStageRememberedShare : kRememberedShare;
+        const double friction = in_many ? kStageFriction : kRestFriction;
+        double fall = 0.0;  // J, energy of the last rounds, older ones weighing less
+        double slide = 0.0; // J, in the same way
+        for (std::uint32_t round = 0; rounds.most > 0; ++round) {
+            const Step made = advance(now, false);
+            --rounds.most;
+            // In the first round of a stage twigs fall that the stages before did not have.
+            if (!(rounds.in_stage && round == 0)) {
+                fall = remembered * fall + made.fall;
+                slide = remembered * slide + made.slide;
+            }
+            if (made.turn <= tolerance || (made.share == 1.0 && fall < friction * slide)) {
+                return End::Rest;
+            }
+            if (rounds.stop_falling && (made.turn > kFallingTurn || round >= kFallingRounds)) {
+                return End::Falling;
+            }
+            doubt.update(made.share == 1.0);
+            now.exactness = 1.0 - doubt.value();
+        }
+        return End::OutOfRounds;
+    }
+
+    /// Poses of all bodies when the plant has settled in stages; the state does not change.
+    [[nodiscard]] std::vector<BodyPose>
+    settled_in_stages(const std::vector<CoarsePlant>& stages, const Forces& now, double tolerance) {
+        PlantBodies whole;
+        std::swap(plant, whole);
+        const double energy_before = energy;
+        std::vector<BodyPose> poses = whole.poses;
+        std::vector<char> known(poses.size(), 0);
+        for (const CoarsePlant& stage : stages) {
+            complete_poses(whole.rest, known, whole.poses, forces.ground, poses);
+            plant = plant_of(stage.bodies);
+            for (std::size_t b = 0; b < stage.whole.size(); ++b) {
+                plant.poses[b] = poses[stage.whole[b]];
+            }
+            update_energy();
+            const std::size_t most = kStageWork / stage.whole.size();
+            Rounds rounds{.most = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
+                          .in_stage = &stage != &stages.front()};
+            make_rounds(now, tolerance, rounds);
+            for (std::size_t b = 0; b < stage.whole.size(); ++b) {
+                poses[stage.whole[b]] = plant.poses[b];
+                known[stage.whole[b]] = 1;
+            }
+        }
+        complete_poses(whole.rest, known, whole.poses, forces.ground, poses);
+        std::swap(plant, whole);
+        energy = energy_before;
+        return poses;
+    }
+
+    /// settle() with loads that are carried, from standstill.
+    bool come_to_rest(const Forces& now, double tolerance, std::uint32_t max_rounds) {
+        const bool may_fall = plant.poses.size() >= kMinCoarsened;
+        Rounds rounds{.most = max_rounds, .stop_falling = may_fall};
+        End end = make_rounds(now, tolerance, rounds);
+        rounds.stop_falling = false;
+        if (end != End::Falling) {
+            return end == End::Rest;
+        }
+        const std::vector<CoarsePlant> stages = coarse_plants(plant.rest);
+        if (!stages.empty()) {
+            const std::vector<BodyPose> before = plant.poses;
+            const double energy_before = energy;
+            plant.poses = settled_in_stages(stages, now, tolerance);
+            update_energy();
+            rounds.in_stage = true;
+            end = make_rounds(now, tolerance, rounds);
+            if (now.windy || energy <= energy_before) {
+                return end == End::Rest;
+            }
+            plant.poses = before;
+            update_energy();
+            energy = energy_before;
+            rounds.in_stage = false;
+        }
+        return make_rounds(now, tolerance, rounds) == End::Rest;
+    }
 };
 
 PlantPhysics::PlantPhysics(const Skeleton& rest, const PhysicsOptions& options)
@@ -340,20 +454,13 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
     long_step.friction = 0.0;
     scale_velocities(s.plant, 0.0, s.workers);
     s.update_energy();
-    Doubt doubt;
-    double fall = 0.0;  // J, energy of the last rounds, older ones weighing less
-    double slide = 0.0; // J, in the same way
-    for (std::uint32_t round = 0; round < max_rounds; ++round) {
-        const State::Step made = s.advance(long_step, false);
-        fall = kRememberedShare * fall + made.fall;
-        slide = kRememberedShare * slide + made.slide;
-        if (made.turn <= tolerance || (made.share == 1.0 && fall < kRestFriction * slide)) {
-            return true;
-        }
-        doubt.update(made.share == 1.0);
-        long_step.exactness = 1.0 - doubt.value();
-    }
-    return false;
+    return s.come_to_rest(long_step, tolerance, max_rounds);
+}
+
+std::uint32_t settle_rounds(std::size_t segments) {
+    constexpr std::size_t kWork = 3'000'000; // segments moved
+    const std::size_t rounds = kWork / std::max(segments, std::size_t{1});
+    return static_cast<std::uint32_t>(std::clamp(rounds, std::size_t{30}, std::size_t{10'000}));
 }
 
 void PlantPhysics::reset() {

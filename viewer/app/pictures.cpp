@@ -56,8 +56,8 @@ public:
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
         physics_ = std::make_unique<PlantPhysics>(document.plant.skeleton, forces);
         constexpr double kRadians = 1e-6;
-        constexpr std::uint32_t kRounds = 10'000;
-        static_cast<void>(physics_->settle(kRadians, kRounds));
+        static_cast<void>(
+            physics_->settle(kRadians, settle_rounds(document.plant.skeleton.segments.size())));
         go_to(static_cast<double>(options.time));
     }
 

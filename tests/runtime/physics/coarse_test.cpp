@@ -1,0 +1,154 @@
+// Plants that fall settle in stages: coarse plants, and the plant from where they lie.
+#include "runtime/physics/impl/coarse.h"
+#include "runtime/physics/physics.h"
+#include "tests/runtime/plants.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace lsys;
+using namespace lsys::test;
+
+namespace {
+
+/// A limp stalk of five segments with five such stalks at their tips, and so on: 3905 segments.
+Skeleton limp_plant() {
+    Skeleton plant;
+    std::vector<std::uint32_t> tips = {kNoSegment};
+    float scale = 1.0F;
+    for (int order = 0; order < 5; ++order) {
+        std::vector<std::uint32_t> next;
+        for (const std::uint32_t tip : tips) {
+            std::uint32_t last = tip;
+            for (int i = 0; i < 5; ++i) {
+                const auto turn = static_cast<float>(order + i) * 1.3F;
+                const glm::quat frame =
+                    glm::angleAxis(turn, glm::vec3(0.0F, 1.0F, 0.0F)) * leaning(0.25F);
+                last = add_segment(plant, last, frame,
+                                   rod(0.3F * scale, 0.005F, 2e-3F * scale, 0.05F * scale));
+                next.push_back(last);
+            }
+        }
+        tips = next;
+        scale *= 0.6F;
+    }
+    return plant;
+}
+
+/// Sum of mass times height of the centres of mass of segments: kg m.
+double lifted_mass(const Skeleton& plant) {
+    double sum = 0.0;
+    for (const Segment& segment : plant.segments) {
+        sum += static_cast<double>(segment.mass) *
+               static_cast<double>(0.5F * (segment.base.y + tip(segment).y));
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("a coarse plant bears the loads of the whole one") {
+    const Bodies whole = make_bodies(limp_plant(), 0.2);
+    const std::vector<CoarsePlant> stages = coarse_plants(whole);
+    REQUIRE(stages.size() == 1);
+    double mass = 0.0;
+    for (const Body& body : whole.bodies) {
+        mass += body.mass;
+    }
+    for (const CoarsePlant& stage : stages) {
+        const std::vector<Body>& bodies = stage.bodies.bodies;
+        REQUIRE(bodies.size() == stage.whole.size());
+        REQUIRE(bodies.size() >= 100);
+        CHECK(bodies.size() * 3 <= whole.bodies.size());
+        CHECK(stage.bodies.level_ends.back() == bodies.size());
+        // Body::moment, from the bodies of the stage alone.
+        std::vector<double> carried(bodies.size(), 0.0);
+        double stage_mass = 0.0;
+        for (std::size_t b = bodies.size(); b-- > 0;) {
+            const Body& body = bodies[b];
+            stage_mass += body.mass;
+            carried[b] += body.mass;
+            glm::dvec3 moment = body.mass * body.centre;
+            for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
+                REQUIRE(bodies[c].parent == b);
+                carried[b] += carried[c];
+                moment += carried[c] * bodies[c].offset;
+            }
+            const Body& original = whole.bodies[stage.whole[b]];
+            CHECK(glm::length(moment - original.moment) <= 1e-12 * mass);
+            CHECK(body.spring == original.spring);
+            const bool is_root = original.parent == kNoSegment;
+            CHECK((body.parent == kNoSegment) == is_root);
+            CHECK((is_root || stage.whole[body.parent] == original.parent));
+        }
+        CHECK(stage_mass == Approx(mass));
+    }
+    CHECK(coarse_plants(make_bodies(Skeleton{}, 0.2)).empty());
+}
+
+TEST_CASE("twigs keep their bend when poses are completed") {
+    const Bodies plant = make_bodies(limp_plant(), 0.2);
+    const std::size_t count = plant.bodies.size();
+    std::vector<BodyPose> before(count);
+    for (std::size_t b = 0; b < count; ++b) { // each joint is bent by 0.1
+        const std::uint32_t parent = plant.bodies[b].parent;
+        const glm::dquat turn = glm::angleAxis(0.1, glm::dvec3(0.0, 0.0, 1.0));
+        before[b].turn = parent == kNoSegment ? turn : glm::normalize(before[parent].turn * turn);
+    }
+    std::vector<char> known(count, 0);
+    std::vector<BodyPose> poses(count);
+    known[0] = 1; // the root turns about another axis
+    poses[0].turn = glm::angleAxis(0.7, glm::dvec3(1.0, 0.0, 0.0));
+    complete_poses(plant, known, before, false, poses);
+    for (std::size_t b = 1; b < count; ++b) {
+        const std::uint32_t parent = plant.bodies[b].parent;
+        const glm::dquat bend = glm::conjugate(poses[parent].turn) * poses[b].turn;
+        REQUIRE(std::abs(bend.w - std::cos(0.05)) <= 1e-12);
+        REQUIRE(std::abs(bend.z - std::sin(0.05)) <= 1e-12);
+        const glm::dvec3 joint = poses[parent].shift - poses[b].shift +
+                                 poses[parent].turn * plant.bodies[b].offset -
+                                 plant.bodies[b].offset;
+        REQUIRE(glm::length(joint) <= 1e-12);
+    }
+}
+
+TEST_CASE("a large plant that falls settles in few rounds, the same for any number of threads") {
+    const Skeleton plant = limp_plant();
+    REQUIRE(plant.segments.size() >= kMinCoarsened);
+    std::string expected;
+    for (const std::uint32_t threads : {1U, 2U, 5U}) {
+        PhysicsOptions options;
+        options.threads = threads;
+        PlantPhysics physics(plant, options);
+        const double energy = physics.energy();
+        REQUIRE(physics.settle(1e-6, 60));
+        CHECK(physics.energy() < energy);
+        Skeleton bent;
+        physics.pose(bent);
+        const std::string seen = place_bytes(bent) + std::to_string(physics.energy());
+        expected = threads == 1 ? seen : expected;
+        CHECK((seen == expected));
+        for (const Segment& segment : bent.segments) {
+            REQUIRE(segment.base.y >= -1e-5F);
+            REQUIRE(tip(segment).y >= -1e-5F);
+        }
+        CHECK(lifted_mass(bent) < 0.2 * lifted_mass(plant));
+        // It stays where it lies.
+        const double settled = physics.energy();
+        CHECK(physics.settle(1e-6, 60));
+        CHECK(physics.energy() <= settled);
+    }
+}
+
+TEST_CASE("rounds of settling fit the size of a plant") {
+    CHECK(settle_rounds(0) == 10'000);
+    CHECK(settle_rounds(100) == 10'000);
+    CHECK(settle_rounds(10'000) == 300);
+    CHECK(settle_rounds(100'000) == 30);
+    CHECK(settle_rounds(100'000'000) == 30);
+}
