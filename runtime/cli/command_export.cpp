@@ -106,10 +106,9 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Plans levels of detail up to `last`, once for all poses of the plant. Those before `first` are
-/// not for meshing.
-ExitStatus
-plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t first, std::uint32_t last) {
+/// Plans levels of detail, once for all poses of the plant. DetailChain::pictures is that of the
+/// format.
+ExitStatus plan_levels(Export& run, const Skeleton& skeleton, DetailChain chain) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
                          skeleton.polygons.size() == run.plant.skeleton.polygons.size();
@@ -119,14 +118,11 @@ plan_levels(Export& run, const Skeleton& skeleton, std::uint32_t first, std::uin
     MeshOptions finest = run.command.mesh;
     finest.level = 0;
     const ExportPictures pictures = traits_of(run.format).pictures;
-    const bool shows_pictures =
-        pictures == ExportPictures::Inside ||
-        (pictures != ExportPictures::None && is_regular(run.command.output));
-    return run.console.take(
-        plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton, finest,
-                          {.last = last, .pictures = shows_pictures, .first_fitted = first},
-                          run.project),
-        run.levels);
+    chain.pictures = pictures == ExportPictures::Inside ||
+                     (pictures != ExportPictures::None && is_regular(run.command.output));
+    return run.console.take(plan_plant_levels(run.plant, is_pose ? run.plant.skeleton : skeleton,
+                                              finest, chain, run.project),
+                            run.levels);
 }
 
 /// Meshes the wanted level of `skeleton`, or the coarsest.
@@ -135,7 +131,7 @@ ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOp
     if (wanted == 0) {
         return run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh);
     }
-    const ExitStatus status = plan_levels(run, skeleton, wanted, wanted);
+    const ExitStatus status = plan_levels(run, skeleton, {.last = wanted, .first_fitted = wanted});
     if (status != ExitStatus::Ok) {
         return status;
     }
@@ -264,7 +260,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
     const ExportCommand& command = run.command;
     const bool one_file = traits_of(run.format).lods && !command.lod_files;
     SteadyClock::time_point start = SteadyClock::now();
-    ExitStatus status = plan_levels(run, skeleton, 0, command.lods - 1);
+    ExitStatus status = plan_levels(run, skeleton, {.count = command.lods});
     if (status != ExitStatus::Ok) {
         return status;
     }
@@ -438,7 +434,6 @@ ExitStatus check_weight(const Export& run, const PhysicsOptions& options) {
 ExitStatus write_bent(Export& run) {
     const ExportCommand& command = run.command;
     constexpr double kRestAngle = 1e-6; // radians
-    constexpr std::uint32_t kMaxSettleRounds = 10'000;
     constexpr float kStepsPerSecond = 60.0F;
     PhysicsOptions options;
     options.gravity = command.gravity.value_or(0.0F);
@@ -457,8 +452,12 @@ ExitStatus write_bent(Export& run) {
     if (command.loop) {
         return write_loop(run, physics);
     }
-    if ((command.settle || command.frames == 0) && !physics.settle(kRestAngle, kMaxSettleRounds)) {
-        run.console.info("the plant has not quite come to rest");
+    const std::size_t segments = run.plant.skeleton.segments.size();
+    const std::uint32_t rounds = settle_rounds(segments);
+    if ((command.settle || command.frames == 0) && !physics.settle(kRestAngle, rounds)) {
+        run.console.info(fmt::format("the plant has not quite come to rest in {} rounds, the limit "
+                                     "for {} segments",
+                                     rounds, segments));
     }
     Skeleton bent;
     if (command.frames == 0) {
@@ -608,8 +607,7 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
         return {};
     }
     if (command.mesh.level != 0) {
-        return "--lods and --level do not go together: --lods writes the levels from 0 on, --level "
-               "one "
+        return "--lods and --level do not go together: --lods writes several levels, --level one "
                "of them";
     }
     if (command.frames != 0) {

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -24,8 +25,8 @@ namespace {
 constexpr double kUsualFactor = 2.45;
 constexpr double kRootFactor = 1.5652; // its square root
 constexpr double kLowFactor = 2.0;
-constexpr double kLeastFactor = 1.8; // where fewer joints alone would go beyond kMaxFactor
 constexpr double kMaxFactor = 3.0;
+constexpr double kSafeFactor = 1.04;      // by which steps keep from both bounds where they can
 constexpr double kMaxFactorOfBoxes = 4.5; // a step of their subdivision has a quarter
 constexpr std::uint32_t kMaxSideLevel = 8;
 constexpr int kMaxTries = 24;
@@ -44,16 +45,30 @@ constexpr double kCloseTint = 0.002; // is left as it is
 constexpr double kMinCover = 0.25;   // of impostors
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
-constexpr double kCloseCover = 0.005;   // ends the fitting of the area of an impostor
-constexpr double kLastTriangles = 45.0; // aimed at, of chains without an impostor
-constexpr double kPoorFactor = 1.5;     // of a step that leaves out more
-// Triangles of most impostors, at least, and of the level before them, at most.
-constexpr std::uint64_t kLeastOfImpostor = 18;
-constexpr std::uint64_t kMaxBeforeImpostor = 16 * kLeastOfImpostor / 5;
-constexpr int kMaxEqualSteps = 3; // near the end of the chain
+constexpr double kCloseCover = 0.005;         // ends the fitting of the area of an impostor
+constexpr double kLastTriangles = 45.0;       // aimed at, of chains without an impostor
+constexpr double kLastOfCards = 24.0;         // the same with an impostor
+constexpr std::uint64_t kMaxBeforePoor = 450; // the same where less would show
+constexpr double kPoorPixels =
+    0.8; // by which wood may lie off where it stands for what is left out
+constexpr std::uint64_t kMaxBeforeCards = 100; // triangles; three times the last
+constexpr std::uint64_t kMinBeforeCards = 20;  // has none after it
+constexpr std::uint64_t kMinBeforeFewer = 40;  // cards that have fewer of them after
+constexpr double kMaxOfCards = 400.0;          // triangles
+constexpr double kCloseCount = 0.04;           // difference of triangles that is left as it is
+constexpr double kNearMax = 1.35;              // triangles in those that a level may have
+constexpr int kMaxEqualSteps = 3;              // near the end of the chain
+constexpr std::array<double, 6> kParts{1.0, 0.9, 1.1, 0.82, 1.18, 0.72}; // of what is aimed at
 constexpr int kRootSteps = 40;
 constexpr int kSeekSteps = 8;
 constexpr int kStraighterTries = 6;
+constexpr int kMaxStraightenings = 48;
+constexpr float kStraightening = 1.15F;
+constexpr int kRestoringTries = 14;
+constexpr std::uint64_t kMorePaths = 8;
+constexpr double kMaxOfPaths = 4000.0; // triangles of levels that get more of them
+constexpr double kFairCount = 0.1;     // difference of triangles that is enough then
+constexpr float kRestoring = 1.3F;
 constexpr double kMeanErrorPart = 0.3; // of the error allowed to axes, on average
 constexpr float kMinErrorPart = 0.1F;
 constexpr float kMaxDeviations = 4.0F;   // of sides, in errors of joints
@@ -135,23 +150,32 @@ public:
         measure_finest();
         level.triangles = finest_;
         result.levels.push_back(level);
-        last_ = chain.pictures ? static_cast<double>(kLeastOfImpostor) : kLastTriangles;
-        const std::uint64_t end = chain.pictures ? kMaxBeforeImpostor : kMinDetailTriangles;
-        while (result.levels.size() <= chain.last && level.triangles > end && !stop_) {
-            const DetailLevel next = coarser(level);
+        last_ = chain.pictures ? kLastOfCards : kLastTriangles;
+        while (result.levels.size() <= chain.last && !stop_) {
+            const std::uint64_t end = !chain.pictures  ? kMinDetailTriangles
+                                      : level.impostor ? kMinBeforeFewer
+                                                       : kMinBeforeCards;
+            if (level.triangles <= end) {
+                break;
+            }
+            DetailLevel next = level;
+            if (!level.impostor && (!chain.pictures || level.triangles > kMaxBeforeCards)) {
+                next = coarser(level);
+            }
+            if (chain.pictures) {
+                const DetailLevel cards = cards_after(level);
+                const bool is_forced = next.triangles >= level.triangles;
+                const bool is_poor = level.triangles <= kMaxBeforePoor && shows_loss(next);
+                const double off = off_band(level, cards);
+                if (is_forced || off < off_band(level, next) || (is_poor && off == 0.0)) {
+                    next = cards;
+                }
+            }
             if (next.triangles >= level.triangles) {
                 break;
             }
             level = next;
             result.levels.push_back(level);
-        }
-        if (chain.pictures && result.levels.size() <= chain.last &&
-            level.triangles > kImpostorTriangles) {
-            DetailLevel& impostor = result.levels.emplace_back();
-            impostor = {.options = options_, .impostor = true};
-            impostor.triangles = kImpostorTriangles;
-            set_error(static_cast<double>(impostor.triangles), impostor);
-            impostor.options = options_; // its pictures show the finest level
         }
         return stop_;
     }
@@ -168,8 +192,9 @@ public:
             return stop_;
         }
         meter_.emplace(mesh_, foliage_mesh_, frame_, options_.threads);
-        areas_ = meter_->measure(mesh_, foliage_mesh_);
-        for (std::size_t k = 1; k < levels.levels.size() && !stop_; ++k) {
+        areas_ = meter_->measure(mesh_, foliage_mesh_, &third_);
+        // From the coarsest one, as each depends on what is planned for the one before.
+        for (std::size_t k = levels.levels.size(); --k > 0 && !stop_;) {
             DetailLevel& level = levels.levels[k];
             if (!which[k]) {
                 continue;
@@ -178,7 +203,7 @@ public:
                 fit_impostor(level);
                 continue;
             }
-            const VisibleAreas own = fit_areas(level);
+            const VisibleAreas own = fit_areas(levels.levels[k - 1], level);
             if (chain.pictures) {
                 level.tint = tint_for(own);
                 if (!is_moderate(level.tint)) {
@@ -285,7 +310,7 @@ private:
             stop_ = make_mesh(skeleton, user_meshes_, options, mesh);
         }
     }
-    VisibleAreas areas_of(const DetailLevel& level) {
+    VisibleAreas areas_of(const DetailLevel& level, bool third = false) {
         if (!level.thinned) {
             draw(wood_, level.options, mesh_);
             draw(foliage_, level.options, foliage_mesh_);
@@ -306,15 +331,17 @@ private:
         }
         colour_materials(level, mesh_);
         colour_materials(level, foliage_mesh_);
-        return meter_->measure(mesh_, foliage_mesh_);
+        return third ? meter_->measure_third(mesh_, foliage_mesh_)
+                     : meter_->measure(mesh_, foliage_mesh_);
     }
 
     /// Scales wood and foliage until they cover what they cover at the finest level, by Broyden's
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
-    /// what they cover then.
-    VisibleAreas fit_areas(DetailLevel& level) {
+    /// what they cover then. `coarser_than`: the level before.
+    VisibleAreas fit_areas(const DetailLevel& coarser_than, DetailLevel& level) {
         const bool is_fixed = !level.thinned && (level.options.method != MeshMethod::Tubes ||
                                                  skeleton_.l3d_compatible_surface);
+        const DetailLevel planned = level;
         DetailLevel tried = level;
         VisibleAreas result;
         glm::dvec2 scales(1.0);
@@ -324,22 +351,32 @@ private:
         // the square of its size.
         glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
+        bool third = !is_fixed; // measured from fewer sides until it is close
         for (int i = 0; i < kFittingSteps && !stop_; ++i) {
+            third = third && i + 2 < kFittingSteps;
             tried.wood_scale = static_cast<float>(scales.x);
             tried.foliage_scale = static_cast<float>(scales.y);
-            const VisibleAreas now = areas_of(tried);
-            const double off = difference(now);
-            if (off < best) {
+            if (i > 0 && !is_fixed) {
+                restore(planned, coarser_than, tried);
+            }
+            const VisibleAreas now = areas_of(tried, third);
+            const VisibleAreas& fine = third ? third_ : areas_;
+            const double off = difference(now, fine);
+            if (!third && off < best) {
                 best = off;
                 level = tried;
                 level.triangles = triangles_of(mesh_) + triangles_of(foliage_mesh_);
                 result = now;
             }
             if (off < kCloseAreas || is_fixed) {
-                break;
+                if (!third) {
+                    break;
+                }
+                third = false;
+                step = glm::dvec2(0.0);
+                continue;
             }
-            const glm::dvec2 error(excess(now.wood, areas_.wood),
-                                   excess(now.foliage, areas_.foliage));
+            const glm::dvec2 error(excess(now.wood, fine.wood), excess(now.foliage, fine.foliage));
             const glm::dvec2 moved = inverse * (error - before);
             const double length = glm::dot(step, moved);
             if (std::abs(length) > kMinMove) {
@@ -350,26 +387,108 @@ private:
             step = glm::clamp(glm::clamp(wanted, scales / kMaxStep, scales * kMaxStep),
                               glm::dvec2(kMinScale), glm::dvec2(kMaxScale)) -
                    scales;
+            if (step == glm::dvec2(0.0)) {
+                if (!third) {
+                    break;
+                }
+                third = false;
+            }
             scales += step;
             tried.thinned = true;
         }
         return result;
     }
+    /// Seeks the error that leaves `wanted` triangles of `tried`. What is nearer to them than `least`
+    /// becomes `best`.
+    void seek_joints(double wanted, double& least, DetailLevel tried, DetailLevel& best) {
+        float low = 0.0F; // errors that leave too many triangles, and too few
+        float high = std::numeric_limits<float>::infinity();
+        float& error = tried.options.axis_error;
+        for (int i = 0; i < kRestoringTries && !stop_; ++i) {
+            tried.triangles = exact_triangles(tried);
+            const auto now = static_cast<double>(tried.triangles);
+            const double off = std::abs(now - wanted);
+            if (off < least) {
+                least = off;
+                best = tried;
+            }
+            if (off <= kCloseCount * wanted || !(error > 0.0F)) {
+                return;
+            }
+            (now < wanted ? high : low) = error;
+            const bool is_between = low > 0.0F && high < std::numeric_limits<float>::infinity();
+            error = is_between   ? 0.5F * (low + high)
+                    : low > 0.0F ? kRestoring * error
+                                 : error / kRestoring;
+        }
+    }
+
+    /// Gives wood the joints back that it loses as it is widened, or branches and foliage, up to
+    /// those of the level `before`, in their place: about as many triangles as planned.
+    void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
+        level.options.axis_error = planned.options.axis_error;
+        level.paths = planned.paths;
+        level.foliage = planned.foliage;
+        if (!level.thinned) {
+            return;
+        }
+        const auto wanted = static_cast<double>(planned.triangles);
+        // Branches lose joints all at once where they are alike: some more of them then.
+        const std::uint64_t most =
+            std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
+        double least = std::numeric_limits<double>::infinity();
+        DetailLevel tried = level;
+        for (; tried.paths <= most && !stop_; ++tried.paths) {
+            tried.options.axis_error = planned.options.axis_error;
+            seek_joints(wanted, least, tried, level);
+            if (least <= (tried.paths == planned.paths ? kCloseCount : kFairCount) * wanted ||
+                wanted > kMaxOfPaths) {
+                break;
+            }
+        }
+        if (static_cast<double>(level.triangles) > (1.0 - kCloseCount) * wanted) {
+            return;
+        }
+        for (std::uint64_t high = before.paths; level.paths < high && !stop_;) {
+            tried = level;
+            tried.paths = level.paths + (high - level.paths + 1) / 2;
+            tried.triangles = exact_triangles(tried);
+            if (static_cast<double>(tried.triangles) <= wanted) {
+                level = tried;
+            } else {
+                high = tried.paths - 1;
+            }
+        }
+        if (level.foliage == 0) {
+            return;
+        }
+        const std::vector<FoliageShape> shapes =
+            foliage_shapes(order_, user_meshes_, level.options.level);
+        auto now = static_cast<double>(level.triangles);
+        while (level.foliage < before.foliage) {
+            now += triangles_of_item(order_.foliage[level.foliage], shapes);
+            if (now > wanted) {
+                break;
+            }
+            ++level.foliage;
+        }
+    }
+
     /// Gives the impostor the area and colour of the finest level.
     void fit_impostor(DetailLevel& level) {
         draw(skeleton_, options_, mesh_);
         if (stop_) {
             return;
         }
-        const ImpostorBaker baker(mesh_, level.pixels);
+        const ImpostorBaker baker(mesh_, level.pixels, level.triangles);
         const Mesh none;
         VisibleAreas own;
         // By the secant through the cover before; at first through no cover, which has no area.
         glm::dvec2 before(0.0);
         level.cover = kFirstCover;
+        Mesh cards;
         for (int i = 0; i < kFittingSteps; ++i) {
-            const Mesh cards = baker.make(level.cover, glm::vec3(1.0F));
-            level.triangles = triangles_of(cards);
+            cards = baker.make(level.cover, glm::vec3(1.0F));
             own = meter_->measure(none, cards);
             const double off = own.all() - areas_.all();
             if (std::abs(off) <= kCloseCover * areas_.all() || own.all() == before.y) {
@@ -383,6 +502,7 @@ private:
             }
             level.cover = next;
         }
+        level.triangles = triangles_of(cards);
         level.tint = tint_for(own);
     }
     /// The factor of colours that gives `now` the mean colour of the finest level.
@@ -399,9 +519,9 @@ private:
         return std::max({off.x, off.y, off.z}) < kCloseTint ? glm::vec3(1.0F) : glm::vec3(tint);
     }
     /// Difference of colour as the part of wood, and less so of what is covered.
-    double difference(const VisibleAreas& now) const {
-        const double all = std::max(areas_.all(), 1.0);
-        return std::abs(now.wood / std::max(now.all(), 1.0) - areas_.wood / all) +
+    static double difference(const VisibleAreas& now, const VisibleAreas& wanted) {
+        const double all = std::max(wanted.all(), 1.0);
+        return std::abs(now.wood / std::max(now.all(), 1.0) - wanted.wood / all) +
                kAreaWeight * std::abs(now.all() / all - 1.0);
     }
     static double excess(double area, double wanted) {
@@ -429,6 +549,40 @@ private:
         level.pixels = kFinestPixels * part;
         level.error = 0.5F * extent_ / level.pixels;
         level.options.axis_error = level.error;
+    }
+
+    /// Whether cards look more like the plant than a few enlarged leaves, or than wood whose branches
+    /// are left out.
+    bool shows_loss(const DetailLevel& level) const {
+        return !order_.foliage.empty() ||
+               losses_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
+    }
+
+    /// An impostor that shows the finest level.
+    DetailLevel cards_after(const DetailLevel& before) const {
+        const auto all = static_cast<double>(before.triangles);
+        const double factor = before.triangles <= kMaxBeforeCards
+                                  ? std::clamp(all / last_, kLowFactor, kMaxFactor)
+                                  : factor_from(all);
+        const double wanted = std::min(all / factor, kMaxOfCards);
+        DetailLevel level{.options = options_, .impostor = true};
+        level.triangles = 2 * static_cast<std::uint64_t>(0.5 * wanted);
+        if (kMaxFactor * static_cast<double>(level.triangles) < all &&
+            static_cast<double>(level.triangles + 2) <= kMaxOfCards) {
+            level.triangles += 2;
+        }
+        set_error(static_cast<double>(level.triangles), level);
+        level.options = options_;
+        return level;
+    }
+
+    /// By which factor the step from a level to the next is beyond the bounds, less 1.
+    static double off_band(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
+        const double most =
+            before.options.method == MeshMethod::Boxes ? kMaxFactorOfBoxes : kMaxFactor;
+        const double factor = static_cast<double>(before.triangles) /
+                              std::max(static_cast<double>(next.triangles), 1.0);
+        return std::max({safe * kLowFactor / factor, safe * factor / most, 1.0}) - 1.0;
     }
 
     /// The factor from a level to the next that leads to the last triangles in equal steps.
@@ -463,30 +617,41 @@ private:
         const auto all = static_cast<double>(before.triangles);
         const bool is_boxes = before.options.method == MeshMethod::Boxes;
         const double wanted = all / factor_from(all);
-        const double min = all / (is_boxes ? kMaxFactorOfBoxes : kMaxFactor);
-        const double max = std::max(all / kLowFactor, wanted);
+        const double min = kSafeFactor * all / (is_boxes ? kMaxFactorOfBoxes : kMaxFactor);
+        const double max = std::max(all / (kSafeFactor * kLowFactor), wanted);
         DetailLevel base = before;
         base.options.deviation = before.thinned ? 0.0F : options_.deviation;
         set_error(wanted, base);
         base.options.axis_error = std::max(base.options.axis_error, before.options.axis_error);
         auto wood = static_cast<double>(wood_triangles(base));
         double foliage = foliage_triangles(base);
+        const auto is_done = [&](DetailLevel& level) {
+            level.triangles = exact_triangles(level);
+            return off_band(before, level) == 0.0;
+        };
         if (wood + foliage < min) {
             // Fewer joints alone leave too little: keep more of them, or all and fewer sides where
             // branches are thin.
             const float error = base.options.axis_error;
             seek(&MeshOptions::axis_error, before.options.axis_error, error, min - foliage,
                  max - foliage, base);
-            wood = static_cast<double>(wood_triangles(base));
-            if (wood + foliage < min) {
-                base.options.axis_error = before.options.axis_error;
-                seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * error, min - foliage,
-                     max - foliage, base);
-                wood = static_cast<double>(wood_triangles(base));
-            }
-            if (wood + foliage >= min && wood + foliage <= all / kLeastFactor) {
-                base.triangles = exact_triangles(base);
+            if (is_done(base)) {
                 return base;
+            }
+            DetailLevel rounder = base;
+            rounder.options.axis_error = before.options.axis_error;
+            seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * error, min - foliage,
+                 max - foliage, rounder);
+            if (is_done(rounder)) {
+                return rounder;
+            }
+            wood = static_cast<double>(wood_triangles(base));
+            // Both leave too much. All joints with few sides may still be less than all with many:
+            // straight wood of many joints loses most of them at once.
+            const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
+            if (rounder_wood < wood) {
+                base = rounder;
+                wood = rounder_wood;
             }
         }
         // Fewer sides, as long as that alone does not leave too little.
@@ -503,9 +668,17 @@ private:
             base = level;
             wood = level_wood;
             foliage = level_foliage;
-            if (triangles <= max) {
-                base.triangles = exact_triangles(base);
+            if (triangles <= max && is_done(base)) {
                 return base;
+            }
+        }
+        if (base.options.deviation == 0.0F && before.options.method == MeshMethod::Tubes) {
+            // Fewer sides where branches are thin.
+            DetailLevel rounder = base;
+            seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * base.error, min - foliage,
+                 max - foliage, rounder);
+            if (is_done(rounder)) {
+                return rounder;
             }
         }
         if (before.options.method != MeshMethod::Tubes) {
@@ -515,28 +688,33 @@ private:
             make_plain(tubes.options);
             return coarser(tubes);
         }
-        DetailLevel level = thinner(base, wood, foliage, wanted);
-        level.triangles = exact_triangles(level);
-        // Items of foliage differ: those that are left may be the large ones.
-        while (static_cast<double>(level.triangles) * kPoorFactor > all && level.foliage > 1) {
-            level.foliage -= 1 + level.foliage / 8;
-            level.triangles = exact_triangles(level);
+        // Items of foliage differ, and so do branches: of several numbers of triangles aimed at, the
+        // first that leads to a good one, else the nearest.
+        // Where little has to be left out, no more than that is.
+        const double aim = wood + foliage <= kNearMax * max ? max : wanted;
+        DetailLevel best = before;
+        double least = std::numeric_limits<double>::infinity();
+        for (const bool fewer_sides : {false, true}) {
+            for (const double part : kParts) {
+                DetailLevel level = base;
+                level.options.level += fewer_sides ? 1 : 0;
+                level = thinner(level, wood, foliage, part * aim);
+                level.triangles = exact_triangles(level);
+                const double off = off_band(before, level, kSafeFactor);
+                if (off < least) {
+                    least = off;
+                    best = level;
+                }
+                if (stop_ || least == 0.0) {
+                    return best;
+                }
+            }
         }
-        if (static_cast<double>(level.triangles) * kPoorFactor > all) {
-            ++level.options.level;
-            level.triangles = exact_triangles(level);
-        }
-        if (static_cast<double>(level.triangles) < min) {
-            const double rest = static_cast<double>(level.triangles - wood_triangles(level));
-            seek(&MeshOptions::axis_error, kMinErrorPart * level.error, level.options.axis_error,
-                 min - rest, max - rest, level);
-            level.triangles = exact_triangles(level);
-        }
-        return level;
+        return best;
     }
 
     /// Sets an option that leaves the less wood the larger it is, between `low` and `high`, so that
-    /// wood has `min` to `max` triangles.
+    /// wood has `min` to `max` triangles, or else more.
     void seek(float MeshOptions::*option,
               float low,
               float high,
@@ -551,6 +729,7 @@ private:
             }
             (now < min ? high : low) = level.options.*option;
         }
+        level.options.*option = low;
     }
 
     /// Tubes without the detail of their bark.
@@ -567,7 +746,9 @@ private:
     DetailLevel thinner(DetailLevel level, double wood, double foliage, double wanted) {
         level.thinned = true;
         most_paths_ = level.paths;
+        const float deviation = level.options.deviation;
         make_plain(level.options);
+        level.options.deviation = deviation > options_.deviation ? deviation : 0.0F;
         const double part = wanted / std::max(wood + foliage, 1.0);
         double left = 0.0;
         if (level.foliage > 0) {
@@ -637,24 +818,26 @@ private:
                 high_count = std::max(now, low_count + 1);
             }
         }
+        if (low == 0) {
+            level.paths = 1;
+            straighten(level, wanted);
+            return;
+        }
         // Of the numbers of paths around, the one nearer to `wanted` in proportion.
         const bool is_high =
             static_cast<double>(low_count) * static_cast<double>(high_count) < wanted * wanted;
-        level.paths = is_high ? high : std::max<std::uint64_t>(low, 1);
-        if (low == 0 && !is_high) {
-            straighten(level, wanted);
-        }
+        level.paths = is_high ? high : low;
     }
 
     /// Takes joints from the only path that is left.
     void straighten(DetailLevel& level, double wanted) {
-        std::uint64_t now = wood_triangles(level);
-        for (int i = 0; i<kMaxTries&& static_cast<double>(now)> wanted && !stop_; ++i) {
+        auto now = static_cast<double>(wood_triangles(level));
+        for (int i = 0; i < kMaxStraightenings && now > wanted && !stop_; ++i) {
             if (level.options.axis_error > extent_) {
                 break;
             }
-            level.options.axis_error *= 1.25F;
-            now = wood_triangles(level);
+            level.options.axis_error *= kStraightening;
+            now = static_cast<double>(wood_triangles(level));
         }
     }
 
@@ -672,6 +855,7 @@ private:
     std::uint64_t most_paths_ = 0; // of the level that is thinned
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_; // of the finest level
+    VisibleAreas third_; // the same by AreaMeter::measure_third()
     Bounds frame_;
     std::uint64_t finest_ = 0;       // triangles
     double last_ = 1.0;              // triangles at the end of the chain
@@ -696,7 +880,7 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
     }
     return catch_out_of_memory(
         [&]() -> std::optional<Stop> {
-            mesh = ImpostorBaker(mesh, level.pixels).make(level.cover, level.tint);
+            mesh = ImpostorBaker(mesh, level.pixels, level.triangles).make(level.cover, level.tint);
             if (!options.tangents) {
                 mesh.tangents.clear();
             }
@@ -717,6 +901,18 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
         });
 }
 
+/// Leaves `count` levels, at least 2: the first, the last, and those nearest to equal steps between.
+void spread_levels(std::size_t count, std::vector<DetailLevel>& levels) {
+    if (levels.size() <= count) {
+        return;
+    }
+    const std::size_t steps = count - 1;
+    for (std::size_t k = 1; k < count; ++k) {
+        levels[k] = levels[(2 * k * (levels.size() - 1) + steps) / (2 * steps)];
+    }
+    levels.resize(count);
+}
+
 /// Whether a level other than the finest is marked.
 bool fits_any(const std::vector<bool>& which) {
     return which.size() > 1 && std::find(which.begin() + 1, which.end(), true) != which.end();
@@ -730,7 +926,7 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
                                        const DetailChain& chain,
                                        DetailLevels& levels) {
     levels = {};
-    if (chain.last == 0 || options.method == MeshMethod::Solid) {
+    if (chain.last == 0 || chain.count <= 1 || options.method == MeshMethod::Solid) {
         levels.levels.push_back({.options = options});
         return std::nullopt;
     }
@@ -742,6 +938,7 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
             if (const std::optional<Stop> stop = planner.plan(chain, levels)) {
                 return std::optional(*stop);
             }
+            spread_levels(chain.count, levels.levels);
             const std::size_t last = levels.levels.size() - 1;
             std::vector<bool> which(levels.levels.size());
             for (std::size_t k = 0; k <= last && chain.first_fitted != kNoDetailLevel; ++k) {

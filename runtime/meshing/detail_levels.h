@@ -1,8 +1,8 @@
 // DetailLevels: a chain of meshes of one plant, each with a half to a third of the triangles of the
 // one before, down to kMinDetailTriangles. The first steps have fewer sides and joints
 // (MeshOptions::level); where these end, whole twigs and leaves are left out and the others
-// enlarged. What a level keeps, all finer levels keep. Made from the skeleton at rest; the same
-// levels then fit every pose of it.
+// enlarged; the last are crossed cards. What a level keeps, all finer levels keep. Made from the
+// skeleton at rest; the same levels then fit every pose of it.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -27,7 +27,7 @@ inline constexpr float kFinestPixels = 1024.0F;
 struct DetailLevel {
     MeshOptions options;
     bool thinned = false;      // drawn from a thinned skeleton
-    bool impostor = false;     // cards with pictures of the finest level
+    bool impostor = false;     // `triangles` of cards with pictures of the finest level
     double cover = 1.0;        // of impostors: opaque texels, in the area of the plant
     std::uint64_t paths = 0;   // of wood that stay, of thinned levels
     std::uint64_t foliage = 0; // objects and polygons that stay, of thinned levels
@@ -57,6 +57,9 @@ struct DetailChain {
     /// of the time; kNoDetailLevel: none does, and fit_detail_levels() is called before they are
     /// meshed.
     std::uint32_t first_fitted = 0;
+    /// Max number of levels. A longer chain keeps the finest, the coarsest, and others in about
+    /// equal steps between; one level: the finest.
+    std::uint32_t count = kMaxDetailLevel + 1;
 };
 
 struct ThinningOrder; // runtime/meshing/impl/thinning.h

@@ -1,5 +1,5 @@
 // Variants in USD: levels of detail and values of a parameter, as tinyusdz composes them and as a
-// reader without variants shows them (three.js), against a file of each.
+// reader without variants shows them (three.js), against a file of each. The maple has six levels.
 // Usage: node usd_variants.mjs MODULES LSC FOLDER
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -72,8 +72,8 @@ const composed = (file, bytes, set, name) => {
 };
 
 const sets = [
-    { set: 'LOD', options: ['--lods', '3'],
-      of: [0, 1, 2].map(level => ({ name: `LOD${level}`, options: ['--level', `${level}`] })) },
+    { set: 'LOD', options: ['--lods', '25'],
+      of: [0, 1, 2, 3, 4, 5].map(level => ({ name: `LOD${level}`, options: ['--level', `${level}`] })) },
     { set: 'season', options: ['--variants', 'season=0,0.25,0.5,0.75'],
       of: ['0', '0.25', '0.5', '0.75'].map(value => ({ name: value.replace('.', '_'),
                                                        options: ['-D', `season=${value}`] })) },

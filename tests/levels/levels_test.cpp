@@ -1,6 +1,7 @@
 // Levels of detail of samples: fewer and fewer triangles that look like the plant from as far as
 // they are made for. Pictures are drawn here, with opacity and without light.
 #include "runtime/meshing/detail_levels.h"
+#include "runtime/meshing/impl/impostor.h"
 #include "runtime/meshing/impl/thinning.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/plant.h"
@@ -34,7 +35,11 @@ constexpr std::array<float, 2> kTilts{0.0F, 0.5F};
 constexpr int kMinSamples = 192;
 constexpr int kMaxSamples = 512;
 constexpr double kMaxColourDifference = 0.02;
-constexpr double kMaxFactor = 3.2;           // of the triangles of a level and the next
+constexpr double kMinFactor = 2.0; // of the triangles of a level and the next
+constexpr double kMaxFactor = 3.0;
+// Without an impostor, few branches of many triangles each are left at the end.
+constexpr double kMaxLastFactor = 3.3;
+constexpr double kManyTriangles = 150.0;
 constexpr double kMaxImpostorDistance = 5.0; // pixels
 
 Project sample_project() {
@@ -388,7 +393,7 @@ TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[l
         CHECK(level.planned == level.triangles);
         CHECK(level.difference.colour <= kMaxColourDifference);
         if (k > 0) {
-            CHECK(level.factor > 1.3);
+            CHECK(level.factor >= kMinFactor);
             CHECK(level.factor <= kMaxFactor);
             CHECK(level.difference.area == Approx(1.0).margin(0.06));
         }
@@ -397,17 +402,35 @@ TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[l
     CHECK(results.back().difference.silhouette <= kMaxImpostorDistance);
 }
 
+TEST_CASE("each level has a half to a third of the triangles of the one before", "[levels]") {
+    const std::string name = GENERATE(from_range(kSamplesOfLevels));
+    const Plant plant = grown(name);
+    const DetailLevels levels = planned(plant, {});
+    REQUIRE(levels.levels.size() >= 6);
+    for (std::size_t k = 1; k < levels.levels.size(); ++k) {
+        const double before = static_cast<double>(levels.levels[k - 1].triangles);
+        CAPTURE(name, k, before, levels.levels[k].triangles);
+        CHECK(before >= kMinFactor * static_cast<double>(levels.levels[k].triangles));
+        CHECK(before <= kMaxFactor * static_cast<double>(levels.levels[k].triangles));
+    }
+    CHECK(levels.levels.back().impostor);
+    CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
+}
+
 TEST_CASE("levels without pictures have fewer triangles too", "[levels]") {
-    const Plant plant = grown("abop-lychnis");
+    const std::string name = GENERATE("abop-lychnis", "carey-type-0", "abop-2-8a");
+    const Plant plant = grown(name);
     DetailLevels levels;
     REQUIRE(plan_detail_levels(plant.skeleton, plant.user_meshes, {.threads = 1}, {}, levels) ==
             std::nullopt);
     for (std::size_t k = 1; k < levels.levels.size(); ++k) {
         const DetailLevel& level = levels.levels[k];
-        CAPTURE(k, level.triangles);
+        const auto before = static_cast<double>(levels.levels[k - 1].triangles);
+        CAPTURE(name, k, before, level.triangles);
         CHECK(level.triangles == triangles_of(level_mesh(plant, levels, k)));
-        CHECK(static_cast<double>(levels.levels[k - 1].triangles) <=
-              kMaxFactor * static_cast<double>(level.triangles));
+        CHECK(before >= kMinFactor * static_cast<double>(level.triangles));
+        CHECK(before <= (before > kManyTriangles ? kMaxFactor : kMaxLastFactor) *
+                            static_cast<double>(level.triangles));
         CHECK_FALSE(level.impostor);
         CHECK(level.tint == glm::vec3(1.0F));
     }
@@ -444,6 +467,63 @@ TEST_CASE("levels fitted later are those fitted at once", "[levels]") {
                                {.pictures = true, .first_fitted = kMaxDetailLevel},
                                coarsest) == std::nullopt);
     CHECK(coarsest.levels.back().cover == all.levels.back().cover);
+}
+
+TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]") {
+    const Plant plant = grown("carey-type-0");
+    const DetailLevels all = planned(plant, {});
+    for (std::uint32_t count = 1; count <= all.levels.size() + 1; ++count) {
+        DetailLevels few;
+        REQUIRE(
+            plan_detail_levels(plant.skeleton, plant.user_meshes, {},
+                               {.pictures = true, .first_fitted = kNoDetailLevel, .count = count},
+                               few) == std::nullopt);
+        const std::size_t expected = std::min<std::size_t>(count, all.levels.size());
+        CAPTURE(count);
+        REQUIRE(few.levels.size() == expected);
+        CHECK_FALSE(few.levels.front().impostor);
+        CHECK(few.levels.back().impostor == (count > 1));
+        // Each is one of the chain; steps differ by one level at most.
+        std::size_t at = 0;
+        std::set<std::size_t> steps;
+        for (std::size_t k = 1; k < expected; ++k) {
+            std::size_t step = 1;
+            while (at + step < all.levels.size() &&
+                   all.levels[at + step].pixels != few.levels[k].pixels) {
+                ++step;
+            }
+            REQUIRE(at + step < all.levels.size());
+            steps.insert(step);
+            at += step;
+        }
+        CHECK((steps.empty() || *steps.rbegin() - *steps.begin() <= 1));
+    }
+}
+
+TEST_CASE("cards have as many triangles as asked for", "[levels]") {
+    const Plant plant = grown("abop-lychnis");
+    Mesh finest;
+    REQUIRE(make_mesh(plant.skeleton, plant.user_meshes, {.threads = 1}, finest) == std::nullopt);
+    for (const std::uint64_t triangles : {2U, 6U, 24U, 38U, 40U, 100U, 184U}) {
+        CAPTURE(triangles);
+        const ImpostorBaker baker(finest, 60.0F, triangles);
+        const Mesh cards = baker.make(1.0, glm::vec3(1.0F));
+        CHECK(triangles_of(cards) == triangles);
+        // Cards lie within the ball around the box of the plant, and their fronts look the way of
+        // their normals.
+        const Bounds frame = bounds_of(finest);
+        const glm::vec3 middle = 0.5F * (frame.low + frame.high);
+        for (const glm::vec3& position : cards.positions) {
+            CHECK(glm::distance(position, middle) <= 1.05F * glm::distance(frame.high, middle));
+        }
+        TriangleReader indices(cards.indices);
+        for (std::uint64_t i = 0; i < cards.indices.size(); i += 3) {
+            const glm::vec3& a = cards.positions[indices[i]];
+            const glm::vec3 normal = glm::cross(cards.positions[indices[i + 1]] - a,
+                                                cards.positions[indices[i + 2]] - a);
+            CHECK(glm::dot(normal, cards.normals[indices[i]]) >= 0.0F);
+        }
+    }
 }
 
 // The table of docs/files.md: tests_levels "[table]"

@@ -44,38 +44,49 @@ std::uint64_t triangles_of(const nlohmann::json& document, std::size_t mesh) {
 
 TEST_CASE("a GLB holds all levels of detail as MSFT_lod") {
     const ScratchFolder folder;
-    const LscRun run = run_lsc({"export", "-", "-o", folder / "a.glb", "--lods", "4"}, kTree);
+    const LscRun run = run_lsc({"export", "-", "-o", folder / "a.glb", "--lods", "25"}, kTree);
     REQUIRE(run.status == 0);
-    CHECK(run.err.empty());
     const nlohmann::json document = document_of(read_text(folder / "a.glb"));
     CHECK(document["extensionsUsed"] == nlohmann::json::array({"MSFT_lod"}));
-    REQUIRE(document["nodes"].size() == 4);
-    REQUIRE(document["meshes"].size() == 4);
+    const std::size_t count = document["meshes"].size();
+    REQUIRE(count >= 5);
+    CHECK(run.err.find("the plant has " + std::to_string(count) + " levels of detail") !=
+          std::string::npos);
+    REQUIRE(document["nodes"].size() == count);
     // Only the finest is in the scene; the others are reached through it.
     CHECK(document["scenes"][0]["nodes"] == nlohmann::json::array({0}));
     const nlohmann::json& plant = document["nodes"][0];
-    CHECK(plant["extensions"]["MSFT_lod"]["ids"] == nlohmann::json::array({1, 2, 3}));
     const nlohmann::json& coverage = plant["extras"]["MSFT_screencoverage"];
-    REQUIRE(coverage.size() == 4);
+    REQUIRE(coverage.size() == count);
     CHECK(coverage[0] <= 1.0);
-    CHECK(coverage[3] == 0.0);
-    for (std::size_t i = 1; i < 4; ++i) {
+    CHECK(coverage[count - 1] == 0.0);
+    for (std::size_t i = 1; i < count; ++i) {
+        CHECK(plant["extensions"]["MSFT_lod"]["ids"][i - 1] == i);
         CHECK(coverage[i].get<double>() < coverage[i - 1].get<double>());
         CHECK(document["nodes"][i]["mesh"] == i);
         const auto before = static_cast<double>(triangles_of(document, i - 1));
         const auto now = static_cast<double>(triangles_of(document, i));
-        CHECK(before / now >= 1.9);
-        CHECK(before / now <= 3.2);
+        CHECK(before / now >= 2.0);
+        CHECK(before / now <= 3.0);
     }
     // Every level is the mesh that --level writes alone.
-    for (const char* level : {"0", "1", "2", "3"}) {
-        REQUIRE(run_lsc({"export", "-", "-o", folder / "b.glb", "--level", level}, kTree).status ==
-                0);
+    for (std::size_t level = 0; level < count; ++level) {
+        REQUIRE(run_lsc({"export", "-", "-o", folder / "b.glb", "--level", std::to_string(level)},
+                        kTree)
+                    .status == 0);
         const nlohmann::json alone = document_of(read_text(folder / "b.glb"));
         CHECK_FALSE(alone.contains("extensionsUsed"));
-        CHECK(triangles_of(alone, 0) ==
-              triangles_of(document, static_cast<std::size_t>(*level - '0')));
+        CHECK(triangles_of(alone, 0) == triangles_of(document, level));
     }
+    // Fewer levels still go from the finest to the coarsest.
+    const LscRun few = run_lsc({"export", "-", "-o", folder / "c.glb", "--lods", "3"}, kTree);
+    REQUIRE(few.status == 0);
+    CHECK(few.err.empty());
+    const nlohmann::json three = document_of(read_text(folder / "c.glb"));
+    REQUIRE(three["meshes"].size() == 3);
+    CHECK(triangles_of(three, 0) == triangles_of(document, 0));
+    CHECK(triangles_of(three, 1) == triangles_of(document, count / 2));
+    CHECK(triangles_of(three, 2) == triangles_of(document, count - 1));
     // Accessors lie in their views, and views in the buffer one after the other.
     std::uint64_t end = 0;
     for (const auto& view : document["bufferViews"]) {
@@ -85,7 +96,7 @@ TEST_CASE("a GLB holds all levels of detail as MSFT_lod") {
     CHECK(end <= document["buffers"][0]["byteLength"].get<std::uint64_t>());
 }
 
-TEST_CASE("the last level is an impostor with colour, opacity and normals") {
+TEST_CASE("the last levels are impostors with colour, opacity and normals") {
     const ScratchFolder folder;
     for (const std::string compression : {"none", "quantize", "meshopt"}) {
         CAPTURE(compression);
@@ -96,18 +107,28 @@ TEST_CASE("the last level is an impostor with colour, opacity and normals") {
         const nlohmann::json document = document_of(read_text(folder / "a.glb"));
         const std::size_t last = document["meshes"].size() - 1;
         REQUIRE(last >= 4);
-        CHECK(triangles_of(document, last) <= 24);
-        const auto& primitives = document["meshes"][last]["primitives"];
-        REQUIRE(primitives.size() == 1);
-        const auto& material = document["materials"][primitives[0]["material"].get<std::size_t>()];
-        CHECK(material["name"] == "impostor");
-        CHECK(material["alphaMode"] == "MASK");
-        CHECK(material["doubleSided"] == true);
-        CHECK(material["pbrMetallicRoughness"].contains("baseColorTexture"));
-        CHECK(material.contains("normalTexture"));
-        // Pictures that levels share are there once: bark and its normals, the leaf, the impostor
-        // and its normals. Equal materials are one.
-        CHECK(document["images"].size() == 5);
+        CHECK(triangles_of(document, last) <= 36);
+        std::size_t impostors = 0;
+        for (std::size_t i = 0; i <= last; ++i) {
+            const auto& primitives = document["meshes"][i]["primitives"];
+            const auto& material =
+                document["materials"][primitives[0]["material"].get<std::size_t>()];
+            if (material["name"].get<std::string>().rfind("impostor", 0) != 0) {
+                CHECK(impostors == 0);
+                continue;
+            }
+            ++impostors;
+            CHECK(primitives.size() == 1);
+            CHECK(triangles_of(document, i) <= 225);
+            CHECK(material["alphaMode"] == "MASK");
+            CHECK(material["doubleSided"] == true);
+            CHECK(material["pbrMetallicRoughness"].contains("baseColorTexture"));
+            CHECK(material.contains("normalTexture"));
+        }
+        CHECK(impostors >= 2);
+        // Pictures that levels share are there once: bark and its normals, the leaf. An impostor
+        // has its own and normals. Equal materials are one.
+        CHECK(document["images"].size() == 3 + 2 * impostors);
         const std::size_t materials = document["materials"].size();
         for (std::size_t i = 0; i < materials; ++i) {
             for (std::size_t k = 0; k < i; ++k) {

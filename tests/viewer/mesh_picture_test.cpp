@@ -105,7 +105,7 @@ TEST_CASE("files that a mesh asks for are recorded, so that they can be watched"
     ViewOptions options;
     options.file = card.folder / "plant.lsys";
     std::vector<std::string> files;
-    const Project project{record_files(make_file_host(nullptr), files), {}, 1, false};
+    const Project project{record_files(make_file_host(nullptr), files), {}, 1, {}};
     REQUIRE(make_plant_document(options, project));
     for (const char* const name : {"card.obj", "card.mtl", "a card.png"}) {
         CHECK(std::find(files.begin(), files.end(), card.folder / name) != files.end());

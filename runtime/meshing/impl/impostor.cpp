@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -21,10 +22,12 @@ namespace {
 constexpr int kMinTile = 16; // texels of a side of a picture
 constexpr int kMaxTile = 128;
 constexpr float kTexelsPerPixel = 1.3F; // at most, where an impostor is shown first
-constexpr int kSide = 512;              // samples of a side of a picture
-constexpr int kColumns = 2;             // of pictures in the atlas
+constexpr int kMinSide = 256;           // samples of a side of a picture
+constexpr int kMaxSide = 512;
+constexpr int kSamplesPerTexel = 8; // along each side, else
 constexpr int kOpaqueByte = 128;
 constexpr float kHalfRoot3 = 0.8660254F;
+constexpr float kNothing = -std::numeric_limits<float>::infinity(); // depth of samples without it
 
 struct Axes {
     glm::vec3 right;
@@ -40,6 +43,11 @@ const std::array<Axes, 4> kAxes{{
 
 std::uint8_t unit_byte(float value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+/// Samples of a side of a picture.
+int samples_of(int tile) {
+    return std::clamp(kSamplesPerTexel * tile, kMinSide, kMaxSide);
 }
 
 /// Texels around the plant in a picture.
@@ -75,75 +83,138 @@ void dilate(int side, std::vector<std::uint8_t> known, const Copy& copy) {
     }
 }
 
-/// The corners of the smallest octagon around the marked texels, counter-clockwise, in texels; empty
-/// if there are none.
-std::vector<glm::vec2> octagon(int side, const std::vector<std::uint8_t>& marked) {
-    const auto columns = static_cast<std::size_t>(side);
-    const auto tile = static_cast<float>(side);
-    float left = tile;
+/// What a row of marked texels spans, in texels.
+struct Span {
+    float left = 0.0F;
     float right = 0.0F;
-    float top = tile;
-    float bottom = 0.0F;
-    float low_sum = 2.0F * tile;
-    float high_sum = 0.0F;
-    float low_difference = tile;
-    float high_difference = -tile;
-    for (std::size_t i = 0; i < marked.size(); ++i) {
-        if (marked[i] == 0) {
-            continue;
+
+    [[nodiscard]] bool is_empty() const { return !(left < right); }
+    void add(const Span& other) {
+        if (!other.is_empty()) {
+            left = is_empty() ? other.left : std::min(left, other.left);
+            right = is_empty() ? other.right : std::max(right, other.right);
         }
-        const auto x = static_cast<float>(i % columns);
-        const auto y = static_cast<float>(i / columns);
-        left = std::min(left, x);
-        right = std::max(right, x + 1.0F);
-        top = std::min(top, y);
-        bottom = std::max(bottom, y + 1.0F);
-        low_sum = std::min(low_sum, x + y);
-        high_sum = std::max(high_sum, x + y + 2.0F);
-        low_difference = std::min(low_difference, x - y - 1.0F);
-        high_difference = std::max(high_difference, x + 1.0F - y);
     }
-    if (!(left < right)) {
+};
+
+/// A strip of `count` trapezoids around the marked texels, in texels: pairs of a left and a right
+/// corner, from above. Empty if no texel is marked.
+std::vector<glm::vec2>
+strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t count) {
+    const auto columns = static_cast<std::size_t>(side);
+    std::vector<Span> rows(columns);
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        if (marked[i] != 0) {
+            const auto x = static_cast<float>(i % columns);
+            rows[i / columns].add({x, x + 1.0F});
+        }
+    }
+    std::size_t top = 0;
+    std::size_t bottom = columns;
+    while (top < bottom && rows[top].is_empty()) {
+        ++top;
+    }
+    while (bottom > top && rows[bottom - 1].is_empty()) {
+        --bottom;
+    }
+    if (top == bottom) {
         return {};
     }
-    std::vector<glm::vec2> corners{{low_difference + bottom, bottom},
-                                   {high_sum - bottom, bottom},
-                                   {right, high_sum - right},
-                                   {right, right - high_difference},
-                                   {high_difference + top, top},
-                                   {low_sum - top, top},
-                                   {left, low_sum - left},
-                                   {left, left - low_difference}};
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    if (corners.size() > 1 && corners.front() == corners.back()) {
-        corners.pop_back();
+    // Both corners between two trapezoids are as far out as either of them needs.
+    const float height = static_cast<float>(bottom - top) / static_cast<float>(count);
+    const auto row_at = [&](std::size_t k) {
+        return static_cast<float>(top) + static_cast<float>(k) * height;
+    };
+    std::vector<Span> ends(count + 1);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto end = std::min(static_cast<std::size_t>(row_at(k + 1) + 0.999F), bottom);
+        Span all;
+        for (auto row = static_cast<std::size_t>(row_at(k)); row < end; ++row) {
+            all.add(rows[row]);
+        }
+        ends[k].add(all);
+        ends[k + 1].add(all);
+    }
+    std::vector<glm::vec2> corners;
+    for (std::size_t k = 0; k <= count; ++k) {
+        // Where several trapezoids show nothing, they are as narrow as can be.
+        const Span before = k > 0 ? Span{corners[2 * k - 2].x, corners[2 * k - 1].x} : Span{};
+        const float middle = 0.5F * (before.left + before.right);
+        const Span own = ends[k].is_empty() ? Span{middle - 0.5F, middle + 0.5F} : ends[k];
+        corners.emplace_back(own.left, row_at(k));
+        corners.emplace_back(own.right, row_at(k));
     }
     return corners;
 }
 
+/// Numbers of trapezoids of cards that show the given numbers of texels: `all` together, as equal
+/// as can be; where there are fewer than cards, those with most texels have one each.
+std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, std::size_t all) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        if (areas[i] > 0) {
+            order.push_back(i);
+        }
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tie(areas[b], a) < std::tie(areas[a], b);
+    });
+    std::vector<std::size_t> counts(areas.size(), 0);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        counts[order[k]] = all / order.size() + (k < all % order.size() ? 1 : 0);
+    }
+    return counts;
+}
+
 } // namespace
 
-ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels) : tile_(kMinTile) {
+/// What a sample shows: a place in a triangle.
+struct ImpostorBaker::Fragment {
+    std::uint64_t first_index = 0;
+    std::uint32_t part = 0;
+    float u = 0.0F; // weights of its first two corners
+    float v = 0.0F;
+};
+
+/// Room for one picture after the other.
+struct ImpostorBaker::Canvas {
+    DepthBuffer buffer;
+    std::vector<Fragment> fragments; // of samples with a depth
+    std::vector<glm::vec3> along;    // positions along the axes of the view
+    LargeVector<std::uint32_t> indices;
+    LinearTextures textures;
+
+    explicit Canvas(int side) : buffer(side, side), fragments(buffer.depths.size()) {}
+};
+
+ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles)
+    : tile_(kMinTile), slabs_(triangles < kTrianglesOfSlabs ? 1 : 3), columns_(slabs_ == 1 ? 2 : 4),
+      triangles_(triangles) {
     while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kTexelsPerPixel * pixels) {
         tile_ *= 2;
     }
-    LinearTextures textures;
+    Canvas canvas(samples_of(tile_));
+    canvas.indices = mesh.indices.expanded();
     for (const Axes& axes : kAxes) {
-        View& view = views_.emplace_back();
-        view.right = axes.right;
-        view.up = axes.up;
-        view.towards = axes.towards;
-        take(mesh, textures, view);
+        canvas.along.clear();
+        for (const glm::vec3& at : mesh.positions) {
+            canvas.along.emplace_back(glm::dot(at, axes.right), glm::dot(at, axes.up),
+                                      glm::dot(at, axes.towards));
+        }
+        for (int slab = 0; slab < slabs_; ++slab) {
+            View& view = views_.emplace_back();
+            view.right = axes.right;
+            view.up = axes.up;
+            view.towards = axes.towards;
+            take(mesh, slab, canvas, view);
+        }
     }
 }
 
-void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view) const {
-    const auto along = [&view](const glm::vec3& v) {
-        return glm::vec3(glm::dot(v, view.right), glm::dot(v, view.up), glm::dot(v, view.towards));
-    };
+void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view) const {
     Bounds bounds;
-    for (const glm::vec3& position : mesh.positions) {
-        bounds.add(along(position));
+    for (const glm::vec3& at : canvas.along) {
+        bounds.add(at);
     }
     // A flat plant has cards of some width and depth too.
     const glm::vec3 size = bounds.high - bounds.low;
@@ -155,53 +226,62 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
         glm::vec3(glm::vec2(tile / static_cast<float>(tile_ - 2 * margin_of(tile_))), 1.0F);
     view.low = middle - half;
     view.high = middle + half;
+    const float thickness = 2.0F * half.z / static_cast<float>(slabs_);
+    view.low.z += static_cast<float>(slab) * thickness;
+    view.high.z = view.low.z + thickness;
+    // Whether depths from `low` to `high` reach into the slab; the outermost parts of the plant do.
+    const auto is_here = [&](float high, float low) {
+        return (high >= 0.0F || slab == 0) && (low < 1.0F || slab + 1 == slabs_);
+    };
 
-    DepthBuffer buffer(kSide, kSide);
-    std::vector<glm::vec3> colours(buffer.depths.size());
-    std::vector<glm::vec3> normals(buffer.depths.size());
-    const glm::vec3 scale = glm::vec3(glm::vec2(kSide), 1.0F) / (2.0F * half);
-    TriangleReader indices(mesh.indices);
-    for (const MeshPart& part : mesh.parts) {
+    DepthBuffer& buffer = canvas.buffer;
+    std::fill(buffer.depths.begin(), buffer.depths.end(), kNothing);
+    const auto side = static_cast<float>(buffer.width);
+    const glm::vec3 scale =
+        glm::vec3(side, side, 1.0F) / glm::vec3(2.0F * glm::vec2(half), thickness);
+    const auto place = [&](std::uint32_t vertex) {
+        const glm::vec3& at = canvas.along[vertex];
+        return glm::vec3((at.x - view.low.x) * scale.x, (view.high.y - at.y) * scale.y,
+                         (at.z - view.low.z) * scale.z);
+    };
+    const auto corners_of = [&](std::uint64_t first) {
+        return std::array<std::uint32_t, 3>{canvas.indices[first], canvas.indices[first + 1],
+                                            canvas.indices[first + 2]};
+    };
+    const auto coordinates = [&](const std::array<std::uint32_t, 3>& corners, const glm::vec3& w) {
+        return w.x * mesh.texture_coordinates[corners[0]] +
+               w.y * mesh.texture_coordinates[corners[1]] +
+               w.z * mesh.texture_coordinates[corners[2]];
+    };
+    for (std::uint32_t number = 0; number < mesh.parts.size(); ++number) {
+        const MeshPart& part = mesh.parts[number];
         const Material& material = mesh.materials[part.material];
-        const LinearTexture& texture = textures.of(material);
-        const bool has_palette =
-            mesh.colours.size() == mesh.positions.size() && material.picture == nullptr;
+        const LinearTexture& texture = canvas.textures.of(material);
+        const bool has_holes = material.cut_out && !texture.texels.empty();
         for (std::uint64_t i = 0; i + 2 < part.index_count; i += 3) {
             const std::uint64_t first = part.first_index + i;
-            const std::array<std::uint32_t, 3> corners{indices[first], indices[first + 1],
-                                                       indices[first + 2]};
-            std::array<glm::vec3, 3> places;
-            std::array<glm::vec3, 3> tints;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const glm::vec3 at = along(mesh.positions[corners[k]]);
-                places[k] = glm::vec3((at.x - view.low.x) * scale.x, (view.high.y - at.y) * scale.y,
-                                      (at.z - view.low.z) * scale.z);
-                tints[k] = has_palette ? palette_colour(mesh.colours[corners[k]])
-                                       : glm::vec3(material.colour);
+            const std::array<std::uint32_t, 3> corners = corners_of(first);
+            const std::array<glm::vec3, 3> at{place(corners[0]), place(corners[1]),
+                                              place(corners[2])};
+            if (!is_here(std::max({at[0].z, at[1].z, at[2].z}),
+                         std::min({at[0].z, at[1].z, at[2].z}))) {
+                continue;
             }
-            raster_triangle(places, buffer, [&](std::size_t pixel, const glm::vec3& w) {
-                glm::vec4 texel(1.0F);
-                if (!texture.texels.empty()) {
-                    texel = texture.at(w.x * mesh.texture_coordinates[corners[0]] +
-                                       w.y * mesh.texture_coordinates[corners[1]] +
-                                       w.z * mesh.texture_coordinates[corners[2]]);
-                }
-                if (material.cut_out && texel.a == 0.0F) {
+            raster_triangle(at, buffer, [&](std::size_t pixel, const glm::vec3& w) {
+                const float depth = w.x * at[0].z + w.y * at[1].z + w.z * at[2].z;
+                if (!is_here(depth, depth) ||
+                    (has_holes && !texture.is_opaque(coordinates(corners, w)))) {
                     return false;
                 }
-                colours[pixel] =
-                    (w.x * tints[0] + w.y * tints[1] + w.z * tints[2]) * glm::vec3(texel);
-                const glm::vec3 normal =
-                    along(w.x * mesh.normals[corners[0]] + w.y * mesh.normals[corners[1]] +
-                          w.z * mesh.normals[corners[2]]);
-                normals[pixel] = normal.z < 0.0F ? -normal : normal;
+                canvas.fragments[pixel] = {first, number, w.x, w.y};
                 return true;
             });
         }
     }
 
     const auto columns = static_cast<std::size_t>(tile_);
-    const std::size_t samples = kSide / columns; // of a texel, along each side
+    const auto width = static_cast<std::size_t>(buffer.width);
+    const std::size_t samples = width / columns; // along each side
     view.coverage.resize(texels());
     view.colours.resize(texels());
     view.normals.resize(texels());
@@ -211,13 +291,33 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
         for (std::size_t sample = 0; sample < samples * samples; ++sample) {
             const std::size_t x = texel % columns * samples + sample % samples;
             const std::size_t y = texel / columns * samples + sample / samples;
-            const std::size_t pixel = y * kSide + x;
-            if (buffer.depths[pixel] >= 0.0F) {
-                count += 1.0F;
-                view.colours[texel] += colours[pixel];
-                view.normals[texel] += normals[pixel];
-                view.depths[texel] += buffer.depths[pixel];
+            const std::size_t pixel = y * width + x;
+            if (buffer.depths[pixel] == kNothing) {
+                continue;
             }
+            const Fragment& fragment = canvas.fragments[pixel];
+            const std::array<std::uint32_t, 3> corners = corners_of(fragment.first_index);
+            const glm::vec3 w(fragment.u, fragment.v, 1.0F - fragment.u - fragment.v);
+            const Material& material = mesh.materials[mesh.parts[fragment.part].material];
+            const LinearTexture& texture = canvas.textures.of(material);
+            glm::vec3 colour(material.colour);
+            if (mesh.colours.size() == mesh.positions.size() && material.picture == nullptr) {
+                colour = w.x * palette_colour(mesh.colours[corners[0]]) +
+                         w.y * palette_colour(mesh.colours[corners[1]]) +
+                         w.z * palette_colour(mesh.colours[corners[2]]);
+            }
+            if (!texture.texels.empty()) {
+                colour *= glm::vec3(texture.at(coordinates(corners, w)));
+            }
+            const glm::vec3 normal = w.x * mesh.normals[corners[0]] +
+                                     w.y * mesh.normals[corners[1]] +
+                                     w.z * mesh.normals[corners[2]];
+            const glm::vec3 own(glm::dot(normal, view.right), glm::dot(normal, view.up),
+                                glm::dot(normal, view.towards));
+            count += 1.0F;
+            view.colours[texel] += colour;
+            view.normals[texel] += own.z < 0.0F ? -own : own;
+            view.depths[texel] += buffer.depths[pixel];
         }
         view.coverage[texel] = count / static_cast<float>(samples * samples);
         if (count > 0.0F) {
@@ -230,13 +330,12 @@ void ImpostorBaker::take(const Mesh& mesh, LinearTextures& textures, View& view)
     }
 }
 
-void ImpostorBaker::paint(const View& view,
-                          std::size_t tile,
-                          double cover,
-                          const glm::vec3& tint,
-                          Texture& colour,
-                          Texture& relief,
-                          std::vector<glm::vec2>& outline) const {
+std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
+                                               std::size_t tile,
+                                               double cover,
+                                               const glm::vec3& tint,
+                                               Texture& colour,
+                                               Texture& relief) const {
     std::vector<std::uint32_t> order; // of opaque texels
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
@@ -271,8 +370,8 @@ void ImpostorBaker::paint(const View& view,
     const std::size_t width = colour.width;
     const auto columns = static_cast<std::size_t>(tile_);
     const auto place = [&](std::size_t i) {
-        const std::size_t x = tile % kColumns * columns + i % columns;
-        const std::size_t y = tile / kColumns * columns + i / columns;
+        const std::size_t x = tile % columns_ * columns + i % columns;
+        const std::size_t y = tile / columns_ * columns + i / columns;
         return 4 * (y * width + x);
     };
     for (std::size_t i = 0; i < texels(); ++i) {
@@ -290,31 +389,40 @@ void ImpostorBaker::paint(const View& view,
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);
         relief.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);
     }
-    outline = octagon(tile_, opaque);
     dilate(tile_, opaque, [&](std::size_t from, std::size_t to) {
         std::copy_n(colour.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 3,
                     colour.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
         std::copy_n(relief.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 4,
                     relief.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
     });
+    return opaque;
 }
 
 Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
-    const std::size_t rows = (views_.size() + kColumns - 1) / kColumns;
+    const std::size_t rows = views_.size() / columns_;
     Texture colour;
-    colour.width = static_cast<std::uint32_t>(kColumns * tile_);
+    colour.width = static_cast<std::uint32_t>(columns_) * static_cast<std::uint32_t>(tile_);
     colour.height = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(tile_);
     colour.texels.resize(std::size_t{4} * colour.width * colour.height);
     Texture relief = colour;
     Mesh mesh;
     LargeVector<std::uint32_t> indices;
+    std::vector<std::vector<std::uint8_t>> opaque;
+    std::vector<std::size_t> areas;
     for (std::size_t tile = 0; tile < views_.size(); ++tile) {
+        opaque.push_back(paint(views_[tile], tile, cover, tint, colour, relief));
+        areas.push_back(static_cast<std::size_t>(
+            std::count(opaque.back().begin(), opaque.back().end(), std::uint8_t{1})));
+    }
+    const std::vector<std::size_t> trapezoids = trapezoids_of(areas, triangles_ / 2);
+    for (std::size_t tile = 0; tile < views_.size(); ++tile) {
+        if (trapezoids[tile] == 0) {
+            continue;
+        }
         const View& view = views_[tile];
-        std::vector<glm::vec2> outline;
-        paint(view, tile, cover, tint, colour, relief, outline);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         const float depth = 0.5F * (view.low.z + view.high.z);
-        for (const glm::vec2& corner : outline) {
+        for (const glm::vec2& corner : strip_around(tile_, opaque[tile], trapezoids[tile])) {
             const glm::vec2 part = corner / static_cast<float>(tile_);
             const float x = view.low.x + part.x * (view.high.x - view.low.x);
             const float y = view.high.y - part.y * (view.high.y - view.low.y);
@@ -322,11 +430,12 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
             mesh.normals.push_back(view.towards);
             mesh.tangents.push_back(glm::vec4(view.right, 1.0F));
             mesh.texture_coordinates.push_back(
-                (part + glm::vec2(tile % kColumns, tile / kColumns)) / glm::vec2(kColumns, rows));
+                (part + glm::vec2(tile % columns_, tile / columns_)) / glm::vec2(columns_, rows));
         }
-        for (std::uint32_t k = 2; k < outline.size(); ++k) {
-            for (const std::uint32_t corner : {0U, k - 1, k}) {
-                indices.push_back(first + corner);
+        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) { // left and right, above and below
+            const std::uint32_t corner = first + 2 * k;
+            for (const std::uint32_t to : {0U, 2U, 1U, 1U, 2U, 3U}) {
+                indices.push_back(corner + to);
             }
         }
     }

@@ -53,12 +53,11 @@ const Transfer& transfer() {
 
 LinearTexture linear_texture(const Texture& texture) {
     LinearTexture result{texture.width, texture.height, {}, {}};
-    const std::array<float, 256>& linear = transfer().linear;
     for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
-        result.texels.emplace_back(linear[texture.texels[i]], linear[texture.texels[i + 1]],
-                                   linear[texture.texels[i + 2]],
-                                   texture.texels[i + 3] >= kHalfOpaque ? 1.0F : 0.0F);
-        result.opaque.push_back(texture.texels[i + 3] >= kHalfOpaque ? 1 : 0);
+        const bool is_opaque = texture.texels[i + 3] >= kHalfOpaque;
+        result.texels.push_back({texture.texels[i], texture.texels[i + 1], texture.texels[i + 2],
+                                 static_cast<std::uint8_t>(is_opaque ? 255 : 0)});
+        result.opaque.push_back(is_opaque ? 1 : 0);
     }
     return result;
 }
@@ -66,7 +65,13 @@ LinearTexture linear_texture(const Texture& texture) {
 } // namespace
 
 glm::vec4 LinearTexture::at(const glm::vec2& place) const {
-    return texels.empty() ? glm::vec4(1.0F) : texels[texel_number(place.x, place.y, width, height)];
+    if (texels.empty()) {
+        return glm::vec4(1.0F);
+    }
+    const std::array<std::uint8_t, 4>& texel =
+        texels[texel_number(place.x, place.y, width, height)];
+    const std::array<float, 256>& linear = transfer().linear;
+    return {linear[texel[0]], linear[texel[1]], linear[texel[2]], texel[3] != 0 ? 1.0F : 0.0F};
 }
 
 bool LinearTexture::is_opaque(const glm::vec2& place) const {

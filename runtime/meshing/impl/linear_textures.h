@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,9 +18,10 @@ namespace lsys {
 struct LinearTexture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<glm::vec4> texels;    // opacity 0 or 1; empty: white
-    std::vector<std::uint8_t> opaque; // opacities alone, which take less of a cache
+    std::vector<std::array<std::uint8_t, 4>> texels; // sRGB, opacity 0 or 255; empty: white
+    std::vector<std::uint8_t> opaque;                // opacities alone, which take less of a cache
 
+    /// Linear colour and opacity, 0 or 1.
     [[nodiscard]] glm::vec4 at(const glm::vec2& place) const;
     [[nodiscard]] bool is_opaque(const glm::vec2& place) const;
 };

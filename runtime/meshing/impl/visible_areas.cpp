@@ -41,6 +41,7 @@ constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}
 
 constexpr std::uint32_t kRowBits = 0xFFFF; // of the number of a cell
 constexpr std::size_t kViews = kTurns.size() * kTilts.size();
+constexpr std::size_t kThird = 3; // level and from above by turns, too
 
 /// A part of a mesh as it is drawn.
 struct Surface {
@@ -193,6 +194,14 @@ glm::vec2 offset_of(std::uint64_t view) {
     return at - glm::floor(at);
 }
 
+VisibleAreas sum_of(const std::vector<VisibleAreas>& each) {
+    VisibleAreas sum;
+    for (const VisibleAreas& areas : each) {
+        sum.add(areas);
+    }
+    return sum;
+}
+
 } // namespace
 
 AreaMeter::AreaMeter(const Mesh& wood,
@@ -200,34 +209,43 @@ AreaMeter::AreaMeter(const Mesh& wood,
                      const Bounds& frame,
                      std::uint32_t threads)
     : frame_(frame), size_(kFirstSize), workers_(threads) {
-    const double covered = measure(wood, foliage, kFirstViews).all() / kFirstViews;
+    const double covered = sum_of(measure_views(wood, foliage, kFirstViews, 1)).all() / kFirstViews;
     const double factor = std::sqrt(kWantedPixels / std::max(covered, 1.0));
     size_ = static_cast<int>(std::clamp(factor * kFirstSize, double{kMinSize}, double{kMaxSize}));
 }
 
-VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage) {
-    return measure(wood, foliage, kViews);
+VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, VisibleAreas* third) {
+    const std::vector<VisibleAreas> each = measure_views(wood, foliage, kViews, 1);
+    if (third != nullptr) {
+        *third = {};
+        for (std::size_t i = 0; i < each.size(); i += kThird) {
+            third->add(each[i]);
+        }
+    }
+    return sum_of(each);
 }
 
-VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, std::size_t views) {
+VisibleAreas AreaMeter::measure_third(const Mesh& wood, const Mesh& foliage) {
+    return sum_of(measure_views(wood, foliage, kViews / kThird, kThird));
+}
+
+std::vector<VisibleAreas> AreaMeter::measure_views(const Mesh& wood,
+                                                   const Mesh& foliage,
+                                                   std::size_t count,
+                                                   std::size_t step) {
     const std::array<DrawnMesh, 2> meshes{DrawnMesh(wood, true, textures_),
                                           DrawnMesh(foliage, false, textures_)};
-    std::array<VisibleAreas, kViews> each;
-    workers_.for_each(views, [&](std::uint64_t number) {
+    std::vector<VisibleAreas> each(count);
+    workers_.for_each(count, [&](std::uint64_t i) {
+        const std::uint64_t number = step * i;
         View view(frame_, kTurns[number / kTilts.size()], kTilts[number % kTilts.size()],
                   offset_of(number), size_);
         for (const DrawnMesh& drawn : meshes) {
             view.draw(drawn);
         }
-        each[number] = view.areas();
+        each[i] = view.areas();
     });
-    VisibleAreas areas;
-    for (std::size_t i = 0; i < views; ++i) {
-        areas.wood += each[i].wood;
-        areas.foliage += each[i].foliage;
-        areas.colour += each[i].colour;
-    }
-    return areas;
+    return each;
 }
 
 } // namespace lsys

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace lsys {
 
@@ -22,6 +23,11 @@ struct VisibleAreas {
         return all() > 0.0 ? colour / all() : glm::dvec3(0.0);
     }
     [[nodiscard]] double all() const { return wood + foliage; }
+    void add(const VisibleAreas& other) {
+        wood += other.wood;
+        foliage += other.foliage;
+        colour += other.colour;
+    }
 };
 
 /// Measures meshes in square views of one frame from twelve sides, each level with the plant and
@@ -34,10 +40,16 @@ public:
 
     /// Draws both meshes by pixel centres, with the opacity of pictures and the colours of
     /// materials. The result is the same on every machine and for every number of threads.
-    [[nodiscard]] VisibleAreas measure(const Mesh& wood, const Mesh& foliage);
+    /// `third`, if given, gets measure_third().
+    [[nodiscard]] VisibleAreas
+    measure(const Mesh& wood, const Mesh& foliage, VisibleAreas* third = nullptr);
+    /// The same in every third view alone.
+    [[nodiscard]] VisibleAreas measure_third(const Mesh& wood, const Mesh& foliage);
 
 private:
-    VisibleAreas measure(const Mesh& wood, const Mesh& foliage, std::size_t views);
+    /// Areas in `count` views, `step` apart.
+    std::vector<VisibleAreas>
+    measure_views(const Mesh& wood, const Mesh& foliage, std::size_t count, std::size_t step);
 
     Bounds frame_;
     int size_; // pixels of a side
