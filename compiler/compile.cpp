@@ -23,7 +23,7 @@ CompileOutcome compile(Ast ast,
     if (program.complete && options.lower) {
         outcome.bytecode = lower(program, names, sources);
         if (!outcome.bytecode) {
-            diagnostics.add(DiagnosticCode::ProgramTooLarge, program.axiom.span,
+            diagnostics.add(DiagnosticCode::ProgramTooLarge, program.axiom_span(),
                             "this grammar has more parameters or constants than can be numbered");
         }
         LSYS_DCHECK(!outcome.bytecode || !verify(*outcome.bytecode));
@@ -31,7 +31,7 @@ CompileOutcome compile(Ast ast,
     const Bytecode* bytecode = outcome.bytecode ? &*outcome.bytecode : nullptr;
     run_checks({program, bytecode, names, sources, options}, diagnostics);
 
-    if (diagnostics.has_errors()) {
+    if (diagnostics.has_errors() || options.part) {
         outcome.bytecode.reset();
     } else {
         outcome.program = std::move(program);

@@ -58,6 +58,12 @@ public:
             row(*this, each);
         }
     }
+    template <typename Row, typename Function>
+    void rare_table(const std::vector<Row>& rows, Function row) {
+        if (!rows.empty()) {
+            table(rows, row);
+        }
+    }
     void codes(const std::vector<Code>& codes, std::uint32_t /*width*/) {
         table(codes, [](Digest& digest, const Code& code) { digest.number(code); });
     }
@@ -117,9 +123,17 @@ std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
     return after == bytecode.site_ranges.begin() ? kNone : (after - 1)->site;
 }
 
+const BytecodeAxiom* axiom_with(const Bytecode& bytecode, std::uint32_t index) {
+    const auto found = std::find_if(
+        bytecode.axioms.begin(), bytecode.axioms.end(), [index](const BytecodeAxiom& axiom) {
+            return index - axiom.word.codes.first < axiom.word.codes.count;
+        });
+    return found == bytecode.axioms.end() ? nullptr : &*found;
+}
+
 ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     LSYS_CHECK(index < bytecode.template_codes.size(), index);
-    if (index - bytecode.axiom.codes.first < bytecode.axiom.codes.count) {
+    if (axiom_with(bytecode, index) != nullptr) {
         return kNoProduction;
     }
     // If several productions begin there, only the last has a successor with modules.
@@ -130,10 +144,11 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
 }
 
 std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index) {
-    const ProductionId writer = writer_of(bytecode, index);
+    const BytecodeAxiom* const axiom = axiom_with(bytecode, index);
     const std::uint32_t site =
-        writer == kNoProduction ? bytecode.axiom_site
-                                : bytecode.productions[static_cast<std::size_t>(writer)].name_site;
+        axiom != nullptr
+            ? axiom->site
+            : bytecode.productions[static_cast<std::size_t>(writer_of(bytecode, index))].name_site;
     const auto after =
         std::upper_bound(bytecode.template_places.begin(), bytecode.template_places.end(), index,
                          [](std::uint32_t at, const PlaceRun& run) { return at < run.first; });

@@ -18,6 +18,7 @@
 //   template_places of the modules of template_codes, or empty: the places are unknown
 #pragma once
 
+#include "compiler/bytecode/curve.h"
 #include "compiler/bytecode/settings.h"
 #include "compiler/bytecode/turtle_operation.h"
 #include "grammar/base/counted_enum.h"
@@ -46,6 +47,7 @@ enum class OperandKind : std::uint8_t {
     Branch,
     Local,
     Skip,
+    Curve,
 };
 
 struct OpcodeInfo {
@@ -170,8 +172,18 @@ struct BytecodeProduction {
     std::uint32_t formal_count = 0;
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
     bool stochastic = false;
-    float weight = 0.0F; // as written after `~`, if stochastic
+    float weight = 0.0F; // as written after `~`, if stochastic and a constant
+    /// First instruction of a weight that is no constant, a piece of code like a condition; or kNone.
+    std::uint32_t weight_code = kNone;
     WordTemplate successor;
+};
+
+/// An axiom. A derivation begins with one of them, by chance if there are several.
+struct BytecodeAxiom {
+    WordTemplate word;
+    std::uint32_t site = kNone;
+    std::uint32_t draw_position = 0; // index of its first range, as BytecodeGlobal::draw_position
+    float weight = 1.0F;             // as written after `~`
 };
 
 /// A constant that is drawn when the derivation starts.
@@ -185,6 +197,12 @@ struct BytecodeGlobal {
     float minimum = 0.0F;
     float maximum = 0.0F;
     std::uint32_t site = kNone;
+};
+
+/// `#curve`. The slopes of the points are set.
+struct BytecodeCurve {
+    std::string name;
+    std::vector<CurveKnot> points;
 };
 
 struct Bytecode {
@@ -205,12 +223,11 @@ struct Bytecode {
     std::vector<BytecodeProduction> productions; // by stage, then in file order
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
-    WordTemplate axiom;
-    std::uint32_t axiom_site = kNone;
-    std::uint32_t axiom_draw_position = 0; // index of the axiom's first range, as draw_position
-    bool uses_steps = false;               // some expression calls steps()
-    std::uint32_t stack_depth = 0;         // the deepest stack of any code
-    std::uint32_t local_count = 0;         // the most slots of any code
+    std::vector<BytecodeAxiom> axioms; // in file order, at least one
+    bool uses_steps = false;           // some expression calls steps()
+    std::vector<BytecodeCurve> curves;
+    std::uint32_t stack_depth = 0; // the deepest stack of any code
+    std::uint32_t local_count = 0; // the most slots of any code
 
     /// The productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;
@@ -245,7 +262,9 @@ struct Bytecode {
 /// The site that an instruction comes from, or kNone.
 [[nodiscard]] std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction);
 
-/// The production whose successor holds template_codes[index]; kNoProduction for the axiom.
+/// The axiom that holds template_codes[index], or nullptr.
+[[nodiscard]] const BytecodeAxiom* axiom_with(const Bytecode& bytecode, std::uint32_t index);
+/// The production whose successor holds template_codes[index]; kNoProduction for an axiom.
 /// Precondition: index < template_codes.size().
 [[nodiscard]] ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index);
 /// The place of the module of template_codes[index] with its arguments, if known.

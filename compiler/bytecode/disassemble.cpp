@@ -23,8 +23,12 @@ public:
         for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
             global(i);
         }
-        line("\naxiom{}", at_site(bytecode_.axiom_site));
-        word(bytecode_.axiom);
+        for (const BytecodeAxiom& axiom : bytecode_.axioms) {
+            line("\naxiom{}{}",
+                 bytecode_.axioms.size() > 1 ? ", probability " + real(axiom.weight) : "",
+                 at_site(axiom.site));
+            word(axiom.word);
+        }
         for (std::size_t i = 0; i < bytecode_.productions.size(); ++i) {
             production(i);
         }
@@ -120,10 +124,17 @@ private:
         line("\nproduction {} {}: {}{}", index, p.name, head, at_site(p.name_site));
         line("  {}rule {}, group {}{}",
              p.stage == Stage::Rewrite ? "" : std::string(keyword_of(p.stage)) + ", ", p.rule,
-             p.group, p.stochastic ? ", probability " + real(p.weight) : "");
+             p.group,
+             !p.stochastic            ? ""
+             : p.weight_code != kNone ? ", computed weight"
+                                      : ", probability " + real(p.weight));
         if (p.condition != kNone) {
             line("  condition");
             code(p.condition);
+        }
+        if (p.weight_code != kNone) {
+            line("  weight");
+            code(p.weight_code);
         }
         line("  successor");
         word(p.successor);
@@ -183,6 +194,9 @@ private:
                 break;
             case OperandKind::Global:
                 text += ' ' + bytecode_.globals[each.operand].name;
+                break;
+            case OperandKind::Curve:
+                text += ' ' + bytecode_.curves[each.operand].name;
                 break;
             case OperandKind::Skip:
                 text += fmt::format(" to {}", each.at + each.operand + 1);

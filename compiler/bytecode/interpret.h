@@ -10,8 +10,10 @@
 //   Value formal(i), global(i), step(), steps(), branch_draw(i)
 //   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
 //   Value binary(opcode, x, y)      every one that takes two
+//   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
-//   bool range(x, y, i, at)         replace x by random range i of [x, y): whether to go on
+//   bool draw(opcode, x, y, i, at)  replace x by draw i of a range [x, y) or a distribution with
+//                                   these arguments: whether to go on
 //   bool take(x, at)                Emit or Test took x: whether to go on
 //   kKnowsChoices, and then         whether it knows each condition of a choice:
 //     bool holds(x)                 it does, and only one side is run
@@ -46,10 +48,14 @@ struct UnknownDomain {
     static Value branch_draw(std::uint32_t /*branch*/) { return {}; }
     static Value unary(Opcode /*opcode*/, const Value& /*x*/) { return {}; }
     static Value binary(Opcode /*opcode*/, const Value& /*x*/, const Value& /*y*/) { return {}; }
+    static Value curve(std::uint32_t /*index*/, const Value& /*x*/) { return {}; }
     static Value mix(const Value& /*x*/, const Value& /*y*/, const Value& /*t*/) { return {}; }
     static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
-    static bool
-    range(Value& x, const Value& /*y*/, std::uint32_t /*index*/, const std::uint32_t* /*at*/) {
+    static bool draw(Opcode /*opcode*/,
+                     Value& x,
+                     const Value& /*y*/,
+                     std::uint32_t /*index*/,
+                     const std::uint32_t* /*at*/) {
         x = {};
         return true;
     }
@@ -129,6 +135,9 @@ template <typename Domain>
         case Opcode::SetLocal:
             slots[operand] = std::move(*--top);
             break;
+        case Opcode::Curve:
+            top[-1] = domain.curve(operand, top[-1]);
+            break;
         case Opcode::Mix:
             top -= 2;
             top[-1] = domain.mix(top[-1], top[0], top[1]);
@@ -153,8 +162,15 @@ template <typename Domain>
             std::swap(top[-1], top[-2]);
             break;
         case Opcode::Range:
+        case Opcode::Normal:
+        case Opcode::Binomial:
             --top;
-            if (!domain.range(top[-1], top[0], operand, at)) {
+            if (!domain.draw(opcode, top[-1], top[0], operand, at)) {
+                return false;
+            }
+            break;
+        case Opcode::Poisson:
+            if (!domain.draw(opcode, top[-1], top[-1], operand, at)) {
                 return false;
             }
             break;

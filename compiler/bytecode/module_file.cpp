@@ -74,6 +74,10 @@ public:
             row(*this, each);
         }
     }
+    template <typename Row, typename Function>
+    void rare_table(const std::vector<Row>& rows, Function row) {
+        table(rows, row);
+    }
     void codes(const std::vector<Code>& codes, std::uint32_t width) {
         number(std::uint64_t{codes.size()});
         for (const Code code : codes) {
@@ -141,6 +145,10 @@ public:
         value = has ? std::optional(given) : std::nullopt;
     }
     /// Makes at most as many rows as the remaining bytes can hold.
+    template <typename Row, typename Function>
+    void rare_table(std::vector<Row>& rows, Function row) {
+        table(rows, row);
+    }
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
         std::string smallest; // a row with empty texts
@@ -268,6 +276,9 @@ Result<Bytecode> read_module_file(std::string_view bytes) {
     }
     if (const auto problem = verify(bytecode)) {
         return Error{"the file is malformed: " + *problem};
+    }
+    for (BytecodeCurve& curve : bytecode.curves) {
+        set_slopes(curve.points);
     }
     return bytecode;
 }

@@ -43,8 +43,8 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && symbols() && folded() && sites() && places() && globals() && axiom() &&
-            productions() && ends()) {
+        if (settings() && curves() && symbols() && folded() && sites() && places() && globals() &&
+            axioms() && productions() && ends()) {
             return std::nullopt;
         }
         return std::move(problem_);
@@ -83,6 +83,22 @@ private:
         }
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
+        }
+        return true;
+    }
+
+    bool curves() {
+        for (std::size_t i = 0; i < bytecode_.curves.size(); ++i) {
+            const std::vector<CurveKnot>& points = bytecode_.curves[i].points;
+            if (points.size() < 2 || !printable(bytecode_.curves[i].name)) {
+                return fail("curve {} has {} points", i, points.size());
+            }
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                if (!std::isfinite(points[k].x) || !std::isfinite(points[k].y) ||
+                    (k > 0 && !(points[k - 1].x < points[k].x))) {
+                    return fail("point {} of curve {} is out of place", k, i);
+                }
+            }
         }
         return true;
     }
@@ -227,17 +243,28 @@ private:
         return true;
     }
 
-    bool axiom() {
-        if (!site(bytecode_.axiom_site)) {
-            return fail("the axiom has no place");
+    bool axioms() {
+        if (bytecode_.axioms.empty()) {
+            return fail("there is no axiom");
         }
-        if (bytecode_.axiom.codes.count == 0) {
-            return fail("the axiom is empty");
+        for (const BytecodeAxiom& axiom : bytecode_.axioms) {
+            if (!site(axiom.site)) {
+                return fail("an axiom has no place");
+            }
+            if (axiom.word.codes.count == 0) {
+                return fail("an axiom is empty");
+            }
+            if (!(std::isfinite(axiom.weight) && axiom.weight > 0.0F)) {
+                return fail("an axiom has a probability of {}", axiom.weight);
+            }
+            if (!has_places(axiom.word, axiom.site)) {
+                return fail("the modules of an axiom have no places");
+            }
+            if (!word(CodePlace::Axiom, axiom.word, 0)) {
+                return false;
+            }
         }
-        if (!has_places(bytecode_.axiom, bytecode_.axiom_site)) {
-            return fail("the axiom's modules have no places");
-        }
-        return word(CodePlace::Axiom, bytecode_.axiom, 0);
+        return true;
     }
 
     bool productions() {
@@ -256,8 +283,11 @@ private:
                 (p.has_left || p.has_right || p.predecessor.count != 1)) {
                 return fail("production {} has more than one module", i);
             }
+            const bool is_computed =
+                p.weight_code != kNone && bytecode_.settings.weights == WeightRule::Any;
             const bool weight_fits =
-                p.stochastic
+                p.weight_code != kNone ? p.stochastic && p.weight == 0.0F && is_computed
+                : p.stochastic
                     ? std::isfinite(p.weight) && p.weight > 0.0F &&
                           (p.weight <= 1.0F || bytecode_.settings.weights == WeightRule::Any)
                     : p.weight == 0.0F;
@@ -271,6 +301,11 @@ private:
             begin_piece();
             if (p.condition != kNone &&
                 !code(CodePlace::Condition, p.condition, {.formals = p.formal_count})) {
+                return false;
+            }
+            begin_piece();
+            if (p.weight_code != kNone &&
+                !code(CodePlace::Condition, p.weight_code, {.formals = p.formal_count})) {
                 return false;
             }
             if (!word(CodePlace::Successor, p.successor, p.formal_count)) {
@@ -471,6 +506,9 @@ private:
                 break;
             case OperandKind::Local:
                 fits = operand < bytecode_.local_count && slot(opcode, operand);
+                break;
+            case OperandKind::Curve:
+                fits = operand < bytecode_.curves.size();
                 break;
             case OperandKind::Skip:
                 fits = true; // choice() checks it

@@ -70,9 +70,11 @@ void ProductionIndex::find_relevant() {
         }
     };
     for (const std::uint32_t p : by_symbol_.all()) {
-        const std::uint32_t condition = bytecode.productions[p].condition;
-        if (condition != kNone) {
-            depends_on_age_ |= scan(p, InstructionRange(bytecode.instructions, condition), mark);
+        const BytecodeProduction& production = bytecode.productions[p];
+        for (const std::uint32_t code : {production.condition, production.weight_code}) {
+            if (code != kNone) {
+                depends_on_age_ |= scan(p, InstructionRange(bytecode.instructions, code), mark);
+            }
         }
     }
     if (work.empty()) {

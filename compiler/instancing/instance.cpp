@@ -33,7 +33,7 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     instance_branches(program, *branches, rho);
     std::optional<Bytecode> bytecode = lower(program, names, sources);
     if (!bytecode) {
-        diagnostics.add(DiagnosticCode::NotInstanceable, program.axiom.span,
+        diagnostics.add(DiagnosticCode::NotInstanceable, program.axiom_span(),
                         "the instanced system is too large for its bytecode");
         return std::nullopt;
     }

@@ -31,6 +31,7 @@ constexpr ListedCheck kChecks[] = {
     {check_drawing, true},
     {check_undrawn_edges, true},
     {check_rolled_sides, true},
+    {check_endless_stages, true},
     {check_growth, true},
 };
 

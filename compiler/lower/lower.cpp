@@ -1,5 +1,6 @@
 #include "compiler/lower/lower.h"
 
+#include "compiler/bytecode/distributions.h"
 #include "compiler/bytecode/instructions.h"
 #include "compiler/lower/impl/code_emitter.h"
 #include "compiler/lower/impl/module_folder.h"
@@ -25,12 +26,19 @@ public:
         bytecode_.files = program_.files;
         bytecode_.rule_count = program_.rule_count;
         bytecode_.group_count = program_.group_count;
+        for (const Curve& curve : program_.curves) {
+            bytecode_.curves.push_back({std::string(names_.text(curve.name)), curve.points});
+        }
         symbols();
         globals();
         bytecode_.template_codes.reserve(program_.modules.size());
-        bytecode_.axiom = word(program_.axiom);
-        bytecode_.axiom_site = emitter_.add_site(program_.axiom.span);
-        bytecode_.axiom_draw_position = program_.axiom_draw_position;
+        for (const Axiom& axiom : program_.axioms) {
+            BytecodeAxiom& lowered = bytecode_.axioms.emplace_back();
+            lowered.word = word(axiom.word);
+            lowered.site = emitter_.add_site(axiom.word.span);
+            lowered.draw_position = axiom.draw_position;
+            lowered.weight = axiom.weight;
+        }
         bytecode_.productions.reserve(program_.productions.size());
         for (const Production& production : program_.productions) {
             bytecode_.productions.push_back(lowered(production));
@@ -77,7 +85,7 @@ private:
         return std::any_of(locals.begin(), locals.end(), [&](const LocalValue& local) {
             bool draws = false;
             for_each_value(program_, {local.value}, [&](ValueId, const Value& value) {
-                draws = draws || value.opcode == Opcode::Range;
+                draws = draws || is_draw(value.opcode);
             });
             const bool is_leaf = program_.value(local.value).left == kNoValue;
             return !is_leaf && (local.is_used || draws);
@@ -145,7 +153,12 @@ private:
             lowered.condition = emitter_.condition(production.condition, production.condition_span);
         }
         lowered.stochastic = production.stochastic;
-        lowered.weight = production.stochastic ? production.weight : 0.0F;
+        if (production.weight_value != kNoValue) {
+            lowered.weight_code =
+                emitter_.condition(production.weight_value, production.weight_span);
+        } else if (production.stochastic) {
+            lowered.weight = production.weight;
+        }
         lowered.successor = word(production.successor, production.locals);
         return lowered;
     }

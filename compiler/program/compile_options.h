@@ -34,7 +34,10 @@ struct CompileOptions {
     std::optional<std::uint32_t> generations; // -n; a missing #n then gets no warning
     std::uint64_t max_modules = std::uint64_t{1}
                                 << 32; // for the warning about words that grow past it
-    bool lower = true;                 // false: stop after the Program
+    /// The text is a part of other grammars: axiom and names may be defined elsewhere. It is
+    /// checked, and no program is made.
+    bool part = false;
+    bool lower = true; // false: stop after the Program
 };
 
 } // namespace lsys

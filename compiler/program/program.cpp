@@ -3,7 +3,7 @@
 namespace lsys {
 
 std::vector<ValueId> expressions_of(const Program& program, const Production& production) {
-    std::vector<ValueId> roots{production.condition};
+    std::vector<ValueId> roots{production.condition, production.weight_value};
     for (const LocalValue& local : production.locals) {
         roots.push_back(local.value);
     }

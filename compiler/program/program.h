@@ -39,7 +39,7 @@ struct Value {
     SourceSpan span;
     union {
         float literal;           // Literal
-        std::uint32_t index = 0; // Formal, Global, Local, SetLocal, Range (draw number), BranchDraw
+        std::uint32_t index = 0; // Formal, Global, Local, SetLocal, Curve, a draw, BranchDraw
         ValueId third;           // If: the condition of `left` and `right`; Mix: the part
     };
     ValueId left = kNoValue;
@@ -119,10 +119,20 @@ struct Production {
     SourceSpan condition_span;
     Stage stage = Stage::Rewrite;
     bool stochastic = false;
-    float weight = 0.0F; // NaN if the probability is in error
+    float weight = 0.0F;             // NaN if the probability is in error or an expression
+    ValueId weight_value = kNoValue; // of a weight that is no constant
     SourceSpan weight_span;
     std::vector<LocalValue> locals;
     ProgramWord successor;
+};
+
+/// An axiom: the only one, or one of those among which a derivation chooses by chance.
+struct Axiom {
+    ProgramWord word;
+    std::uint32_t draw_position = 0; // index of its first draw among those of the start
+    bool has_weight = false;
+    float weight = 1.0F; // NaN if the probability is in error
+    SourceSpan weight_span;
 };
 
 /// A constant drawn when the derivation starts; others are folded into the values that use them.
@@ -135,6 +145,13 @@ struct Global {
     bool has_bounds = false;
     float minimum = 0.0F;
     float maximum = 0.0F;
+};
+
+/// `#curve`. Its name is a function of one parameter.
+struct Curve {
+    NameId name = kNoName;
+    SourceSpan span;
+    std::vector<CurveKnot> points; // with their slopes
 };
 
 /// A constant of the grammar, for dumps and for sliders.
@@ -193,16 +210,20 @@ struct Program {
     std::vector<IgnoredName> considered; // if not empty, all other names are ignored
     std::vector<Constant> constants;
     std::vector<Global> globals;
+    std::vector<Curve> curves;
     std::vector<Production> productions; // those of Stage::Rewrite first, of Interpret last
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
-    ProgramWord axiom;
-    std::uint32_t axiom_draw_position = 0;
+    std::vector<Axiom> axioms; // at least one, if complete
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;
     ChunkedVector<Value> values;
 
+    /// The place of the first axiom; none if there is no axiom.
+    [[nodiscard]] SourceSpan axiom_span() const {
+        return axioms.empty() ? SourceSpan{} : axioms.front().word.span;
+    }
     [[nodiscard]] const Value& value(ValueId id) const {
         return values[static_cast<std::size_t>(id)];
     }
@@ -251,7 +272,8 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
         }
     }
 }
-/// The condition, or kNoValue, the local values and all arguments of the successor of a production.
+/// The condition and the computed weight, or kNoValue, the local values and all arguments of the
+/// successor of a production.
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 

@@ -1,5 +1,6 @@
 #include "compiler/program/program_dump.h"
 
+#include "compiler/bytecode/distributions.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/counted_text.h"
 
@@ -29,10 +30,18 @@ public:
     std::string run() {
         settings();
         symbols();
+        curves();
         constants();
-        out_ += "axiom\n  ";
-        word(program_.axiom, nullptr);
-        out_ += '\n';
+        for (const Axiom& axiom : program_.axioms) {
+            out_ += "axiom";
+            if (axiom.has_weight) {
+                out_ += " ~ ";
+                append_number(out_, axiom.weight);
+            }
+            out_ += "\n  ";
+            word(axiom.word, nullptr);
+            out_ += '\n';
+        }
         out_ += fmt::format("productions: {}, {}\n", counted(program_.rule_count, "rule"),
                             counted(program_.group_count, "group"));
         for (const Production& each : program_.productions) {
@@ -113,6 +122,20 @@ private:
         }
     }
 
+    void curves() {
+        for (const Curve& curve : program_.curves) {
+            out_ += "curve ";
+            name(curve.name);
+            for (std::size_t i = 0; i < curve.points.size(); ++i) {
+                out_ += i == 0 ? " " : ", ";
+                append_number(out_, curve.points[i].x);
+                out_ += ' ';
+                append_number(out_, curve.points[i].y);
+            }
+            out_ += '\n';
+        }
+    }
+
     void constants() {
         if (program_.constants.empty()) {
             return;
@@ -174,7 +197,11 @@ private:
         }
         if (production.stochastic) {
             out_ += " ~ ";
-            append_number(out_, production.weight);
+            if (production.weight_value == kNoValue) {
+                append_number(out_, production.weight);
+            } else {
+                value(production.weight_value, &production);
+            }
         }
         for (std::size_t i = 0; i < production.locals.size(); ++i) {
             out_ += i == 0 ? " : let " : ", ";
@@ -244,7 +271,10 @@ private:
                 continue;
             }
             out_ += info(value.opcode).mnemonic;
-            if (value.opcode == Opcode::Range || value.opcode == Opcode::SetLocal) {
+            if (value.opcode == Opcode::Curve) {
+                out_ += fmt::format("#{}", names_.text(program_.curves[value.index].name));
+            }
+            if (is_draw(value.opcode) || value.opcode == Opcode::SetLocal) {
                 out_ += fmt::format("#{}", value.index);
             }
             out_ += '(';

@@ -10,6 +10,7 @@
 #include "compiler/resolve/impl/resolution.h"
 #include "compiler/resolve/impl/set_statements.h"
 #include "compiler/resolve/impl/splitting.h"
+#include "compiler/resolve/impl/stray_comments.h"
 #include "compiler/resolve/impl/symbols.h"
 #include "compiler/resolve/impl/values.h"
 #include "compiler/resolve/impl/words.h"
@@ -70,7 +71,9 @@ public:
         for (const ObjectNode& object : ast.objects) {
             declarations_.object(object);
         }
-        NameSplitter splitter(resolution_, known_names(resolution_));
+        const std::vector<bool> known = known_names(resolution_);
+        NameSplitter splitter(resolution_, known);
+        check_stray_comments(resolution_, known, splitter);
         for (const IgnoreNode& ignore : ast.ignores) {
             declarations_.ignore(ignore, splitter);
         }
@@ -82,8 +85,19 @@ public:
                               SplitReport(resolution_),
                               std::vector<SymbolId>(resolution_.names.count(), kNoSymbol)};
         ProductionResolver productions(reading, constants_);
-        for (const Statement& statement : ast.statements) {
+        // Productions may use functions that stand behind them, so they are read last.
+        const bool has_functions = !ast.functions.empty() || !ast.curves.empty();
+        expressions_.keep_expressions(has_functions);
+        std::vector<std::size_t> later;
+        for (std::size_t i = 0; i < ast.statements.size(); ++i) {
+            const Statement statement = ast.statements[i];
             switch (statement.kind) {
+            case StatementKind::Function:
+                expressions_.define_function(ast.functions[statement.index]);
+                break;
+            case StatementKind::Curve:
+                expressions_.define_curve(ast.curves[statement.index]);
+                break;
             case StatementKind::Generations:
                 definitions_.generations(ast.generations[statement.index], statement.span);
                 break;
@@ -104,14 +118,25 @@ public:
                 axiom(ast.axioms[statement.index], statement.span, reading);
                 break;
             case StatementKind::Production:
-                productions.resolve(ast.productions[statement.index], statement.span);
-                resolution_.ast.productions.release_before(statement.index);
+                if (has_functions) {
+                    later.push_back(i);
+                } else {
+                    productions.resolve(ast.productions[statement.index], statement.span);
+                    resolution_.ast.productions.release_before(statement.index);
+                }
                 break;
             case StatementKind::Object:
             case StatementKind::Ignore:
             case StatementKind::Include:
                 break; // handled before, or by the front end
             }
+        }
+        expressions_.keep_expressions(false);
+        for (const std::size_t i : later) {
+            constants_.visible_until(i);
+            const Statement statement = ast.statements[i];
+            productions.resolve(ast.productions[statement.index], statement.span);
+            resolution_.ast.productions.release_before(statement.index);
         }
         productions.finish();
         check_missing();
@@ -133,21 +158,44 @@ public:
 
 private:
     void axiom(const AxiomNode& node, SourceSpan statement, ModuleReading& reading) {
-        if (first_axiom_) {
-            report_duplicate(resolution_, statement, *first_axiom_, "`#w`");
+        const bool has_weight = node.probability != kNoExpression;
+        std::vector<Axiom>& axioms = resolution_.program.axioms;
+        if (first_axiom_ && !(has_weight && first_has_weight_)) {
+            report_second_axiom(statement, has_weight);
             return;
         }
-        first_axiom_ = statement;
+        first_axiom_ = first_axiom_.value_or(statement);
+        first_has_weight_ = has_weight;
         if (node.modules.count == 0) {
             resolution_.diagnostics.add(DiagnosticCode::EmptyAxiom, statement,
                                         "the axiom holds no module");
             return;
         }
         expressions_.begin_statement();
-        resolution_.program.axiom = resolve_word(reading, node.modules, ExpressionPlace::Axiom);
-        resolution_.program.axiom_draw_position = definitions_.draw_position();
-        definitions_.advance_draw_position(resolution_.program.axiom.draw_count);
+        Axiom axiom;
+        axiom.has_weight = has_weight;
+        if (has_weight) {
+            axiom.weight_span = resolution_.ast.expression(node.probability).span();
+            const ValueId value =
+                expressions_.resolve(node.probability, ExpressionPlace::AxiomProbability);
+            axiom.weight = value == kPoison
+                               ? std::numeric_limits<float>::quiet_NaN()
+                               : checked_weight(resolution_, *expressions_.constant_value(value),
+                                                axiom.weight_span);
+        }
+        axiom.word = resolve_word(reading, node.modules, ExpressionPlace::Axiom);
+        axiom.draw_position = definitions_.draw_position();
+        definitions_.advance_draw_position(axiom.word.draw_count);
+        axioms.push_back(axiom);
         reading.splits.finish();
+    }
+
+    void report_second_axiom(SourceSpan statement, bool has_weight) {
+        Diagnostic& error = report_duplicate(resolution_, statement, *first_axiom_, "`#w`");
+        if (has_weight || first_has_weight_) {
+            error.help.emplace_back("of several axioms each has its probability: "
+                                    "`#w ~ 0.5 : modules;`");
+        }
     }
 
     /// An empty place after the last character of the root file.
@@ -161,6 +209,9 @@ private:
     }
 
     void check_missing() {
+        if (resolution_.options.part) {
+            return;
+        }
         const AttemptedStatements attempted(resolution_);
         for (const IncludeNode& include : resolution_.ast.includes) {
             if (include.file == kNoFile) {
@@ -190,6 +241,7 @@ private:
     DefinitionResolver definitions_;
     DeclarationResolver declarations_;
     std::optional<SourceSpan> first_axiom_;
+    bool first_has_weight_ = false;
 };
 
 } // namespace
@@ -230,7 +282,7 @@ ResolveOutcome resolve(Ast ast,
         resolver.replace(*replacements, *replacing);
     }
     outcome.unknown_definitions = resolver.unknown_definitions();
-    outcome.program.complete = !ast.incomplete && !diagnostics.has_errors();
+    outcome.program.complete = !ast.incomplete && !diagnostics.has_errors() && !options.part;
     return outcome;
 }
 

@@ -141,6 +141,8 @@ enum class StatementKind : std::uint8_t {
     Generations, // #n = expr;
     Define,      // #define NAME expr;
     Param,       // #param NAME expr {min, max};
+    Function,    // #function NAME(formals) expr;
+    Curve,       // #curve NAME x y, x y, ...;
     Module,      // #module NAME(formals);
     Object,      // #object NAME OBJECT;
     Include,     // #include "file"; its statements follow
@@ -173,6 +175,21 @@ struct ParamNode {
     ExpressionId minimum = kNoExpression;
     ExpressionId maximum = kNoExpression;
     SourceSpan bounds_span; // `{min, max}`
+};
+
+struct FunctionNode {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    ListRange formals; // in Ast::expression_lists; names, or what stands in their place
+    SourceSpan formals_span;
+    ExpressionId body = kNoExpression;
+};
+
+/// Coordinates x y x y ... in Ast::expression_lists.
+struct CurveNode {
+    NameId name = kNoName;
+    SourceSpan name_span;
+    ListRange coordinates;
 };
 
 struct ModuleDeclarationNode {
@@ -214,6 +231,7 @@ struct IgnoreNode {
 };
 
 struct AxiomNode {
+    ExpressionId probability = kNoExpression; // of one of several
     ModuleList modules;
 };
 
@@ -279,6 +297,8 @@ struct Ast {
     std::vector<GenerationsNode> generations;
     ChunkedVector<DefineNode> defines;
     std::vector<ParamNode> params;
+    std::vector<FunctionNode> functions;
+    std::vector<CurveNode> curves;
     std::vector<ModuleDeclarationNode> module_declarations;
     std::vector<ObjectNode> objects;
     std::vector<IncludeNode> includes;
@@ -297,6 +317,8 @@ struct Ast {
 
     /// Ascending.
     std::vector<WrittenName> written_names;
+    /// The `//` before words among modules, which may be meant as comments.
+    std::vector<SourceSpan> slashes;
 
     /// Statements with syntax errors are missing; later checks do not report missing definitions.
     bool incomplete = false;

@@ -192,6 +192,17 @@ void AstBuilder::param(NameId name,
     ast_.params.push_back(node);
 }
 
+void AstBuilder::function(
+    NameId name, SourceSpan name_span, std::uint32_t count, SourceSpan formals, ExpressionId body) {
+    begin_node(StatementKind::Function, ast_.functions.size());
+    ast_.functions.push_back({name, name_span, take_arguments(count), formals, body});
+}
+
+void AstBuilder::curve(NameId name, SourceSpan name_span, std::uint32_t count) {
+    begin_node(StatementKind::Curve, ast_.curves.size());
+    ast_.curves.push_back({name, name_span, take_arguments(count)});
+}
+
 void AstBuilder::module_declaration(ModuleList modules) {
     begin_node(StatementKind::Module, ast_.module_declarations.size());
     ast_.module_declarations.push_back({modules});
@@ -228,9 +239,9 @@ void AstBuilder::ignore(SourceSpan keyword, ModuleList modules, bool considers) 
     ast_.ignores.push_back({modules, considers, keyword});
 }
 
-void AstBuilder::axiom(ModuleList modules) {
+void AstBuilder::axiom(ModuleList modules, ExpressionId probability) {
     begin_node(StatementKind::Axiom, ast_.axioms.size());
-    ast_.axioms.push_back({modules});
+    ast_.axioms.push_back({probability, modules});
 }
 
 void AstBuilder::left_context(ModuleList left, SourceSpan less) {
@@ -335,6 +346,12 @@ void AstBuilder::rollback() {
             break;
         case StatementKind::Param:
             ast_.params.pop_back();
+            break;
+        case StatementKind::Function:
+            ast_.functions.pop_back();
+            break;
+        case StatementKind::Curve:
+            ast_.curves.pop_back();
             break;
         case StatementKind::Module:
             ast_.module_declarations.pop_back();

@@ -75,6 +75,9 @@ public:
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
+    /// Forgets the `//` from `begin` of the scanned text on, which another message explains.
+    void forget_slashes(std::uint32_t begin);
+
     // --- statements
     void generations(ExpressionId value);
     void define(NameId name, SourceSpan name_span, ExpressionId value);
@@ -84,6 +87,14 @@ public:
                ExpressionId value,
                std::uint32_t bound_count,
                SourceSpan bounds);
+    /// The formals are the last `count` arguments.
+    void function(NameId name,
+                  SourceSpan name_span,
+                  std::uint32_t count,
+                  SourceSpan formals,
+                  ExpressionId body);
+    /// The coordinates are the last `count` arguments.
+    void curve(NameId name, SourceSpan name_span, std::uint32_t count);
     void module_declaration(ModuleList modules);
     /// `object` is the name of an object of the library or, with `is_file`, of a file.
     void object(SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file);
@@ -92,7 +103,7 @@ public:
     void set_number(ExpressionId value, SourceSpan span);
     void set(NameId key, SourceSpan key_span);
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
-    void axiom(ModuleList modules);
+    void axiom(ModuleList modules, ExpressionId probability);
     void left_context(ModuleList left, SourceSpan less);
     void predecessor(ModuleList modules);
     void right_context(SourceSpan greater, ModuleList right);

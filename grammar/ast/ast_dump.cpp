@@ -59,6 +59,22 @@ private:
             }
             return;
         }
+        case StatementKind::Function: {
+            const FunctionNode& node = ast_.functions[statement.index];
+            out_ += "function ";
+            name(node.name);
+            list(node.formals);
+            out_ += ' ';
+            expression(node.body);
+            return;
+        }
+        case StatementKind::Curve: {
+            const CurveNode& node = ast_.curves[statement.index];
+            out_ += "curve ";
+            name(node.name);
+            list(node.coordinates);
+            return;
+        }
         case StatementKind::Module:
             out_ += "module ";
             modules(ast_.module_declarations[statement.index].modules);
@@ -83,6 +99,11 @@ private:
             return;
         case StatementKind::Axiom:
             out_ += "axiom ";
+            if (ast_.axioms[statement.index].probability != kNoExpression) {
+                out_ += "~ ";
+                expression(ast_.axioms[statement.index].probability);
+                out_ += ' ';
+            }
             modules(ast_.axioms[statement.index].modules);
             return;
         case StatementKind::Production:
@@ -161,6 +182,14 @@ private:
             }
             out_ += module.arguments.count == 0 ? "()" : ")";
         }
+    }
+
+    void list(ListRange expressions) {
+        for (std::uint32_t i = 0; i < expressions.count; ++i) {
+            out_ += i == 0 ? "(" : ", ";
+            expression(ast_.expression_lists[expressions.first + i]);
+        }
+        out_ += expressions.count == 0 ? "()" : ")";
     }
 
     void name(NameId id) { out_ += id == kNoName ? std::string_view("?") : names_.text(id); }

@@ -325,38 +325,21 @@ void AstBuilder::count_bracket(char bracket, SourceSpan span) {
     }
 }
 
-/// Reports `//` before words, which is likely to be meant as a comment.
+void AstBuilder::forget_slashes(std::uint32_t begin) {
+    const SourceSpan first = scanned_.span(begin, begin);
+    while (!ast_.slashes.empty() && ast_.slashes.back().file == first.file &&
+           ast_.slashes.back().begin >= first.begin) {
+        ast_.slashes.pop_back();
+    }
+}
+
+/// Keeps a `//` before a word, which may be meant as a comment.
 void AstBuilder::check_stray_comment(std::uint32_t slashes) {
-    constexpr std::size_t kEnough = 80;
-    const std::string_view rest = scanned_.text.substr(slashes + 2, kEnough);
-    std::size_t at = 0;
-    int words = 0;
-    if (rest.empty() || rest[0] != ' ') {
-        return;
-    }
-    while (at < rest.size() && rest[at] == ' ') {
-        ++at;
-    }
-    while (at < rest.size() && words < 2) {
-        const std::size_t begin = at;
-        while (at < rest.size() && ((rest[at] >= 'a' && rest[at] <= 'z') ||
-                                    (at == begin && rest[at] >= 'A' && rest[at] <= 'Z'))) {
-            ++at;
-        }
-        if (at - begin < 2) {
-            return;
-        }
-        ++words;
-        const std::size_t end = at;
-        while (at < rest.size() && (rest[at] == ' ' || rest[at] == ',' || rest[at] == '.')) {
-            ++at;
-        }
-        if (at == end && words < 2) {
-            return;
-        }
-    }
-    if (words == 2) {
-        report_stray_comment(diagnostics_, scanned_.span(slashes, slashes + 2));
+    constexpr std::size_t kMaxKept = 10'000; // of a file; rolls are rarely so many
+    const std::size_t next = scanned_.text.find_first_not_of(" \t", slashes + 2);
+    if (next != std::string_view::npos && is_letter(scanned_.text[next]) &&
+        scanned_.translation == nullptr && ast_.slashes.size() < kMaxKept) {
+        ast_.slashes.push_back(scanned_.span(slashes, slashes + 2));
     }
 }
 

@@ -1,5 +1,8 @@
 #include "grammar/ast/reports.h"
 
+#include "grammar/base/text_form.h"
+
+#include <optional>
 #include <string>
 
 namespace lsys {
@@ -84,21 +87,44 @@ void report_literal_range(Diagnostics& diagnostics,
     }
 }
 
-void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what) {
-    if (diagnostics.admits(DiagnosticCode::NestingTooDeep)) {
-        diagnostics.add(DiagnosticCode::NestingTooDeep, span,
-                        std::string(what) + " are nested more than 10,000 deep");
-    }
-}
-
-void report_stray_comment(Diagnostics& diagnostics, SourceSpan slashes) {
+void report_stray_comment(Diagnostics& diagnostics, std::string_view line, SourceSpan slashes) {
     if (!diagnostics.admits(DiagnosticCode::StrayComment)) {
         return;
     }
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::StrayComment, slashes,
                         "inside a statement `//` is two modules, not a comment");
-    diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
+    if (line.find("*/") != std::string_view::npos || line.find("/*") != std::string_view::npos) {
+        diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
+        return;
+    }
+    // A `;` at the end may end the statement.
+    const std::size_t semicolon = line.find(';');
+    const std::size_t last = line.find_last_not_of(
+        " \t\r", semicolon == std::string_view::npos ? line.size() - 1 : semicolon - 1);
+    const std::uint32_t end = slashes.begin + static_cast<std::uint32_t>(last) + 1;
+    diagnostic.fixes.push_back({"write `/* ... */`",
+                                {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
+                                 {{slashes.file, end, end}, " */"}},
+                                semicolon == std::string_view::npos});
+}
+
+bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
+    const std::optional<NoText> no_text = recognise_no_text(sources.file(file).text());
+    if (no_text) {
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::OtherLanguage, {file, 0, 0},
+                            "this file is " + no_text->what + ", not a grammar");
+        diagnostic.help.push_back(no_text->help);
+    }
+    return !no_text;
+}
+
+void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what) {
+    if (diagnostics.admits(DiagnosticCode::NestingTooDeep)) {
+        diagnostics.add(DiagnosticCode::NestingTooDeep, span,
+                        std::string(what) + " are nested more than 10,000 deep");
+    }
 }
 
 } // namespace lsys

@@ -24,7 +24,12 @@ void report_literal_range(Diagnostics& diagnostics,
                           SourceSpan span);
 /// `what`: a plural, for example "parentheses".
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what);
-void report_stray_comment(Diagnostics& diagnostics, SourceSpan slashes);
+
+/// Reports `slashes`, a `//` among modules that is meant as a comment. `line`: from there to the
+/// end of its line.
+void report_stray_comment(Diagnostics& diagnostics, std::string_view line, SourceSpan slashes);
+/// Reports a file that is no UTF-8 text; returns whether it is text.
+[[nodiscard]] bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 
 /// `text` for a message: at most 40 characters, control characters as `\x07`.
 [[nodiscard]] std::string shown(std::string_view text);

@@ -1,10 +1,12 @@
 #include "grammar/base/diagnostic.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/names.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 #include <utility>
 
 namespace lsys {
@@ -16,6 +18,13 @@ constexpr DiagnosticInfo kInfos[] = {
 #include "grammar/base/diagnostics.def"
 #undef LSYS_DIAGNOSTIC
 };
+
+bool equals_without_case(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+        return std::tolower(static_cast<unsigned char>(x)) ==
+               std::tolower(static_cast<unsigned char>(y));
+    });
+}
 
 /// Damerau-Levenshtein distance with adjacent transpositions, in half steps: a difference of letter
 /// case is one half step.
@@ -158,38 +167,47 @@ void Diagnostics::offer_fixes_from(std::size_t first) {
 
 void Diagnostics::drop_repairs(std::string_view language) {
     for (Diagnostic& diagnostic : all_) {
-        diagnostic.fixes.clear();
+        std::erase_if(diagnostic.fixes, [](const Fix& fix) {
+            return !std::all_of(fix.edits.begin(), fix.edits.end(), [](const Edit& edit) {
+                return edit.replacement.size() > 1 && is_identifier(edit.replacement) &&
+                       edit.replacement.find('_') == std::string::npos;
+            });
+        });
+        offer_fixes(diagnostic);
         std::erase_if(diagnostic.help, [language](const std::string& help) {
             return help.find(language) != std::string::npos;
         });
     }
 }
 
-void Diagnostics::promote_warnings() {
-    for (Diagnostic& diagnostic : all_) {
-        if (diagnostic.severity == Severity::Warning) {
-            diagnostic.severity = Severity::Error;
-        }
-    }
-    counts_[static_cast<std::size_t>(Severity::Error)] +=
-        std::exchange(counts_[static_cast<std::size_t>(Severity::Warning)], 0);
+void Diagnostics::promote_unstored_warnings() {
+    std::uint64_t& warnings = counts_[static_cast<std::size_t>(Severity::Warning)];
+    const auto stored = static_cast<std::uint64_t>(
+        std::count_if(all_.begin(), all_.end(), [](const Diagnostic& diagnostic) {
+            return diagnostic.severity == Severity::Warning;
+        }));
+    counts_[static_cast<std::size_t>(Severity::Error)] += warnings - stored;
+    warnings = stored;
 }
 
 std::optional<std::string_view> nearest_name(std::string_view wanted,
                                              const std::vector<std::string_view>& candidates) {
-    // A third of the letters may differ; in a name of one letter only its case.
-    const std::size_t limit =
-        wanted.size() == 1 ? 1 : 2 * std::max<std::size_t>(1, wanted.size() / 3);
+    // A third of the letters of the shorter name may differ. Letter case alone never counts, and in
+    // a name of one or two letters nothing else may differ.
     std::optional<std::string_view> best;
-    std::size_t best_distance = limit + 1;
+    std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string_view candidate : candidates) {
         const std::size_t longer = std::max(candidate.size(), wanted.size());
         const std::size_t shorter = std::min(candidate.size(), wanted.size());
+        const std::size_t limit = shorter < 3 ? 0 : 2 * (shorter / 3);
         if (candidate == wanted || 2 * (longer - shorter) > limit) {
             continue;
         }
+        if (equals_without_case(wanted, candidate)) {
+            return candidate;
+        }
         if (const std::size_t distance = edit_distance(wanted, candidate);
-            distance < best_distance) {
+            distance <= limit && distance < best_distance) {
             best = candidate;
             best_distance = distance;
         }

@@ -6,10 +6,13 @@
 #include "grammar/base/source.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace lsys {
@@ -56,6 +59,12 @@ struct Fix {
     bool machine_applicable = true;
 };
 
+/// A value that a diagnostic speaks of, for programs: `generation`, 3.
+struct Fact {
+    std::string name;
+    std::variant<bool, std::uint64_t, double, std::string> value;
+};
+
 /// Texts begin in lower case, have no final stop and put names in back quotes. `message` states the
 /// mistake, `help` the remedy.
 struct Diagnostic {
@@ -68,6 +77,7 @@ struct Diagnostic {
     std::vector<std::string> notes;
     std::vector<std::string> help;
     std::vector<Fix> fixes;
+    std::vector<Fact> facts; // in JSON only; the texts say the same
 };
 
 /// Adds a fix of one edit, which replaces `span`.
@@ -120,11 +130,30 @@ public:
             }
         }
     }
-    /// Removes all fixes, and the help texts that contain `language`, the name of a language in
-    /// which the file is not written.
+    /// Removes all fixes but those that write a name alone, and the help texts that contain
+    /// `language`, the name of a language in which the file is not written.
     void drop_repairs(std::string_view language);
-    /// Turns every warning into an error (`--deny warnings`).
-    void promote_warnings();
+    /// Gives each diagnostic the severity that `judge` returns for it, or removes it.
+    template <typename Judge>
+    void rejudge(const Judge& judge) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < all_.size(); ++i) {
+            const std::optional<Severity> severity = judge(std::as_const(all_[i]));
+            --counts_[static_cast<std::size_t>(all_[i].severity)];
+            if (!severity) {
+                continue;
+            }
+            ++counts_[static_cast<std::size_t>(*severity)];
+            all_[i].severity = *severity;
+            if (kept != i) {
+                all_[kept] = std::move(all_[i]);
+            }
+            ++kept;
+        }
+        all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(kept), all_.end());
+    }
+    /// Counts the warnings that are not stored as errors.
+    void promote_unstored_warnings();
 
 private:
     std::vector<Diagnostic> all_;

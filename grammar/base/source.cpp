@@ -60,6 +60,14 @@ void step_over(std::string_view text, std::uint32_t& offset) {
 
 } // namespace
 
+void SourceFile::step(std::string_view text, Checkpoint& place) {
+    constexpr std::uint32_t kLengthOfPairs = 4; // UTF-8 bytes of what UTF-16 writes as two units
+    const std::uint32_t begin = place.offset;
+    step_over(text, place.offset);
+    ++place.column;
+    place.utf16_column += place.offset - begin == kLengthOfPairs ? 2 : 1;
+}
+
 void SourceFile::find_checkpoints() {
     for (std::size_t i = 0; i < line_begins_.size(); ++i) {
         const std::uint32_t end = i + 1 < line_begins_.size()
@@ -68,11 +76,10 @@ void SourceFile::find_checkpoints() {
         if (end - line_begins_[i] <= kStride) {
             continue;
         }
-        Checkpoint place{line_begins_[i], 1};
+        Checkpoint place{line_begins_[i], 1, 1};
         std::uint32_t next = place.offset + kStride;
         while (place.offset < end) {
-            step_over(text_, place.offset);
-            ++place.column;
+            step(text_, place);
             if (place.offset >= next) {
                 checkpoints_.push_back(place);
                 next = place.offset + kStride;
@@ -84,7 +91,7 @@ void SourceFile::find_checkpoints() {
 LineColumn SourceFile::line_column(std::uint32_t offset) const {
     LSYS_CHECK(offset <= text_.size(), offset, text_.size());
     const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
-    Checkpoint place{*(after - 1), 1};
+    Checkpoint place{*(after - 1), 1, 1};
     const auto later = std::upper_bound(
         checkpoints_.begin(), checkpoints_.end(), offset,
         [](std::uint32_t wanted, const Checkpoint& known) { return wanted < known.offset; });
@@ -93,10 +100,10 @@ LineColumn SourceFile::line_column(std::uint32_t offset) const {
     }
     const std::string_view before = std::string_view(text_).substr(0, offset);
     while (place.offset < offset) {
-        step_over(before, place.offset);
-        ++place.column;
+        step(before, place);
     }
-    return {static_cast<std::uint32_t>(after - line_begins_.begin()), place.column};
+    return {static_cast<std::uint32_t>(after - line_begins_.begin()), place.column,
+            place.utf16_column};
 }
 
 std::uint32_t SourceFile::line_count() const {
@@ -127,6 +134,34 @@ const SourceFile& SourceMap::file(FileId id) const {
     const auto index = static_cast<std::size_t>(id);
     LSYS_CHECK(index < files_.size(), index, files_.size());
     return files_[index];
+}
+
+void SourceMap::allow(SourceSpan statement, std::string_view code) {
+    std::vector<Allowance>& list = allowances_[statement.file];
+    const auto after = std::upper_bound(
+        list.begin(), list.end(), statement.begin,
+        [](std::uint32_t begin, const Allowance& row) { return begin < row.statement.begin; });
+    list.insert(after, {statement, std::string(code)});
+}
+
+bool SourceMap::allows(SourceSpan place, std::string_view code) const {
+    const auto list = allowances_.find(place.file);
+    if (list == allowances_.end()) {
+        return false;
+    }
+    const auto after = std::upper_bound(
+        list->second.begin(), list->second.end(), place.begin,
+        [](std::uint32_t begin, const Allowance& row) { return begin < row.statement.begin; });
+    for (auto row = after; row != list->second.begin();) {
+        --row;
+        if (row->statement.end < place.begin) {
+            return false; // statements do not overlap
+        }
+        if (row->code == code) {
+            return true;
+        }
+    }
+    return false;
 }
 
 std::string_view SourceMap::text(SourceSpan span) const {

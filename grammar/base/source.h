@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,7 @@ struct SourceSpan {
 struct LineColumn {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
+    std::uint32_t utf16_column = 1; // the same place in UTF-16 code units
 };
 
 /// The path and text of a file, immutable. A byte order mark is not part of the text.
@@ -55,7 +57,10 @@ private:
     struct Checkpoint {
         std::uint32_t offset = 0;
         std::uint32_t column = 1;
+        std::uint32_t utf16_column = 1;
     };
+    /// Moves `place` over one character of `text`.
+    static void step(std::string_view text, Checkpoint& place);
     void find_lines();
     void find_checkpoints();
 
@@ -81,8 +86,20 @@ public:
     }
     [[nodiscard]] std::string_view text(SourceSpan span) const;
 
+    /// Allows diagnostics of a code within a statement: `/* lsc: allow CODE */`. Statements of a
+    /// file do not overlap.
+    void allow(SourceSpan statement, std::string_view code);
+    /// Whether a diagnostic of `code` at `place` is allowed.
+    [[nodiscard]] bool allows(SourceSpan place, std::string_view code) const;
+
 private:
+    struct Allowance {
+        SourceSpan statement;
+        std::string code;
+    };
+
     std::deque<SourceFile> files_;
+    std::map<FileId, std::vector<Allowance>> allowances_; // ascending
 };
 
 } // namespace lsys

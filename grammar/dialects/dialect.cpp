@@ -1,7 +1,9 @@
 #include "grammar/dialects/dialect.h"
 
+#include "grammar/ast/reports.h"
 #include "grammar/base/contract.h"
 #include "grammar/dialects/impl/frontends.h"
+#include "grammar/dialects/other_language.h"
 
 #include <algorithm>
 #include <array>
@@ -62,9 +64,12 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 }
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
-    // The extension .lsys decides alone: comments of a .lsys file may look like any other dialect.
-    if (has_extension(path, row_of(Dialect::Lsys).extensions)) {
-        return {Dialect::Lsys, "its name"};
+    // An extension decides alone: a mistake may make a text look like another dialect, and so may
+    // comments. Only `.l` is that of several programs.
+    for (const DialectRow& row : kRows) {
+        if (!path.ends_with(".l") && has_extension(path, row.extensions)) {
+            return {row.dialect, "its name"};
+        }
     }
     // The extension decides between dialects whose content is the same.
     DetectedDialect found;
@@ -104,16 +109,43 @@ Translation translate(FileId root, Dialect dialect, const ParseContext& context)
     return translation;
 }
 
+namespace {
+
+/// The Ast of a file that cannot be read.
+Ast no_ast(FileId root) {
+    Ast ast;
+    ast.files.push_back({root, {}});
+    ast.incomplete = true;
+    return ast;
+}
+
+} // namespace
+
+bool check_is_lsys(FileId root, const ParseContext& context) {
+    if (!check_is_text(root, context.sources, context.diagnostics)) {
+        return false;
+    }
+    const std::string_view text = context.sources.file(root).text();
+    const std::optional<OtherLanguage> other = recognise_other_language(text);
+    if (other) {
+        Diagnostic& diagnostic = context.diagnostics.add(
+            DiagnosticCode::OtherLanguage, {root, other->begin, other->end},
+            "this looks like " + other->name + ", not like a .lsys grammar");
+        diagnostic.help.push_back(other->help);
+    }
+    return !other;
+}
+
 Ast parse_dialect(FileId root, Dialect dialect, const ParseContext& context, std::string* text) {
     if (dialect == Dialect::Lsys) {
-        return parse_lsys(root, context);
+        return check_is_lsys(root, context) ? parse_lsys(root, context) : no_ast(root);
+    }
+    if (!check_is_text(root, context.sources, context.diagnostics)) {
+        return no_ast(root);
     }
     const Translation translation = translate(root, dialect, context);
     if (context.diagnostics.has_errors()) {
-        Ast ast;
-        ast.files.push_back({root, {}});
-        ast.incomplete = true;
-        return ast;
+        return no_ast(root);
     }
     if (text != nullptr) {
         *text = translation.text();

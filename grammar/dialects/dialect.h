@@ -62,6 +62,10 @@ struct DetectedDialect {
 /// text is incomplete and not to be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
+/// Reports a .lsys file that is no text or looks like another language; returns whether it may be
+/// parsed.
+[[nodiscard]] bool check_is_lsys(FileId root, const ParseContext& context);
+
 /// parse_lsys() of a file of any dialect. `text`, if given, gets the .lsys text of a foreign file.
 [[nodiscard]] Ast parse_dialect(FileId root,
                                 Dialect dialect,

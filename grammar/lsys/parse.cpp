@@ -1,5 +1,6 @@
 #include "grammar/lsys/parse.h"
 
+#include "grammar/ast/reports.h"
 #include "grammar/lsys/impl/normalized_text.h"
 #include "grammar/lsys/impl/parse_session.h"
 #include "grammar/lsys/impl/scanning.h"
@@ -31,6 +32,27 @@ void parse_file(FileId file, const ParseContext& context, Ast& ast, IncludeChain
 }
 
 } // namespace
+
+bool ParseSession::is_independent(DiagnosticCode code) {
+    return code == DiagnosticCode::MissingSemicolon || code == DiagnosticCode::MalformedNumber ||
+           code == DiagnosticCode::NumberOverflow || code == DiagnosticCode::BadQuotedName ||
+           code == DiagnosticCode::ForeignFeature;
+}
+
+bool ParseSession::follows_doubtful_error() {
+    const std::vector<Diagnostic>& all = context.diagnostics.all();
+    PartDiagnostics& part = part_diagnostics_;
+    const std::uint32_t begin = std::max(scan.part_begin, scan.statement_begin);
+    if (part.part_begin != begin) {
+        part = {begin, all.size(), false};
+    }
+    for (; !part.has_doubtful_error && part.next < all.size(); ++part.next) {
+        const Diagnostic& diagnostic = all[part.next];
+        part.has_doubtful_error = diagnostic.severity == Severity::Error &&
+                                  !is_independent(diagnostic.code) && !has_certain_fix(diagnostic);
+    }
+    return part.has_doubtful_error;
+}
 
 bool ParseSession::is_commented_out(std::size_t at) {
     const std::string_view text = scanned.text;
@@ -70,9 +92,13 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
         lsys_grammar::report_missing_semicolon(*this);
     }
     offer_doubtful_fixes();
+    const std::uint32_t begin = scanned.source_begin(scan.statement_begin);
+    const SourceSpan statement{scanned.file, begin, std::max(begin, span.end)};
+    for (const DiagnosticCode code : std::exchange(allowed, {})) {
+        context.sources.allow(statement, info(code).name);
+    }
     if (context.statements != nullptr) {
-        const std::uint32_t begin = scanned.source_begin(scan.statement_begin);
-        context.statements->push_back({scanned.file, begin, std::max(begin, span.end)});
+        context.statements->push_back(statement);
     }
     if (!is_kept || ast_.statements.back().kind != StatementKind::Include || includes == nullptr) {
         return;
@@ -83,6 +109,11 @@ void ParseSession::end_statement(SourceSpan span, bool whole) {
     const FileId file = includes->enter(node.path, node.path_span);
     if (file == kNoFile) {
         ast_.incomplete = true;
+        return;
+    }
+    if (!check_is_text(file, context.sources, context.diagnostics)) {
+        ast_.incomplete = true;
+        includes->leave();
         return;
     }
     ast_.includes[index].file = file;
@@ -99,6 +130,10 @@ Ast parse_lsys(FileId root, const ParseContext& context) {
 Ast parse_lsys_with_names(FileId root, std::string_view names, const ParseContext& context) {
     Ast ast;
     ast.files.push_back({root, {}});
+    if (!check_is_text(root, context.sources, context.diagnostics)) {
+        ast.incomplete = true;
+        return ast;
+    }
     IncludeChain includes(context, root);
     NormalizedText normalized = normalize_source(root, context);
     if (names == "words") {

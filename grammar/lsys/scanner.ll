@@ -95,7 +95,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
             return INITIAL;
         case Part::Opening:
             return OPENING;
+        case Part::FunctionHead:
         case Part::Value:
+        case Part::Chance:
         case Part::Condition:
         case Part::Locals:
             return EXPRESSION;
@@ -212,6 +214,18 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   [=,]                  {
                           return opening_sign(session);
                         }
+  "~"                   {
+                          if (scan.keyword == Keyword::Axiom) {
+                              const SourceSpan span = session.token();
+                              scan.enter(Part::Chance);
+                              return Token(Parser::token::TOK_TILDE, span);
+                          }
+                          if (const auto missing = missing_opening(session)) {
+                              SHORTEN(0);
+                              return *missing;
+                          }
+                          return Token(Parser::token::TOK_OTHER, session.token());
+                        }
   {IDENT}               {
                           if (const auto missing = missing_opening(session)) {
                               SHORTEN(0);
@@ -220,6 +234,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           const SourceSpan span = session.token();
                           if (names_production(scan.keyword)) {
                               scan.name_before = true; // the `:` is next
+                          } else if (scan.keyword == Keyword::Function) {
+                              scan.enter(Part::FunctionHead);
+                              scan.name_before = true; // the `(` is next
+                          } else if (scan.keyword == Keyword::Curve) {
+                              scan.enter(Part::Setting);
                           } else {
                               scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
                           }
@@ -293,7 +312,12 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               return Token(Parser::token::TOK_OTHER, session.token());
                           }
                         }
-  [^=:;#A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
+  ","                   {
+                          const bool separates = scan.keyword == Keyword::Curve;
+                          return Token(separates ? Parser::token::TOK_COMMA : Parser::token::TOK_OTHER,
+                                       session.token());
+                        }
+  [^=:;,#A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
                           return Token(Parser::token::TOK_OTHER, session.token());
                         }
 }
@@ -410,6 +434,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               }
                               OPERATOR(OR);
                           }
+                          if (is_word_for_not(session, TEXT)) {
+                              return nesting_operator(session, Parser::token::TOK_NOT);
+                          }
                           BEGIN_VALUE();
                           const SourceSpan span = session.token();
                           scan.value_before = true;
@@ -492,6 +519,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "="                   {
                           if (const auto token = local_value_token(session, TEXT)) {
                               return *token;
+                          }
+                          if (is_named_argument(session)) {
+                              report_named_argument(session);
+                              return discard_statement(session);
                           }
                           if (!is_needless_sign(session)) {
                               report_assignment(session);

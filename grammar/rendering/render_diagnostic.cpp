@@ -176,6 +176,24 @@ void render(const Diagnostic& diagnostic,
     }
 }
 
+void render_frame(const std::vector<Label>& labels,
+                  const SourceMap& sources,
+                  bool colour,
+                  std::string& out) {
+    if (labels.empty()) {
+        return;
+    }
+    const rendering::Palette& colours = rendering::palette(colour);
+    std::vector<rendering::Mark> marks;
+    for (const Label& label : labels) {
+        marks.push_back({label.span, marks.empty() ? '^' : '-', label.text, colours.note});
+    }
+    const rendering::Mark primary = marks.front();
+    marks.erase(marks.begin());
+    static_cast<void>(
+        rendering::append_frame(primary, marks, sources.file(primary.span.file), colours, out));
+}
+
 void render_all(const Diagnostics& diagnostics,
                 const SourceMap& sources,
                 const RenderOptions& options,
@@ -183,7 +201,9 @@ void render_all(const Diagnostics& diagnostics,
     std::array<std::uint64_t, 3> rest{diagnostics.count(Severity::Note),
                                       diagnostics.count(Severity::Warning),
                                       diagnostics.count(Severity::Error)};
-    for (const std::size_t index : choose_shown(diagnostics.all(), options.max_shown)) {
+    const std::size_t room =
+        options.format == MessageFormat::Json ? diagnostics.all().size() : options.max_shown;
+    for (const std::size_t index : choose_shown(diagnostics.all(), room)) {
         const Diagnostic& diagnostic = diagnostics.all()[index];
         render(diagnostic, sources, options, out);
         --rest[static_cast<std::size_t>(diagnostic.severity)];

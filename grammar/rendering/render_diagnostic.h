@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -19,7 +20,7 @@ enum class MessageFormat : std::uint8_t {
 struct RenderOptions {
     MessageFormat format = MessageFormat::Human;
     bool colour = false;
-    std::uint32_t max_shown = 50; // a last line counts the rest
+    std::uint32_t max_shown = 50; // a last line counts the rest; JSON has all that are stored
     const char* program = "lsc";  // replaces the path of a diagnostic without a file
 };
 
@@ -29,8 +30,15 @@ void render(const Diagnostic& diagnostic,
             const RenderOptions& options,
             std::string& out);
 
-/// Appends at most max_shown diagnostics in their order, which should be sorted, and the number of
-/// the others. Errors are chosen before warnings, and warnings before notes.
+/// Appends the line of the first label with marks under all labels that lie in it, each with its
+/// text, as a message has it below its head.
+void render_frame(const std::vector<Label>& labels,
+                  const SourceMap& sources,
+                  bool colour,
+                  std::string& out);
+
+/// Appends at most max_shown diagnostics, in JSON all, in their order, which should be sorted, and
+/// the number of the others. Errors are chosen before warnings, and warnings before notes.
 void render_all(const Diagnostics& diagnostics,
                 const SourceMap& sources,
                 const RenderOptions& options,

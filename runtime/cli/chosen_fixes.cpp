@@ -25,13 +25,15 @@ bool is_taken(const TakenPlaces& taken, SourceSpan span) {
 
 ChosenFixes choose_fixes(const Diagnostics& diagnostics,
                          const SourceMap& sources,
+                         FixChoice choice,
                          const FixFilter& is_allowed) {
     ChosenFixes chosen;
     std::map<std::string, TakenPlaces> taken;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
         const auto fix =
-            std::find_if(diagnostic.fixes.begin(), diagnostic.fixes.end(), [](const Fix& each) {
-                return each.machine_applicable && !each.edits.empty();
+            std::find_if(diagnostic.fixes.begin(), diagnostic.fixes.end(), [&](const Fix& each) {
+                return (each.machine_applicable || choice == FixChoice::Offered) &&
+                       !each.edits.empty();
             });
         if (fix == diagnostic.fixes.end() || !is_allowed(diagnostic, *fix)) {
             continue;

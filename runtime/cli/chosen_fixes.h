@@ -3,6 +3,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/source.h"
+#include "runtime/cli/fixes.h"
 
 #include <functional>
 #include <map>
@@ -20,10 +21,12 @@ struct ChosenFixes {
     FileEdits edits;
 };
 using FixFilter = std::function<bool(const Diagnostic&, const Fix&)>;
-/// Chooses the first certain fix of each diagnostic if `is_allowed` accepts the fix and its edits
-/// touch no edit chosen before.
-[[nodiscard]] ChosenFixes
-choose_fixes(const Diagnostics& diagnostics, const SourceMap& sources, const FixFilter& is_allowed);
+/// Chooses the first certain fix of each diagnostic, or with FixChoice::Offered the first one, if
+/// `is_allowed` accepts the fix and its edits touch no edit chosen before.
+[[nodiscard]] ChosenFixes choose_fixes(const Diagnostics& diagnostics,
+                                       const SourceMap& sources,
+                                       FixChoice choice,
+                                       const FixFilter& is_allowed);
 
 /// `text` after `edits`, which are sorted by place and do not overlap. Line feeds of replacements
 /// become CRLF if the text has CRLF.

@@ -2,6 +2,8 @@
 #include "grammar/base/counted_text.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/fixes.h"
+#include "runtime/cli/including_grammar.h"
+#include "runtime/cli/unified_diff.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -15,21 +17,41 @@ namespace lsys::lsc {
 
 namespace {
 
+/// The options of a file: those of the command, and those of a part if it lacks an axiom and
+/// another grammar includes it.
+GrammarOptions options_of(const std::string& path,
+                          const GrammarText& text,
+                          const CheckCommand& command,
+                          const Console& console) {
+    GrammarOptions options = command.grammar;
+    options.part = command.part;
+    if (command.part || text.dialect != Dialect::Lsys || shown_path(path).ends_with("<stdin>") ||
+        text.bytes.find("#w") != std::string::npos) {
+        return options;
+    }
+    if (const auto grammar = find_including_grammar(shown_path(path))) {
+        console.detail(
+            fmt::format("`{}` is checked as a part of `{}`", shown_path(path), *grammar));
+        options.part = true;
+    }
+    return options;
+}
+
 ExitStatus check_text(const std::string& path,
                       const GrammarText& text,
                       const CheckCommand& command,
+                      const GrammarOptions& options,
                       const Console& console) {
     const Project project = make_project(console, command.run);
-    Result<CompiledText> compiled =
-        compile_text(path, text, command.grammar, project.limits.max_modules,
-                     make_loader(project, project.limits.max_bytes));
+    Result<CompiledText> compiled = compile_text(path, text, options, project.limits.max_modules,
+                                                 make_loader(project, project.limits.max_bytes));
     if (!compiled) {
         return report_error(compiled.error(), console);
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
         // Editors apply machine-applicable fixes without asking, so doubtful ones become offers.
         const Result<void> offered = offer_doubtful_fixes(
-            path, text, command.grammar, FixScope(path, command.files), project, compiled.value());
+            path, text, options, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
             return report_error(offered.error(), console);
         }
@@ -90,17 +112,41 @@ std::size_t count_fixes(const Diagnostics& diagnostics) {
     return count;
 }
 
+/// The bytes of a file before the repair.
+Result<std::string> original_text(const std::string& changed,
+                                  const std::string& path,
+                                  const GrammarText& text,
+                                  const Project& project) {
+    return changed == shown_path(path) ? Result<std::string>(text.bytes)
+                                       : make_loader(project, project.limits.max_bytes)(changed);
+}
+
 ExitStatus fix_file(const std::string& path,
                     const GrammarText& text,
                     const CheckCommand& command,
+                    const GrammarOptions& options,
                     const Console& console) {
     FixedGrammar fixed;
-    const Result<void> done = fix_text(path, text, command.grammar, FixScope(path, command.files),
-                                       make_project(console, command.run), fixed);
+    const Project project = make_project(console, command.run);
+    const Result<void> done =
+        fix_text(path, text, options, FixScope(path, command.files), project,
+                 command.fix == "offered" ? FixChoice::Offered : FixChoice::Certain, fixed);
     if (!done) {
         return report_error(done.error(), console);
     }
-    if (!console.interrupted()) {
+    if (command.diff) {
+        for (const auto& [changed_path, fixed_text] : fixed.changed) {
+            const Result<std::string> before = original_text(changed_path, path, text, project);
+            if (!before) {
+                return report_error(before.error(), console);
+            }
+            const Result<void> shown =
+                console.write(unified_diff(changed_path, before.value(), fixed_text));
+            if (!shown) {
+                return report_error(shown.error(), console);
+            }
+        }
+    } else if (!console.interrupted()) {
         if (const Result<void> written = write_fixed(path, text.bytes, fixed, console); !written) {
             const ExitStatus status = report_error(written.error(), console);
             if (fixed.changed.size() > 1) {
@@ -111,11 +157,17 @@ ExitStatus fix_file(const std::string& path,
             return status;
         }
     }
-    for (const std::string& line : fixed.lines) {
-        console.line(line);
-    }
-    if (fixed.fix_count > fixed.lines.size()) {
-        console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
+    if (command.diff) {
+        // The difference shows them.
+    } else if (command.messages.format == MessageFormat::Json) {
+        console.records(fixed.records);
+    } else {
+        for (const std::string& line : fixed.lines) {
+            console.line(line);
+        }
+        if (fixed.fix_count > fixed.lines.size()) {
+            console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
+        }
     }
     const ExitStatus status =
         console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
@@ -143,10 +195,11 @@ ExitStatus run_command(const CheckCommand& command, const Console& console) {
         } else if (is_module_file(text.bytes)) {
             console.error(fmt::format("`{}` is compiled; only grammars can be checked", path));
             status = more_severe(status, ExitStatus::Failure);
-        } else if (command.fix) {
-            status = more_severe(status, fix_file(path, text, command, console));
         } else {
-            status = more_severe(status, check_text(path, text, command, console));
+            const GrammarOptions options = options_of(path, text, command, console);
+            status = more_severe(status, command.fix.empty()
+                                             ? check_text(path, text, command, options, console)
+                                             : fix_file(path, text, command, options, console));
         }
     }
     return status;

@@ -3,10 +3,12 @@
 #include "runtime/cli/explanations.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys::lsc {
@@ -98,12 +100,45 @@ std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
     return text;
 }
 
+using Json = nlohmann::ordered_json;
+
+Json row_as_json(const DiagnosticInfo& row) {
+    return {
+        {"code", row.name}, {"severity", severity_name(row.severity)}, {"meaning", row.meaning}};
+}
+
+/// The texts of explain() as an object; an example is `right` or not, with its files by name.
+std::string explain_as_json(const DiagnosticInfo& row, const Explanation& explanation) {
+    Json object = row_as_json(row);
+    object["text"] = explanation.text;
+    object["examples"] = Json::array();
+    for (const Example& example : explanation.examples) {
+        Json files;
+        for (const auto& [name, grammar] : example.files) {
+            files[name] = grammar;
+        }
+        object["examples"].push_back({{"right", example.right},
+                                      {"arguments", example.arguments},
+                                      {"files", std::move(files)}});
+    }
+    return object.dump() + '\n';
+}
+
+std::string list_as_json() {
+    std::string text;
+    for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
+        text += row_as_json(info(static_cast<DiagnosticCode>(i))).dump() + '\n';
+    }
+    return text;
+}
+
 } // namespace
 
 ExitStatus run_command(const ExplainCommand& command, const Console& console) {
+    const bool as_json = command.messages.format == MessageFormat::Json;
     std::string text;
     if (command.code.empty()) {
-        text = list_all();
+        text = as_json ? list_as_json() : list_all();
     } else {
         const std::optional<DiagnosticCode> code = find_diagnostic_code(command.code);
         const std::vector<Explanation> all = parse_explanations(explanations_text());
@@ -120,7 +155,7 @@ ExitStatus run_command(const ExplainCommand& command, const Console& console) {
                                  : std::string("`lsc explain` lists all of them"));
             return ExitStatus::Failure;
         }
-        text = explain(info(*code), *found);
+        text = as_json ? explain_as_json(info(*code), *found) : explain(info(*code), *found);
     }
     return report_result(console.write(text), console);
 }

@@ -34,7 +34,9 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     const FileLoader load = make_loader(project, half_of_memory());
     const std::string before = grammar.bytes;
     const FileId file = sources.add(shown_path(path), std::move(grammar.bytes));
-    const std::optional<std::string> text = format_lsys(file, {sources, names, diagnostics, load});
+    const ParseContext context{sources, names, diagnostics, load};
+    const std::optional<std::string> text =
+        check_is_lsys(file, context) ? format_lsys(file, context) : std::nullopt;
     if (!text) { // nothing is written; the messages say why
         return console.show(diagnostics, sources);
     }

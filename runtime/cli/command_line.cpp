@@ -36,13 +36,25 @@ void add_message_options(CLI::App& app, MessageOptions& options) {
 
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
-    app.add_flag(
-        "--fix", command.fix,
-        "Apply all certain repairs to FILE and to files included from its folder or below");
+    app.add_flag("--fix{certain}", command.fix,
+                 "Apply all certain repairs to FILE and to files included from its folder or "
+                 "below; --fix=offered: those that are only offered too")
+        ->type_name("")
+        ->check([](const std::string& choice) {
+            return choice == "certain" || choice == "offered"
+                       ? std::string()
+                       : fmt::format("`{}` is none of certain|offered", choice);
+        });
+    app.add_flag("--diff", command.diff,
+                 "With --fix: print the repairs as a unified diff, and write no file");
+    app.add_flag("--part", command.part,
+                 "FILE is a part that other grammars include: no axiom is missing, and names may "
+                 "be defined elsewhere (default: whether a grammar in its folder or the one above "
+                 "includes it)");
     add_grammar(app, command.grammar, command.run);
     add_base(app, command.run);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer("A repair is certain if no other is plausible and its statement is correct "
                "afterwards; other\n"
                "repairs are shown as help. --fix changes no file outside the folder of FILE "
@@ -63,7 +75,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
     add_base(app, command.run);
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer("-n, --seed and --set replace #n, `#set seed` and other #set in the output.\n"
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
@@ -147,7 +159,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
         ->type_name("FILE")
         ->group("Saved states");
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer("Examples: lsc dump -n 3 tree.lsys\n"
                "          lsc dump --all --count tree.lsys\n"
                "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
@@ -287,9 +299,10 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_parsed(
         app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
         fmt::format(
-            "Write the first N levels of detail: {} hold them in one file (glTF as MSFT_lod, "
-            "USD as the variant set LOD), other formats are files tree.LOD0.obj, "
-            "tree.LOD1.obj, ... and tree.lods.json",
+            "Write N levels of detail, from the finest to the coarsest; where the plant has more, "
+            "N "
+            "in equal steps: {} hold them in one file (glTF as MSFT_lod, USD as the variant set "
+            "LOD), other formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
             format_names("and", [](const FormatTraits& format) { return format.lods; }))
             .c_str())
         ->type_name("N")
@@ -356,7 +369,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_height(app, command.height);
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer(
         "Presets:\n" + preset_table(PresetCommand::Export) +
         "A flag of a preset is taken back by `--wind-data=false`.\n\n"
@@ -432,7 +445,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer(
         "Presets:\n" + preset_table(PresetCommand::Forest) +
         "\nOptions override the scene; -n, -D, --set and the options of instances apply to every "
@@ -460,7 +473,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_base(app, command.run);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
                "its\n#define, and --set those of its #set.\n"
                "Example: lsc import tree.l -o tree.lsys");
@@ -479,13 +492,52 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_base(app, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);
-    add_deny(app, command.messages);
+    add_levels(app, command.messages);
     app.footer("Sizes are predicted from the growth matrix; grammars with `#decompose` or `%` are "
                "derived and\n"
                "counted. A plant of at most a million modules is drawn too, and its height "
                "printed. With\n--message-format json the table is JSON.\n"
                "Examples: lsc stats -n 12 tree.lsys\n"
                "          lsc stats --parameters tree.lsys");
+}
+
+void add_trace(CLI::App& app, TraceCommand& command) {
+    app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
+        ->required();
+    app.add_option("-o,--output", command.output, "Output file (default standard output)")
+        ->type_name("FILE");
+    constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+    add_parsed(app, "--at", command.position, integer(0, kAny),
+               "Trace the module at this position of the word, from 0")
+        ->type_name("POSITION");
+    app.add_option("--module", command.module,
+                   "Trace the first module that is exactly this one, such as 'A(3)'")
+        ->type_name("MODULE");
+    app.add_option("--all", command.name, "Trace the modules of this name, with any parameters")
+        ->type_name("NAME");
+    add_parsed(app, "--rows", command.rows, integer(1, kAny),
+               "Number of modules that --all traces (default 10)")
+        ->type_name("N");
+    app.add_flag("--back", command.back,
+                 "Follow the module back to the axiom, generation by generation");
+    add_choice<std::optional<TraceFormat>>(
+        app, "--format", command.format, {{"text", TraceFormat::Text}, {"json", TraceFormat::Json}},
+        "Form of the output (default text)");
+    add_grammar(app, command.grammar, command.run);
+    add_base(app, command.run);
+    add_seed(app, command.seed);
+    add_run_limits(app, command.run);
+    add_message_options(app, command.messages);
+    add_levels(app, command.messages);
+    app.footer("Tells of a module of generation N every production that was tried in the next "
+               "generation, why it\n"
+               "applies or not, and what was written; of the last word also what is drawn. -n N is "
+               "the generation\n"
+               "of the module; steps() is #n, or N if that is more.\n"
+               "Examples: lsc trace tree.lsys -n 3 --at 17\n"
+               "          lsc trace tree.lsys -n 3 --module 'A(3)'\n"
+               "          lsc trace tree.lsys -n 3 --all A --rows 2 --format json\n"
+               "          lsc trace tree.lsys --at 100 --back");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {
@@ -627,6 +679,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     add("forest", "Generate a forest of instanced plants", add_forest);
     add("import", "Convert a grammar of another program to .lsys", add_import);
     add("stats", "Predict the size of each generation", add_stats);
+    add("trace", "Explain what becomes of a module, and why", add_trace);
     add("fmt", "Format grammars", add_format);
     add("explain", "Explain a diagnostic, with examples", add_explain);
 

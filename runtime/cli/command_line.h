@@ -20,6 +20,7 @@ using CommandLine = std::variant<PrintText,
                                  ForestCommand,
                                  ImportCommand,
                                  StatsCommand,
+                                 TraceCommand,
                                  FormatCommand,
                                  ExplainCommand>;
 

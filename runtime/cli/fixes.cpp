@@ -42,8 +42,9 @@ Result<void> fix_text(const std::string& path,
                       const GrammarOptions& options,
                       const FixScope& scope,
                       const Project& project,
+                      FixChoice choice,
                       FixedGrammar& fixed) {
-    return repair({path, text, options, scope, project}, [&](RepairAttempt& attempt) {
+    return repair({path, text, options, scope, project, choice}, [&](RepairAttempt& attempt) {
         fixed = attempt.take();
         fixed.compiled.diagnostics.offer_fixes_where([](const Diagnostic&) { return true; });
     });
@@ -59,9 +60,10 @@ Result<void> offer_doubtful_fixes(const std::string& path,
     if (std::none_of(all.begin(), all.end(), has_certain_fix)) {
         return {};
     }
-    return repair({path, text, options, scope, project}, [&](RepairAttempt& attempt) {
-        attempt.offer_doubtful(compiled.diagnostics, *compiled.grammar.sources);
-    });
+    return repair({path, text, options, scope, project, FixChoice::Certain},
+                  [&](RepairAttempt& attempt) {
+                      attempt.offer_doubtful(compiled.diagnostics, *compiled.grammar.sources);
+                  });
 }
 
 } // namespace lsys::lsc

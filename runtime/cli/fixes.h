@@ -11,6 +11,9 @@
 // 5. A bracket or comma is repaired only if each alternative gives errors, the same meaning or more
 //    warnings (alternative_repairs.h).
 //
+// With FixChoice::Offered the first repair of every message is applied, certain or not; 3 and the
+// undoing of repairs that bring new errors hold. Each place is repaired once for one code.
+//
 // Other fixes become offers: shown as help, and not machine applicable in JSON.
 #pragma once
 
@@ -32,6 +35,8 @@ struct FixedGrammar {
     std::map<std::string, std::string> changed;
     /// The first kMaxFixLines fixes, one per line: `tree.lsys:7:26: fixed: write A S(1) [code]`.
     std::vector<std::string> lines;
+    /// All fixes as lines of JSON; places are those in the text at the time of the fix.
+    std::string records;
     std::uint64_t fix_count = 0;
     /// Files with certain fixes that are outside the scope.
     std::set<std::string> out_of_scope;
@@ -40,6 +45,9 @@ struct FixedGrammar {
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
+/// The repairs that are applied.
+enum class FixChoice : std::uint8_t { Certain, Offered };
+
 /// Repairs `text`, the text of `path`, and its included files within `scope`. Keeps byte order
 /// marks and CRLF line ends.
 [[nodiscard]] Result<void> fix_text(const std::string& path,
@@ -47,6 +55,7 @@ inline constexpr std::size_t kMaxFixLines = 50;
                                     const GrammarOptions& options,
                                     const FixScope& scope,
                                     const Project& project,
+                                    FixChoice choice,
                                     FixedGrammar& fixed);
 
 /// Turns the fixes of `compiled`, the compiled `text`, into offers unless fix_text() applies them.

@@ -22,7 +22,9 @@ struct CheckCommand {
     GrammarOptions grammar;
     RunOptions run;
     std::vector<std::string> files;
-    bool fix = false;
+    std::string fix;   // `certain` or `offered` repairs are applied; empty: none
+    bool diff = false; // repairs are shown, and no file is written
+    bool part = false; // the files are parts of grammars
 };
 
 struct CompileCommand {
@@ -168,6 +170,23 @@ struct StatsCommand {
     std::string file;
     std::optional<float> gravity; // m/s^2; weighs the plant too
     bool parameters = false;      // list the constants instead
+};
+
+enum class TraceFormat : std::uint8_t { Text, Json };
+
+struct TraceCommand {
+    MessageOptions messages;
+    GrammarOptions grammar; // generations: the generation of the modules
+    RunOptions run;
+    std::optional<std::uint64_t> seed;
+    std::string file;
+    std::string output = "-";
+    std::optional<std::uint64_t> position;
+    std::string module;
+    std::string name; // of --all
+    std::uint64_t rows = 10;
+    bool back = false;
+    std::optional<TraceFormat> format; // default: text; JSON with --message-format json
 };
 
 struct ImportCommand {

@@ -1,5 +1,6 @@
 #include "runtime/cli/repair_attempt.h"
 
+#include "grammar/rendering/render_diagnostic.h"
 #include "runtime/cli/alternative_repairs.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,21 @@ std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceM
     const LineColumn place = file.line_column(span.begin);
     return fmt::format("{}:{}:{}: fixed: {} [{}]", file.path(), place.line, place.column, fix.title,
                        info(diagnostic.code).name);
+}
+
+/// The fix as a line of JSON.
+void append_record(const Diagnostic& diagnostic,
+                   const Fix& fix,
+                   const SourceMap& sources,
+                   std::string& out) {
+    Diagnostic record = make_diagnostic(diagnostic.code, fix.edits.front().span,
+                                        fmt::format("fixed: {}", fix.title));
+    record.severity = Severity::Note;
+    record.fixes = {fix};
+    record.facts = {{"applied", true}};
+    RenderOptions options;
+    options.format = MessageFormat::Json;
+    render(record, sources, options, out);
 }
 
 /// Whether the repair is independent of other errors of its statement.
@@ -68,10 +84,11 @@ Result<void> RepairAttempt::run() {
         if (round == kMaxRounds || excludes_all_ || subject_.project.is_cancelled()) {
             return {};
         }
-        const ChosenFixes chosen = choose_fixes(compiled.diagnostics, *compiled.grammar.sources,
-                                                [&](const Diagnostic& diagnostic, const Fix& fix) {
-                                                    return may_apply(diagnostic, fix);
-                                                });
+        const ChosenFixes chosen =
+            choose_fixes(compiled.diagnostics, *compiled.grammar.sources, subject_.choice,
+                         [&](const Diagnostic& diagnostic, const Fix& fix) {
+                             return may_apply(diagnostic, fix);
+                         });
         if (chosen.fixes.empty()) {
             return {};
         }
@@ -126,11 +143,22 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
     if (diagnostic.severity != Severity::Error && fixed_.compiled.diagnostics.has_errors()) {
         return false;
     }
+    if (subject_.project.levels.of(diagnostic) == MessageLevel::Allow) {
+        return false;
+    }
     const SourceMap& sources = *fixed_.compiled.grammar.sources;
     for (const Edit& edit : fix.edits) {
         const std::string& path = sources.file(edit.span.file).path();
         if (!subject_.scope.contains(path)) {
             fixed_.out_of_scope.insert(path);
+            return false;
+        }
+    }
+    if (subject_.choice == FixChoice::Offered) {
+        const SourceSpan first = fix.edits.front().span;
+        const std::string& path = sources.file(first.file).path();
+        if (repaired_places_.count(
+                {path, files_.at(path).original_place(first.begin), diagnostic.code}) != 0) {
             return false;
         }
     }
@@ -154,6 +182,8 @@ void RepairAttempt::apply(const ChosenFixes& chosen) {
         const std::string& path = sources.file(first.file).path();
         const AppliedFix applied{chosen.diagnostics[i]->code, path,
                                  files_.at(path).original_place(first.begin)};
+        append_record(*chosen.diagnostics[i], fix, sources, fixed_.records);
+        repaired_places_.emplace(path, applied.place, applied.code);
         for (const StatementKey& key : statements_of(fix)) {
             applied_[key].push_back(applied);
         }
@@ -208,7 +238,7 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
     };
     std::set<StatementKey> keys;
     for (const StatementKey& key : with_syntax_errors_) {
-        if (is_repaired(key)) {
+        if (subject_.choice == FixChoice::Certain && is_repaired(key)) {
             keys.insert(key);
         }
     }
@@ -222,7 +252,9 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
             // The parser reads the original as if its brackets were repaired, so an error caused by
             // a bracket is in both texts.
-            if ((is_new || has_bracket_repair(key)) && is_repaired(key)) {
+            const bool is_doubtful =
+                subject_.choice == FixChoice::Certain && has_bracket_repair(key);
+            if ((is_new || is_doubtful) && is_repaired(key)) {
                 keys.insert(key);
             }
         }

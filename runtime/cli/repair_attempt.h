@@ -17,6 +17,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct RepairSubject {
     const GrammarOptions& options;
     const FixScope& scope;
     const Project& project;
+    FixChoice choice = FixChoice::Certain;
 };
 
 /// Compiles the grammar with the files of `changed` in place of those on disk.
@@ -88,6 +90,7 @@ private:
     std::set<StatementKey> with_syntax_errors_; // of the last round
     std::map<StatementKey, Errors> original_errors_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
+    std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_; // if offered
 };
 
 } // namespace lsys::lsc

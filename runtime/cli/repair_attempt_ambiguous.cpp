@@ -29,6 +29,9 @@ std::set<ModuleName> modules_of(const Grammar& grammar) {
 
 std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
     std::set<StatementKey> keys;
+    if (subject_.choice == FixChoice::Offered) {
+        return keys; // asked for
+    }
     std::size_t compared = 0;
     for (const auto& [key, fixes] : applied_) {
         const auto candidate = std::find_if(fixes.begin(), fixes.end(), [](const AppliedFix& fix) {

@@ -38,8 +38,17 @@ BracketCounter::BracketCounter(const Bytecode& bytecode) {
     }
 }
 
+/// The first axiom with a `]` without its `[`, or nullptr.
+const BytecodeAxiom* unbalanced_axiom(const Bytecode& bytecode) {
+    const auto found = std::find_if(bytecode.axioms.begin(), bytecode.axioms.end(),
+                                    [&](const BytecodeAxiom& axiom) {
+                                        return has_unmatched_close(bytecode, axiom.word.codes);
+                                    });
+    return found == bytecode.axioms.end() ? nullptr : &*found;
+}
+
 ProductionId only_unbalanced_production(const Bytecode& bytecode) {
-    if (has_unmatched_close(bytecode, bytecode.axiom.codes)) {
+    if (unbalanced_axiom(bytecode) != nullptr) {
         return kNoProduction;
     }
     ProductionId found = kNoProduction;
@@ -65,8 +74,9 @@ unmatched_bracket(const Bytecode& bytecode, Code code, std::uint64_t position, s
     RuntimeError error;
     error.kind = RuntimeErrorKind::Unbalanced;
     error.production = only_unbalanced_production(bytecode);
+    const BytecodeAxiom* const axiom = unbalanced_axiom(bytecode);
     error.site = error.production == kNoProduction
-                     ? bytecode.axiom_site
+                     ? (axiom != nullptr ? *axiom : bytecode.axioms.front()).site
                      : bytecode.productions[static_cast<std::size_t>(error.production)].name_site;
     error.generation = age;
     error.position = position;

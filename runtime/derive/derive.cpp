@@ -111,7 +111,8 @@ struct Derivation::State {
         if (!apply_origin_option()) {
             return Stop::OutOfMemory;
         }
-        const std::uint64_t count = bytecode.axiom.codes.count;
+        const BytecodeAxiom& axiom = chosen_axiom(bytecode, options.seed);
+        const std::uint64_t count = axiom.word.codes.count;
         report_limit(LimitKind::Modules, count,
                      plan->held_bytes() + word.held_bytes_after(count, parameters.size()));
         end.limit.modules = 0;
@@ -125,10 +126,10 @@ struct Derivation::State {
         if (!word.resize(count, parameters.size())) {
             return Stop::OutOfMemory;
         }
-        word.visit([this](auto codes) { copy_axiom_codes(bytecode, codes.data()); });
+        word.visit([&](auto codes) { copy_axiom_codes(bytecode, axiom, codes.data()); });
         std::copy(parameters.begin(), parameters.end(), word.parameters().begin());
         if (word.keeps_origins()) {
-            copy_axiom_origins(bytecode, word.origins().data());
+            copy_axiom_origins(axiom, word.origins().data());
         }
         return std::nullopt;
     }
@@ -144,9 +145,37 @@ struct Derivation::State {
         current = &next;
     }
 
+    /// Reports that a pass over `current` begins, if somebody wants to know.
+    void announce(DerivationPass& facts, const Word* current) {
+        if (!options.on_pass) {
+            return;
+        }
+        Word& in = current == &word ? word : current == &next ? next : spare;
+        number_modules(in, facts.generation);
+        facts.in = current;
+        facts.out = nullptr;
+        options.on_pass(facts);
+    }
+    void report(DerivationPass& facts, const Word* written) const {
+        if (options.on_pass) {
+            facts.out = written;
+            options.on_pass(facts);
+        }
+    }
+    /// Makes the origin of each module its index.
+    static void number_modules(Word& numbered, std::uint32_t age_of_word) {
+        std::uint32_t index = 0;
+        for (Origin& origin : numbered.origins()) {
+            origin = {index++, age_of_word | kFollowed};
+        }
+    }
+
     /// Runs one pass over `current`, which then refers to the written word; `word` is unchanged.
     [[nodiscard]] std::optional<Stop>
-    pass(Passes& runner, const PassKeys& keys, const Word*& current) {
+    pass(Passes& runner, const PassKeys& keys, DerivationPass facts, const Word*& current) {
+        facts.generation = keys.generation;
+        facts.first_draw = keys.first_draw;
+        announce(facts, current);
         Word& out = target_of_pass(current);
         const Word& other = current == &word ? spare : word;
         const std::uint64_t plans =
@@ -159,13 +188,16 @@ struct Derivation::State {
             end.limit = runner.limit();
             end.limit.modules = word.module_count();
         } else if (!stop) {
+            report(facts, &out);
             make_current(out, current);
         }
         return stop;
     }
 
-    [[nodiscard]] std::optional<Stop> rewrite(std::uint64_t first_draw, const Word*& current) {
-        return pass(*passes, {options.seed, age, first_draw}, current);
+    /// Rewrites by one rule; kNone: by all of them.
+    [[nodiscard]] std::optional<Stop>
+    rewrite(std::uint64_t first_draw, std::uint32_t rule, const Word*& current) {
+        return pass(*passes, {options.seed, age, first_draw}, {.rule = rule}, current);
     }
 
     /// Runs a pass of each rule in turn.
@@ -174,7 +206,7 @@ struct Derivation::State {
         for (std::uint32_t rule = 0; rule < rules && !stop; ++rule) {
             plan->select_rule(rule);
             if (passes->may_rewrite_any(*current)) {
-                stop = rewrite(kDrawsOfPass * rule, current);
+                stop = rewrite(kDrawsOfPass * rule, rule, current);
             }
         }
         return stop;
@@ -188,12 +220,13 @@ struct Derivation::State {
         switch (bytecode.settings.rewriting) {
         case RewritingMode::Parallel:
         case RewritingMode::Leftmost:
-            return rewrite(0, current);
+            return rewrite(0, kNone, current);
         case RewritingMode::Sequential:
             return rewrite_sequentially(current);
         case RewritingMode::Cyclic:
             plan->select_rule(age % rules);
-            return passes->may_rewrite_any(*current) ? rewrite(0, current) : std::nullopt;
+            return passes->may_rewrite_any(*current) ? rewrite(0, age % rules, current)
+                                                     : std::nullopt;
         }
         return std::nullopt;
     }
@@ -207,6 +240,8 @@ struct Derivation::State {
         if (size.modules == current->module_count()) {
             return std::nullopt;
         }
+        DerivationPass facts{.kind = DerivationPass::Kind::Cut, .generation = age};
+        announce(facts, current);
         Word& out = target_of_pass(current);
         report_limit(LimitKind::Memory, size.modules,
                      plan->held_bytes() + word.held_bytes() + spare.held_bytes() +
@@ -219,20 +254,22 @@ struct Derivation::State {
             return Stop::OutOfMemory;
         }
         write_pruned(pruner, *current, out);
+        report(facts, &out);
         make_current(out, current);
         passes->discard_census();
         return std::nullopt;
     }
 
-    /// The error for the first module that can still be decomposed, if any.
-    [[nodiscard]] std::optional<RuntimeError> undecomposed(const Word& in, const PassKeys& keys) {
+    /// The error for the first module that productions of a later stage still match, if any.
+    [[nodiscard]] static std::optional<RuntimeError>
+    unfinished(const Plan& stage_plan, const Word& in, const PassKeys& keys) {
         return visit_view(in, [&](const auto& view) -> std::optional<RuntimeError> {
-            Chooser chooser(*decompose_plan, keys, view, nullptr);
-            const std::optional<ModulePlace> place = find_match(*decompose_plan, chooser, view);
+            Chooser chooser(stage_plan, keys, view, nullptr);
+            const std::optional<ModulePlace> place = find_match(stage_plan, chooser, view);
             if (!place) {
                 return std::nullopt;
             }
-            return too_deep(*decompose_plan, chooser, keys, view, *place);
+            return too_deep(stage_plan, chooser, keys, view, *place);
         });
     }
 
@@ -245,14 +282,15 @@ struct Derivation::State {
         decompose_passes->discard_census();
         PassKeys keys{options.seed, word_age, kFirstDecomposeDraw, true};
         for (std::uint32_t done = 0; decompose_passes->may_rewrite_any(*current); ++done) {
-            std::optional<RuntimeError> unfinished = undecomposed(*current, keys);
-            if (!unfinished) {
+            std::optional<RuntimeError> matching = unfinished(*decompose_plan, *current, keys);
+            if (!matching) {
                 break;
             }
             if (done == depth.passes) {
-                return depth.checked ? fail(std::move(*unfinished)) : std::nullopt;
+                return depth.checked ? fail(std::move(*matching)) : std::nullopt;
             }
-            if (const std::optional<Stop> stop = pass(*decompose_passes, keys, current)) {
+            const DerivationPass facts{.kind = DerivationPass::Kind::Decompose, .number = done};
+            if (const std::optional<Stop> stop = pass(*decompose_passes, keys, facts, current)) {
                 end.limit.generation = age;
                 // For the axiom, no word is complete yet.
                 end.limit.modules = word_age == 0 ? 0 : end.limit.modules;
@@ -286,6 +324,42 @@ struct Derivation::State {
         ++age;
         if (options.progress) {
             options.progress(age, word.module_count());
+        }
+        return std::nullopt;
+    }
+
+    /// Runs the passes of #interpret over the word.
+    [[nodiscard]] std::optional<Stop> interpret() {
+        const StageDepth drawn = stage_depth(bytecode, Stage::Interpret);
+        if (drawn.passes == 0) {
+            return std::nullopt;
+        }
+        const PlanInputs inputs{globals.data(), options.seed,
+                                static_cast<float>(options.generations)};
+        Plan drawing(bytecode, inputs, true, Stage::Interpret);
+        drawing.prepare(age);
+        Passes runner(drawing, options);
+        PassKeys keys{options.seed, age, kFirstInterpretDraw, true};
+        const Word* current = &word;
+        for (std::uint32_t done = 0; runner.may_rewrite_any(*current); ++done) {
+            std::optional<RuntimeError> matching = unfinished(drawing, *current, keys);
+            if (!matching) {
+                break;
+            }
+            if (done == drawn.passes) {
+                if (drawn.checked) {
+                    return fail(std::move(*matching));
+                }
+                break;
+            }
+            const DerivationPass facts{.kind = DerivationPass::Kind::Interpret, .number = done};
+            if (const std::optional<Stop> stop = pass(runner, keys, facts, current)) {
+                return stop;
+            }
+            keys.first_draw += kDrawsOfPass;
+        }
+        if (current == &next) {
+            std::swap(word, next);
         }
         return std::nullopt;
     }
@@ -367,6 +441,11 @@ std::optional<Stop> Derivation::derive() {
         stop = run_to(state_->options.generations);
     }
     return stop ? stop : check_brackets();
+}
+
+std::optional<Stop> Derivation::interpret() {
+    LSYS_CHECK(state_->passes.has_value());
+    return state_->run([this] { return state_->interpret(); });
 }
 
 bool Derivation::follow() {

@@ -18,12 +18,15 @@
 namespace lsys {
 
 enum class RuntimeErrorKind : std::uint8_t {
-    NotFinite,     // a parameter or condition is infinite or not a number
-    RangeReversed, // {min, max} with min > max
-    RangeTooWide,  // a bound or the width is not finite
-    OutOfBounds,   // a #param outside its bounds
-    Unbalanced,    // a `]` without its `[` in the last word, whose age is `generation`
-    TooDeep,       // a #decompose or #interpret production still matches after the last pass
+    NotFinite,       // a parameter or condition is infinite or not a number
+    RangeReversed,   // {min, max} with min > max
+    RangeTooWide,    // a bound or the width is not finite
+    BadDistribution, // a distribution whose arguments are outside their bounds
+    NegativeWeight,  // of a production
+    WeightsTooLarge, // the sum of the weights of a choice is not finite
+    OutOfBounds,     // a #param outside its bounds
+    Unbalanced,      // a `]` without its `[` in the last word, whose age is `generation`
+    TooDeep,         // a #decompose or #interpret production still matches after the last pass
 };
 
 /// The facts of a run-time error; runtime_diagnostic() makes the message.
@@ -36,10 +39,24 @@ struct RuntimeError {
     SymbolId symbol = kNoSymbol;  // of the module
     std::vector<float> parameters; // of the module
     float value = 0.0F;            // for NotFinite and OutOfBounds
-    float minimum = 0.0F;          // for RangeReversed and RangeTooWide
-    float maximum = 0.0F;
-    std::uint32_t global = kNone; // for OutOfBounds and errors while globals are drawn
-    bool in_condition = false;    // false: in an argument
+    float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
+    float maximum = 0.0F; // and the second one
+    Opcode opcode = Opcode::Range; // for BadDistribution
+    std::uint32_t global = kNone;  // for OutOfBounds and errors while globals are drawn
+    bool in_condition = false;     // in a condition or weight; false: in an argument
+    bool in_weight = false;
+};
+
+/// A pass of a step of a derivation, for DeriveOptions::on_pass.
+struct DerivationPass {
+    enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret };
+    Kind kind = Kind::Rewrite;
+    std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all of its stage
+    std::uint32_t number = 0;     // of passes of this kind in the step, from 0
+    std::uint32_t generation = 0; // of its draws, and the value of step()
+    std::uint64_t first_draw = 0; // number of the first draw of each module
+    const Word* in = nullptr;
+    const Word* out = nullptr; // null: the pass is about to begin
 };
 
 struct DeriveOptions {
@@ -55,6 +72,10 @@ struct DeriveOptions {
     /// Called after each generation, and several times during a long one; from any thread, but
     /// never from two at once.
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
+    /// Called before and after each pass. Before it, origins of `in` become the indexes of its
+    /// modules, so that those of `out` say which module of `in` each comes from. Passes that cannot
+    /// change the word are left out. Precondition: `origins`; words of fewer than 2^32 modules.
+    std::function<void(const DerivationPass& pass)> on_pass;
 };
 
 /// The reason why a derivation ended before its last word, as facts for messages.
@@ -84,6 +105,9 @@ public:
     [[nodiscard]] std::optional<Stop> run_to(std::uint32_t age);
     /// Runs the whole derivation: start(), run_to(DeriveOptions::generations), check_brackets().
     [[nodiscard]] std::optional<Stop> derive();
+    /// Applies the productions of `#interpret` to the word, which becomes the one that is drawn. No
+    /// step() may follow. Interpretation does the same without storing words.
+    [[nodiscard]] std::optional<Stop> interpret();
     /// Follows the modules of the word: the origin of each becomes its index, with kFollowed and
     /// age(). After step() the origin of a module names the module of the former word that it was
     /// copied from, or, with the new age, rewritten from. Returns false if the word has more than

@@ -22,9 +22,14 @@ constexpr std::uint64_t kMaxTrials = std::uint64_t{1} << 16; // of productions o
 
 class Folder {
 public:
-    Folder(const Bytecode& bytecode, std::vector<float> globals, std::uint32_t generations)
+    /// The folded program begins with `axiom` alone.
+    Folder(const Bytecode& bytecode,
+           const BytecodeAxiom& axiom,
+           std::vector<float> globals,
+           std::uint32_t generations)
         : program_(bytecode), globals_(std::move(globals)), generations_(generations),
           index_(program_), seen_(program_.code_count(), false) {
+        program_.axioms.assign(1, axiom);
         const std::uint32_t width = code_width(bytecode.code_count());
         max_codes_ = std::min(width == 1 ? 256U : 65'536U, kMaxCodes);
         by_symbol_.resize(bytecode.symbols.size());
@@ -43,7 +48,7 @@ public:
 
     std::optional<Bytecode> run(const std::vector<float>& axiom_parameters) {
         const Code before = program_.code_count();
-        WordTemplate& axiom = program_.axiom;
+        WordTemplate& axiom = program_.axioms.front().word;
         note_modules(axiom, axiom_parameters.data());
         if (!ok_) {
             return std::nullopt;
@@ -207,7 +212,7 @@ fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generat
                     [](const BytecodeSymbol& symbol) { return symbol.parameter_count != 0; });
     if (!stores || bytecode.settings.rewriting != RewritingMode::Parallel ||
         code_width(bytecode.code_count()) > 2 || bytecode.productions.size() > kMaxProductions ||
-        bytecode.axiom.parameter_count > kMaxAxiomParameters) {
+        chosen_axiom(bytecode, seed).word.parameter_count > kMaxAxiomParameters) {
         return std::nullopt;
     }
     std::vector<float> globals;
@@ -215,7 +220,8 @@ fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generat
     if (draw_globals(bytecode, seed, globals) || axiom_parameters(bytecode, seed, globals, axiom)) {
         return std::nullopt; // the derivation will report the error
     }
-    return Folder(bytecode, std::move(globals), generations).run(axiom);
+    return Folder(bytecode, chosen_axiom(bytecode, seed), std::move(globals), generations)
+        .run(axiom);
 }
 
 } // namespace lsys

@@ -1,5 +1,6 @@
 #include "runtime/derive/runtime_diagnostic.h"
 
+#include "compiler/bytecode/distributions.h"
 #include "runtime/base/random.h"
 #include "runtime/derive/stream.h"
 #include "runtime/derive/word_text.h"
@@ -63,8 +64,11 @@ void place(Diagnostic& diagnostic,
         diagnostic.span = at.span;
         return;
     }
-    diagnostic.notes.push_back(fmt::format(
-        "at {}:{}:{}", bytecode.files[static_cast<std::size_t>(at.span.file)], at.line, at.column));
+    const std::string& file = bytecode.files[static_cast<std::size_t>(at.span.file)];
+    diagnostic.notes.push_back(fmt::format("at {}:{}:{}", file, at.line, at.column));
+    diagnostic.facts.push_back({"file", file});
+    diagnostic.facts.push_back({"line", std::uint64_t{at.line}});
+    diagnostic.facts.push_back({"column", std::uint64_t{at.column}});
 }
 
 /// The verb for the stage of the production.
@@ -95,8 +99,32 @@ void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Byteco
     }
 }
 
+/// Adds the production, the module and its place in the word, for programs.
+void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode& bytecode) {
+    if (error.global != kNone) {
+        diagnostic.facts.push_back({"constant", bytecode.globals[error.global].name});
+        return;
+    }
+    if (error.production != kNoProduction) {
+        const BytecodeProduction& production =
+            bytecode.productions[static_cast<std::size_t>(error.production)];
+        diagnostic.facts.push_back({"production", production.name});
+        diagnostic.facts.push_back(
+            {"stage", std::string(production.stage == Stage::Rewrite ? "rewriting"
+                                                                     : verb_of(error, bytecode))});
+    }
+    if (error.generation == kStartGeneration) {
+        diagnostic.facts.push_back({"axiom_position", error.position});
+        return;
+    }
+    diagnostic.facts.push_back({"generation", std::uint64_t{error.generation}});
+    diagnostic.facts.push_back({"position", error.position});
+    diagnostic.facts.push_back({"module", module_text(error, bytecode)});
+}
+
 Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
     const char* const what = error.global != kNone ? "the value"
+                             : error.in_weight     ? "the weight"
                              : error.in_condition  ? "the condition"
                                                    : "a parameter";
     Diagnostic diagnostic = make_diagnostic(
@@ -106,7 +134,8 @@ Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
     note_module(diagnostic, error, bytecode);
     if (error.production != kNoProduction) {
         diagnostic.help.emplace_back(
-            error.in_condition
+            error.in_weight ? "bound the weight with `min` and `max`"
+            : error.in_condition
                 ? "let an earlier production take the modules for which it has no value"
                 : "guard the production with a condition, or bound the value with `min` and "
                   "`max`");
@@ -130,6 +159,39 @@ Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
     if (reversed) {
         diagnostic.help.emplace_back("order the bounds with `min` and `max`");
     }
+    return diagnostic;
+}
+
+Diagnostic bad_distribution(const RuntimeError& error, const Bytecode& bytecode) {
+    const std::string call =
+        info(error.opcode).pops == 1
+            ? fmt::format("{}({})", info(error.opcode).mnemonic, number(error.minimum))
+            : fmt::format("{}({}, {})", info(error.opcode).mnemonic, number(error.minimum),
+                          number(error.maximum));
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::BadDistribution, {},
+        fmt::format("`{}` of {} cannot be drawn from: {}", call, owner(error, bytecode),
+                    describe(error.opcode,
+                             check_distribution(error.opcode, error.minimum, error.maximum))));
+    note_module(diagnostic, error, bytecode);
+    diagnostic.help.emplace_back("bound its arguments with `clamp`");
+    return diagnostic;
+}
+
+Diagnostic bad_weight(const RuntimeError& error, const Bytecode& bytecode) {
+    const bool is_negative = error.kind == RuntimeErrorKind::NegativeWeight;
+    Diagnostic diagnostic = make_diagnostic(
+        DiagnosticCode::BadProbability, {},
+        is_negative ? fmt::format("the weight of {} is {}, below 0", owner(error, bytecode),
+                                  number(error.value))
+                    : fmt::format("the weights of the choice that {} belongs to are too large: "
+                                  "their sum overflows binary32",
+                                  owner(error, bytecode)));
+    diagnostic.label = number(error.value) + " here";
+    note_module(diagnostic, error, bytecode);
+    diagnostic.help.emplace_back(is_negative
+                                     ? "bound the weight: `max(0, ...)`"
+                                     : "only the ratios of weights matter: make all smaller");
     return diagnostic;
 }
 
@@ -190,6 +252,13 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
     case RuntimeErrorKind::RangeTooWide:
         diagnostic = bad_range(error, bytecode);
         break;
+    case RuntimeErrorKind::BadDistribution:
+        diagnostic = bad_distribution(error, bytecode);
+        break;
+    case RuntimeErrorKind::NegativeWeight:
+    case RuntimeErrorKind::WeightsTooLarge:
+        diagnostic = bad_weight(error, bytecode);
+        break;
     case RuntimeErrorKind::OutOfBounds:
         diagnostic = out_of_bounds(error, bytecode);
         break;
@@ -200,6 +269,7 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
         diagnostic = too_deep(error, bytecode);
         break;
     }
+    add_facts(diagnostic, error, bytecode);
     place(diagnostic, error.site, bytecode, sources_loaded);
     return diagnostic;
 }
@@ -226,9 +296,13 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                           report.exact ? "" : "at least ", report.predicted_bytes == 0 ? "" : size)
             : fmt::format("generation {} {} {}{}, over the limit of {}", failed,
                           modules ? "has" : "takes", report.exact ? "" : "at least ", size, limit));
-    std::uint32_t site = bytecode.axiom_site;
+    diagnostic.facts.push_back({"generation", failed});
+    diagnostic.facts.push_back({"last_that_fits", std::uint64_t{report.generation}});
+    diagnostic.facts.push_back({"modules", report.modules});
+    std::uint32_t site = bytecode.axioms.front().site;
     if (report.production != kNone) {
         const BytecodeProduction& production = bytecode.productions[report.production];
+        diagnostic.facts.push_back({"production", production.name});
         site = production.name_site;
         diagnostic.label = "adds most of them";
         if (!modules || !sources_loaded) {

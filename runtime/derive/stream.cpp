@@ -29,22 +29,22 @@ public:
              const DeriveOptions& options,
              const StreamConsumer& consumer)
         : plan_(*steps.rewriting), options_(options), consumer_(consumer), brackets_(bytecode),
-          bytecode_(bytecode),
+          bytecode_(bytecode), axiom_(chosen_axiom(bytecode, options.seed)),
           levels_(steps,
-                  {options.origins, options.limits.max_bytes, bytecode.axiom.codes.count,
-                   bytecode.axiom.parameter_count, options.cancelled},
+                  {options.origins, options.limits.max_bytes, axiom_.word.codes.count,
+                   axiom_.word.parameter_count, options.cancelled},
                   [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
     StreamOutcome run(const std::vector<float>& axiom_parameters) {
         const auto first = levels_.first_block();
         std::optional<Stop> stop = Stop::Limit;
         if (first.codes != nullptr) {
-            copy_axiom_codes(bytecode_, first.codes);
+            copy_axiom_codes(bytecode_, axiom_, first.codes);
             std::copy(axiom_parameters.begin(), axiom_parameters.end(), first.parameters);
             if (options_.origins) {
-                copy_axiom_origins(bytecode_, first.origins);
+                copy_axiom_origins(axiom_, first.origins);
             }
-            stop = levels_.push(bytecode_.axiom.codes.count);
+            stop = levels_.push(axiom_.word.codes.count);
         }
         if (outcome_.end.stop) {
             return std::move(outcome_); // ended by emit()
@@ -112,6 +112,7 @@ private:
     const StreamConsumer& consumer_;
     BracketCounter brackets_;
     const Bytecode& bytecode_;
+    const BytecodeAxiom& axiom_;
     Levels<C, R> levels_;
     std::vector<Code> emitted_;
     StreamOutcome outcome_;

@@ -247,7 +247,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     GrownStage grown;
     ForestStage& stage = grown.stage;
     stage.generations = generations.value_or(grammar.bytecode.generations.value_or(0));
-    grown.axiom.span = grammar.program->axiom.span;
+    grown.axiom.span = grammar.program->axiom_span();
     grown.axiom.sources = grammar.sources;
     Diagnostics diagnostics;
     std::optional<InstancedSystem> system = compile_instanced(

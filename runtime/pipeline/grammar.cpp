@@ -2,6 +2,7 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
+#include "grammar/base/message_levels.h"
 #include "grammar/lsys/parse_with_names.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/step.h"
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::string_view kModuleExtension = ".lsb";
 constexpr const char* kStandardInput = "<stdin>";
+/// Ends the path of standard input with a name; no path of a file has a NUL.
+constexpr std::string_view kNamedInput("\0<stdin>", 8);
 
 /// `lsys, sys, ...`
 std::string dialect_names() {
@@ -59,7 +62,7 @@ Result<Dialect> dialect_of(const std::string& path,
     if (is_module_file(bytes)) {
         return Dialect::Lsys; // the caller checks for module files
     }
-    const DetectedDialect detected = detect_dialect(path, bytes);
+    const DetectedDialect detected = detect_dialect(shown_path(path), bytes);
     if (!detected.dialect) {
         return is_standard_input(path) ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
     }
@@ -131,7 +134,14 @@ Outcome<Grammar> load_module(std::string_view bytes,
 } // namespace
 
 std::string shown_path(const std::string& path) {
-    return path == "-" ? std::string(kStandardInput) : path;
+    if (path == "-") {
+        return kStandardInput;
+    }
+    return path.ends_with(kNamedInput) ? path.substr(0, path.size() - kNamedInput.size()) : path;
+}
+
+std::string standard_input_as(const std::string& name) {
+    return name.empty() ? "-" : name + std::string(kNamedInput);
 }
 
 std::string standard_input_in(const std::string& folder) {
@@ -139,7 +149,8 @@ std::string standard_input_in(const std::string& folder) {
 }
 
 bool is_standard_input(const std::string& path) {
-    return path == "-" || path.ends_with(std::string("/") + kStandardInput);
+    return path == "-" || path.ends_with(std::string("/") + kStandardInput) ||
+           path.ends_with(kNamedInput);
 }
 
 FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
@@ -193,8 +204,14 @@ Result<CompiledText> compile_text(const std::string& path,
                                options.bug_compatible, options.system, &compiled.statements};
     Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
                             : parse_lsys_with_names(root, names, context);
+    apply_levels({}, *grammar.sources, compiled.diagnostics); // of comments
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
-    if (foreign && compiled.diagnostics.has_errors()) {
+    const std::vector<Diagnostic>& found = compiled.diagnostics.all();
+    const bool is_no_grammar =
+        std::any_of(found.begin(), found.end(), [root](const Diagnostic& diagnostic) {
+            return diagnostic.code == DiagnosticCode::OtherLanguage && diagnostic.span.file == root;
+        });
+    if (is_no_grammar || (foreign && compiled.diagnostics.has_errors())) {
         return compiled; // an incomplete translation is not checked
     }
     CompileOptions compile_options;
@@ -208,8 +225,10 @@ Result<CompiledText> compile_text(const std::string& path,
     compile_options.settings = settings ? &*settings : nullptr;
     compile_options.generations = options.generations;
     compile_options.max_modules = max_modules;
+    compile_options.part = options.part;
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
+    apply_levels({}, *grammar.sources, compiled.diagnostics);
     // Fixes of options are only offers, because no file holds the options.
     compiled.diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
         return diagnostic.span.file != kNoFile &&

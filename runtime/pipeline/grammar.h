@@ -31,6 +31,7 @@ struct GrammarOptions {
     /// Replace the `#set` statements of the same keys; each key at most once.
     std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // instead of #n
+    bool part = false; // of other grammars; it is checked, and has no bytecode
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };
@@ -68,7 +69,10 @@ struct CompiledText {
 /// The path of standard input as a grammar of `folder`, `FOLDER/<stdin>`: paths in the grammar are
 /// relative to the folder. Empty folder: `-`.
 [[nodiscard]] std::string standard_input_in(const std::string& folder);
-/// Whether `path` is `-` or one of standard_input_in().
+/// The path of standard input as the grammar `name`: shown as `name`, whose folder is that of its
+/// paths. Empty name: `-`.
+[[nodiscard]] std::string standard_input_as(const std::string& name);
+/// Whether `path` is `-`, or one of standard_input_in() and standard_input_as().
 [[nodiscard]] bool is_standard_input(const std::string& path);
 
 /// A reader of files for #include, at most `max_bytes` in all.

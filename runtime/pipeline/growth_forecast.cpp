@@ -27,11 +27,15 @@ std::uint64_t saturated(const Count& count) {
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {
-        return production.condition == kNone && !rewrites_bracket(bytecode, production) &&
+        return production.condition == kNone && production.weight_code == kNone &&
+               !rewrites_bracket(bytecode, production) &&
                !has_unmatched_close(bytecode, production.successor.codes);
     };
     return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
-           !has_unmatched_close(bytecode, bytecode.axiom.codes) &&
+           std::none_of(bytecode.axioms.begin(), bytecode.axioms.end(),
+                        [&](const BytecodeAxiom& axiom) {
+                            return has_unmatched_close(bytecode, axiom.word.codes);
+                        }) &&
            std::all_of(bytecode.productions.begin(), bytecode.productions.end(), is_safe);
 }
 

@@ -2,6 +2,7 @@
 // progress, and the limits of a run.
 #pragma once
 
+#include "grammar/base/message_levels.h"
 #include "grammar/base/result.h"
 #include "runtime/base/limits.h"
 
@@ -48,7 +49,7 @@ struct Project {
     Host host;
     Limits limits;             // modules per word; bytes per word, skeleton, mesh and file
     std::uint32_t threads = 0; // 0: as many as the machine has
-    bool deny_warnings = false;
+    MessageLevels levels;      // of --allow, --warn and --deny
 
     [[nodiscard]] bool is_cancelled() const {
         return host.cancelled != nullptr && host.cancelled->load(std::memory_order_relaxed);

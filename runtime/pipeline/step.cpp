@@ -31,9 +31,7 @@ Result<std::string> Step::read_named(const std::string& path, const ReadLimit& l
 }
 
 bool Step::diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources) {
-    if (project_.deny_warnings) {
-        diagnostics.promote_warnings();
-    }
+    apply_levels(project_.levels, sources != nullptr ? *sources : SourceMap(), diagnostics);
     const bool ok = !diagnostics.has_errors();
     messages.add(std::move(diagnostics), std::move(sources));
     return ok;

@@ -23,8 +23,8 @@ public:
     [[nodiscard]] Result<std::string> read_named(const std::string& path,
                                                  const ReadLimit& limit) const;
 
-    /// Adds diagnostics, warnings as errors if the project denies warnings. Returns whether there
-    /// are no errors, so that the step may go on.
+    /// Adds diagnostics with the levels of the project. Returns whether there are no errors, so
+    /// that the step may go on.
     bool diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     bool diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources);
     /// Takes over messages and value of an inner step; returns whether there is a value.

@@ -105,6 +105,12 @@ void Console::line(std::string_view text) const {
     }
 }
 
+void Console::records(std::string_view lines) const {
+    if (!options_.quiet) {
+        io_.err << lines;
+    }
+}
+
 void Console::detail(std::string_view message) const {
     if (options_.verbose) {
         info(message);
@@ -180,9 +186,7 @@ void Console::print(const Diagnostics& diagnostics, const SourceMap& sources) co
 }
 
 ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) const {
-    if (options_.deny_warnings) {
-        diagnostics.promote_warnings();
-    }
+    apply_levels(options_.levels, sources, diagnostics);
     diagnostics.sort_by_place();
     print(diagnostics, sources);
     const auto is_limit = [](const Diagnostic& diagnostic) {

@@ -35,6 +35,8 @@ public:
     void info(std::string_view message) const;
     /// Prints a line, `file:line:col: ...`, unless quiet.
     void line(std::string_view text) const;
+    /// Prints lines of JSON, unless quiet.
+    void records(std::string_view lines) const;
     /// Prints a note about the work if verbose.
     void detail(std::string_view message) const;
 
@@ -57,7 +59,7 @@ public:
     }
     /// Prints one diagnostic without a place; returns `status`.
     [[nodiscard]] ExitStatus show(Diagnostic diagnostic, ExitStatus status) const;
-    /// Sorts the diagnostics, applies --deny and -q, and prints them. Returns AuthorErrors if there
+    /// Sorts the diagnostics, applies levels and -q, and prints them. Returns AuthorErrors if there
     /// are errors, Limit if one of them is a limit.
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;

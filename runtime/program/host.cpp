@@ -36,8 +36,9 @@ Host make_host(const Console& console, const std::string& standard_input) {
 }
 
 Project make_project(const Console& console, const RunOptions& run) {
-    return {make_host(console, standard_input_in(run.base)), run.limits, run.threads,
-            console.options().deny_warnings};
+    const std::string input =
+        run.stdin_name.empty() ? standard_input_in(run.base) : standard_input_as(run.stdin_name);
+    return {make_host(console, input), run.limits, run.threads, console.options().levels};
 }
 
 } // namespace lsys

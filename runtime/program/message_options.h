@@ -1,6 +1,7 @@
 // The options of messages.
 #pragma once
 
+#include "grammar/base/message_levels.h"
 #include "grammar/rendering/render_diagnostic.h"
 
 #include <cstdint>
@@ -13,7 +14,7 @@ enum class ColourMode : std::uint8_t { Auto, Always, Never };
 struct MessageOptions {
     MessageFormat format = MessageFormat::Human;
     ColourMode colour = ColourMode::Auto;
-    bool deny_warnings = false;
+    MessageLevels levels;
     bool quiet = false;   // errors only, no progress
     bool verbose = false; // steps and sizes too
 };

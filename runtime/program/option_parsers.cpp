@@ -31,10 +31,37 @@ void add_messages(CLI::App& app, MessageOptions& options) {
     app.add_flag("-v,--verbose", options.verbose, "Print steps and sizes")->group("Messages");
 }
 
-void add_deny(CLI::App& app, MessageOptions& options) {
-    add_choice<bool>(app, "--deny", options.deny_warnings, {{"warnings", true}},
-                     "Treat warnings as errors")
+namespace {
+
+void add_level(CLI::App& app,
+               const std::string& name,
+               MessageLevel level,
+               MessageLevels& levels,
+               const char* text) {
+    app.add_option_function<std::vector<std::string>>(
+           name,
+           [&levels, level, name](const std::vector<std::string>& codes) {
+               for (const std::string& code : codes) {
+                   if (const std::optional<std::string> mistake = levels.set(level, code)) {
+                       throw CLI::ValidationError(name, *mistake);
+                   }
+               }
+           },
+           text)
+        ->type_name("CODE")
+        ->allow_extra_args(false)
         ->group("Messages");
+}
+
+} // namespace
+
+void add_levels(CLI::App& app, MessageOptions& options) {
+    add_level(app, "--allow", MessageLevel::Allow, options.levels,
+              "Hide messages of this code, or all `warnings` or `notes`; repeatable");
+    add_level(app, "--warn", MessageLevel::Warn, options.levels,
+              "Make messages of this code, or all `notes`, warnings; repeatable");
+    add_level(app, "--deny", MessageLevel::Deny, options.levels,
+              "Make messages of this code, or all `warnings` or `notes`, errors; repeatable");
 }
 
 void add_dialect(CLI::App& app, std::string& dialect) {
@@ -122,9 +149,27 @@ void add_base(CLI::App& app, RunOptions& run) {
                "(default: the current one)")
         ->type_name("FOLDER")
         ->group("Grammar");
+    app.add_option("--stdin-name", run.stdin_name,
+                   "For a grammar from standard input: the file that it is, for messages, its "
+                   "language and its #include and #object files")
+        ->type_name("FILE")
+        ->group("Grammar");
 }
 
 std::optional<UsageError> apply_base(const RunOptions& run, std::span<std::string> files) {
+    if (!run.stdin_name.empty()) {
+        if (!run.base.empty()) {
+            return UsageError{"--stdin-name and --base are for the same thing",
+                              "the folder of the name is the folder of the grammar"};
+        }
+        if (std::find(files.begin(), files.end(), "-") == files.end()) {
+            return UsageError{"--stdin-name names a grammar from standard input",
+                              "name `-` as FILE, or leave --stdin-name out"};
+        }
+        std::replace(files.begin(), files.end(), std::string("-"),
+                     standard_input_as(run.stdin_name));
+        return std::nullopt;
+    }
     if (run.base.empty()) {
         return std::nullopt;
     }
@@ -263,6 +308,11 @@ std::string help_text(const CLI::App& app, const std::string& program) {
         if (c != '\n' || !text.ends_with("\n\n")) {
             text += c;
         }
+    }
+    // CLI11 shows the value of a flag without one.
+    constexpr std::string_view kFlag = "{certain} ";
+    if (const std::size_t at = text.find(kFlag); at != std::string::npos) {
+        text.replace(at, kFlag.size(), "[=offered]");
     }
     return text;
 }

@@ -83,13 +83,14 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
 [[nodiscard]] std::string help_text(const CLI::App& app, const std::string& program);
 
 void add_messages(CLI::App& app, MessageOptions& options);
-void add_deny(CLI::App& app, MessageOptions& options);
+/// The options --allow, --warn and --deny.
+void add_levels(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 /// The folder of a grammar from standard input.
 void add_base(CLI::App& app, RunOptions& run);
-/// Puts standard input into the folder of --base: changes each `-` of `files` to
-/// standard_input_in(). A mistake: --base without a `-`.
+/// Gives standard input the folder of --base or the name of --stdin-name: changes each `-` of
+/// `files` to standard_input_in() or standard_input_as(). A mistake: one of them without a `-`.
 [[nodiscard]] std::optional<UsageError> apply_base(const RunOptions& run,
                                                    std::span<std::string> files);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);

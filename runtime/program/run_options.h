@@ -13,6 +13,8 @@ struct RunOptions {
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Folder of a grammar from standard input; empty: the current one.
     std::string base;
+    /// Path of a grammar from standard input, in messages and for its included files; empty: none.
+    std::string stdin_name;
 };
 
 } // namespace lsys

@@ -277,8 +277,8 @@ std::optional<Stop> Turtle::finish() {
         if (!state.stack.empty()) {
             state.note_end(TurtleFaultKind::UnclosedBranch, state.stack.size());
         }
-        if (state.polygons.any()) {
-            state.note_end(TurtleFaultKind::UnclosedPolygon, 1);
+        for (const OpenPolygon& open : state.polygons.all()) {
+            state.note_at(TurtleFaultKind::UnclosedPolygon, open.position, open.code);
         }
     }
     return state.end.stop;

@@ -23,7 +23,8 @@
 
 namespace lsys {
 
-/// Faults of a word that the turtle cannot draw, or only in part. The first three end the drawing.
+/// Faults of a word that the turtle cannot draw, or only in part. Unbalanced, NotFinite, TooMany
+/// and EndOutside end the drawing.
 enum class TurtleFaultKind : std::uint8_t {
     Unbalanced,       // a `]` without its `[`
     NotFinite,        // position, length or width is infinite or not a number
@@ -31,9 +32,9 @@ enum class TurtleFaultKind : std::uint8_t {
     UnclosedBranch,   // a `[` without its `]`
     NegativeWidth,    // drawn as 0
     VertexOutside,    // a `.` outside of a polygon: nothing is drawn
-    EndOutside,       // a `}` without its `{`: nothing is drawn
+    EndOutside,       // a `}` without its `{`
     FewCorners,       // a polygon with fewer than three corners: nothing is drawn
-    UnclosedPolygon,  // nothing is drawn
+    UnclosedPolygon,  // a `{` without its `}`: it is not drawn
     SidesOutOfRange,  // fewer than 3 or more than 64 sides: clamped
     ColourOutOfRange, // below 0 or above 65,535: clamped
 };

@@ -37,13 +37,15 @@ Wording wording_of(TurtleFaultKind kind) {
     case TurtleFaultKind::VertexOutside:
         return {DiagnosticCode::StrayVertex, "is a vertex outside of any polygon", ""};
     case TurtleFaultKind::EndOutside:
-        return {DiagnosticCode::UnbalancedPolygon, "ends a polygon that nothing begins", ""};
+        return {DiagnosticCode::UnbalancedPolygon, "ends a polygon that nothing begins",
+                "let as many `{` as `}` stand before each place of the word"};
     case TurtleFaultKind::FewCorners:
         return {DiagnosticCode::SmallPolygon,
                 "ends a polygon of fewer than three vertices, which is not drawn", ""};
     case TurtleFaultKind::UnclosedPolygon:
         return {DiagnosticCode::UnbalancedPolygon,
-                "the word ends inside a polygon, which is not drawn", "close each `{` with a `}`"};
+                "begins a polygon that nothing ends, which is not drawn",
+                "close each `{` with a `}`"};
     case TurtleFaultKind::SidesOutOfRange:
         return {DiagnosticCode::SidesOutOfRange,
                 "asks for fewer than 3 or more than 64 sides, and gets the nearest of them", ""};
@@ -55,12 +57,12 @@ Wording wording_of(TurtleFaultKind kind) {
 }
 
 bool is_at_end(TurtleFaultKind kind) {
-    return kind == TurtleFaultKind::UnclosedBranch || kind == TurtleFaultKind::UnclosedPolygon;
+    return kind == TurtleFaultKind::UnclosedBranch;
 }
 
 bool ends_drawing(TurtleFaultKind kind) {
     return kind == TurtleFaultKind::Unbalanced || kind == TurtleFaultKind::NotFinite ||
-           kind == TurtleFaultKind::TooMany;
+           kind == TurtleFaultKind::TooMany || kind == TurtleFaultKind::EndOutside;
 }
 
 } // namespace
@@ -78,8 +80,7 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
         if (is_at_end(kind)) {
             Diagnostic diagnostic = make_diagnostic(
                 wording.code, {},
-                kind == TurtleFaultKind::UnclosedPolygon ? std::string(wording.what)
-                : fault.count == 1
+                fault.count == 1
                     ? std::string("the word ends with an open branch, which is closed there")
                     : fmt::format("the word ends with {} open branches, which are closed there",
                                   grouped_digits(fault.count)));

@@ -41,7 +41,7 @@ inline Bytecode small_bytecode() {
                {{FileId{0}, 60, 65}, 4, 20},
                {{FileId{0}, 70, 80}, 5, 2}};
     b.globals[0].site = 0;
-    b.axiom_site = 1;
+    b.axioms.front().site = 1;
     b.productions[0].name_site = 2;
     b.productions[1].name_site = 4;
     b.site_ranges = {{b.productions[0].condition, 3}};

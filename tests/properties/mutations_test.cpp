@@ -37,7 +37,7 @@ struct Compiled {
 
 /// A project that reads files of the disk.
 Project disk_project() {
-    return {make_file_host(nullptr), {}, 1, false};
+    return {make_file_host(nullptr), {}, 1, {}};
 }
 
 std::string program_text(const Grammar& grammar) {
@@ -191,9 +191,9 @@ public:
             return;
         }
         lsc::FixedGrammar fixed;
-        const Result<void> done =
-            lsc::fix_text(grammar.path, {mutant.text, Dialect::Lsys}, {},
-                          lsc::FixScope(grammar.path, {}), disk_project(), fixed);
+        const Result<void> done = lsc::fix_text(grammar.path, {mutant.text, Dialect::Lsys}, {},
+                                                lsc::FixScope(grammar.path, {}), disk_project(),
+                                                lsc::FixChoice::Certain, fixed);
         REQUIRE(done);
         if (fixed.fix_count == 0) {
             keep("lost", grammar, mutant, fixed);

@@ -22,6 +22,15 @@ std::string number_text(float value) {
     return std::string(buffer, end.ptr);
 }
 
+// The number as messages write it: `1,140`.
+std::string grouped(std::uint64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t end = text.size(); end > 3; end -= 3) {
+        text.insert(end - 3, ",");
+    }
+    return text;
+}
+
 std::string joined(const std::vector<std::string>& words) {
     std::string text = "lsc";
     for (const std::string& word : words) {
@@ -183,7 +192,7 @@ private:
             return fails(arguments, first_difference(expected_, run.out) + run.err);
         }
         std::vector<std::string> facts = {"generation " + std::to_string(error.generation),
-                                          std::to_string(error.position)};
+                                          grouped(error.position)};
         if (!error.production.empty()) {
             facts.push_back("`" + error.production + "`");
         }

@@ -25,6 +25,7 @@ struct Entry {
 
 struct System {
     std::map<std::string, float> constants;
+    Functions functions;
     std::vector<Entry> productions;    // in file order
     std::vector<Entry> decompositions; // those of #decompose
     std::vector<std::string> rules;    // rule k is rules[k]; by first appearance
@@ -60,6 +61,7 @@ struct Reading {
 Environment environment_of(const Reading& reading, const Bindings& bindings) {
     Environment environment;
     environment.constants = &reading.system.constants;
+    environment.functions = &reading.system.functions;
     environment.formals = bindings;
     environment.step = static_cast<float>(reading.age);
     environment.steps = static_cast<float>(reading.system.steps);
@@ -89,12 +91,6 @@ bool matches(const Reading& reading,
         stop(reading, production, position, Failure::NotFinite);
     }
     return value != 0.0F;
-}
-
-float probability_of(const System& system, const Production& production) {
-    Environment environment;
-    environment.constants = &system.constants;
-    return evaluate(*production.probability, environment);
 }
 
 // The random number that chooses between the productions that match at `position`.
@@ -144,19 +140,31 @@ Choice choose(const Reading& reading, std::size_t position) {
     }
 
     float sum = 0;
+    std::vector<float> weights;
     for (const Choice& candidate : candidates) {
-        sum += probability_of(system, *candidate.production);
+        const float weight = evaluate(*candidate.production->probability,
+                                      environment_of(reading, candidate.bindings));
+        sum += weight;
+        if (!std::isfinite(weight) || weight < 0 || !std::isfinite(sum)) {
+            stop(reading, *candidate.production, position, Failure::BadWeight);
+        }
+        weights.push_back(weight);
+    }
+    if (sum == 0) {
+        return {}; // "the module counts as not matched"
     }
     const float u = draw_of_choice(reading, first.rule, position);
     float running = 0;
-    for (const Choice& candidate : candidates) {
-        const float weight = probability_of(system, *candidate.production) / sum;
-        running += weight;
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const float share = weights[i] / sum;
+        running += share;
+        taken = weights[i] > 0 ? i : taken;
         if (running > u) {
-            return candidate;
+            break;
         }
     }
-    return candidates.back();
+    return candidates[taken];
 }
 
 // Appends the successor to `out`; its ranges are numbered in the order of their closing braces.
@@ -280,6 +288,7 @@ public:
     Start(const Grammar& grammar, const Request& request, System& system)
         : request_(request), system_(system) {
         environment_.constants = &system_.constants;
+        environment_.functions = &system_.functions;
         environment_.draw = [this] {
             return uniform(system_.seed, range_number_++, kBeforeTheDerivation, 0);
         };
@@ -300,7 +309,21 @@ public:
         }
     }
 
-    [[nodiscard]] const Word& axiom() const { return axiom_; }
+    // "Draws of all axioms are numbered, only the chosen one is evaluated."
+    [[nodiscard]] Word axiom() {
+        Word word;
+        const Axiom& chosen = choose_axiom();
+        range_number_ = chosen.first_range;
+        for (const ModuleUse& use : chosen.statement->modules) {
+            Module module{use.name, {}, {&use, "", 0}};
+            for (const Expr& argument : use.arguments) {
+                module.values.push_back(finite(evaluate(argument, environment_)));
+            }
+            word.push_back(module);
+        }
+        return word;
+    }
+
     [[nodiscard]] std::uint32_t generations() const { return generations_; }
 
 private:
@@ -310,19 +333,26 @@ private:
         } else if (statement.kind == StatementKind::Define ||
                    statement.kind == StatementKind::Param) {
             system_.constants[statement.name] = value_of(statement);
+        } else if (statement.kind == StatementKind::Function) {
+            // A body keeps the constants that it has here; none is defined twice.
+            system_.functions[statement.name] = {statement.names, statement.expr, {}};
+        } else if (statement.kind == StatementKind::Curve) {
+            UserFunction& curve = system_.functions[statement.name];
+            for (const auto& [x, y] : statement.points) {
+                curve.points.emplace_back(evaluate(x, environment_), evaluate(y, environment_));
+            }
         } else if (statement.kind == StatementKind::Ignore) {
             system_.ignored.insert(statement.names.begin(), statement.names.end());
         } else if (statement.kind == StatementKind::Consider) {
             system_.considered.insert(statement.names.begin(), statement.names.end());
             considers_ = true;
         } else if (statement.kind == StatementKind::Axiom) {
+            axioms_.push_back({&statement, range_number_});
             for (const ModuleUse& use : statement.modules) {
                 system_.mentioned.insert(use.name);
-                Module module{use.name, {}, {&use, "", 0}};
                 for (const Expr& argument : use.arguments) {
-                    module.values.push_back(finite(evaluate(argument, environment_)));
+                    range_number_ += count_ranges(argument);
                 }
-                axiom_.push_back(module);
             }
         } else if (statement.kind == StatementKind::Production) {
             const Production& production = statement.production;
@@ -339,6 +369,32 @@ private:
                     {&production, group_of(production), number_of(rule_of(production))});
             }
         }
+    }
+
+    struct Axiom {
+        const Statement* statement = nullptr;
+        std::uint64_t first_range = 0;
+    };
+
+    // "The choice is draw 0 at position 2^64 - 1, generation 0xFFFFFFFF."
+    [[nodiscard]] const Axiom& choose_axiom() const {
+        if (!axioms_.front().statement->has_probability) {
+            return axioms_.front();
+        }
+        float sum = 0;
+        for (const Axiom& axiom : axioms_) {
+            sum += evaluate(axiom.statement->expr, environment_);
+        }
+        const float u = uniform(system_.seed, ~std::uint64_t{0}, kBeforeTheDerivation, 0);
+        float running = 0;
+        for (const Axiom& axiom : axioms_) {
+            const float share = evaluate(axiom.statement->expr, environment_) / sum;
+            running += share;
+            if (running > u) {
+                return axiom;
+            }
+        }
+        return axioms_.back();
     }
 
     // Rules are numbered by first appearance.
@@ -365,7 +421,7 @@ private:
     }
 
     static std::uint64_t count_ranges(const Expr& expr) {
-        std::uint64_t count = expr.kind == ExprKind::Range ? 1 : 0;
+        std::uint64_t count = draws(expr) ? 1 : 0;
         for (const Expr& part : expr.parts) {
             count += count_ranges(part);
         }
@@ -386,7 +442,7 @@ private:
     std::uint32_t generations_ = 0;
     std::vector<const Production*> decompositions_;
     bool considers_ = false;
-    Word axiom_;
+    std::vector<Axiom> axioms_; // in the order of the text
 };
 
 std::uint64_t seed_of(const Grammar& grammar, const Request& request) {
@@ -430,7 +486,7 @@ Derivation derive(const Grammar& grammar, const Request& request) {
     const std::string turtle = setting(grammar, "turtle").value_or("lsys");
     system.cuts = turtle == "lsys" || turtle == "thesis" || turtle == "abop" || turtle == "houdini";
     try {
-        const Start start(grammar, request, system);
+        Start start(grammar, request, system);
         system.steps = request.generations.value_or(start.generations());
         derivation.generations = system.steps;
         derivation.constants = system.constants;

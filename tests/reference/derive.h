@@ -46,7 +46,8 @@ struct Request {
 
 enum class Failure {
     NotFinite,       // a parameter or a condition
-    BadRange,        // min > max, or bounds or width not finite
+    BadRange,        // min > max, bounds or width not finite, a distribution out of its bounds
+    BadWeight,       // negative, not finite, or with a sum that is not finite
     UnmatchedBracket // a `]` without its `[` in the last word
 };
 

@@ -97,6 +97,81 @@ float range_value(float min, float max, float u) {
     return value;
 }
 
+bool draws(const Expr& expr) {
+    return expr.kind == ExprKind::Range ||
+           (expr.kind == ExprKind::Call &&
+            (expr.text == "normal" || expr.text == "poisson" || expr.text == "binomial"));
+}
+
+namespace {
+
+// The standard normal number below which one lies with probability `p`: by halving, since the
+// error function has a closed form and its inverse has none.
+long double inverse_normal(long double p) {
+    long double below = -10;
+    long double above = 10;
+    for (int i = 0; i < 200; ++i) {
+        const long double middle = (below + above) / 2;
+        const long double probability = std::erfc(-middle / std::sqrt(2.0L)) / 2;
+        (probability < p ? below : above) = middle;
+    }
+    return (below + above) / 2;
+}
+
+// The logarithm of the number of ways to choose k of n.
+long double log_choose(long double n, long double k) {
+    return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+}
+
+// The least k below `end` for which the sum of probability(0) to probability(k) exceeds u.
+template <typename Probability>
+float least_exceeding(float u, int end, Probability probability) {
+    long double sum = 0;
+    for (int k = 0; k < end; ++k) {
+        sum += probability(static_cast<long double>(k));
+        if (sum > static_cast<long double>(u)) {
+            return static_cast<float>(k);
+        }
+    }
+    return static_cast<float>(end);
+}
+
+} // namespace
+
+float distribution_value(const std::string& name, const std::vector<float>& arguments, float u) {
+    const float a = arguments[0];
+    if (name == "poisson") {
+        if (!(a >= 0 && a <= 700)) {
+            throw BadRange{};
+        }
+        const auto mean = static_cast<long double>(a);
+        return least_exceeding(u, 10000, [&](long double k) {
+            return mean == 0 ? (k == 0 ? 1.0L : 0.0L)
+                             : std::exp(k * std::log(mean) - mean - std::lgamma(k + 1));
+        });
+    }
+    const float b = arguments[1];
+    if (name == "normal") {
+        if (!std::isfinite(a) || !std::isfinite(b) || b < 0) {
+            throw BadRange{};
+        }
+        const long double z = inverse_normal(static_cast<long double>(u) + 0x1p-25L);
+        const double distance = static_cast<double>(b) * static_cast<double>(z);
+        return rounded(static_cast<double>(a) + distance);
+    }
+    if (!(a >= 0 && a <= 10000 && std::floor(a) == a && b >= 0 && b <= 1)) {
+        throw BadRange{};
+    }
+    const auto trials = static_cast<long double>(a);
+    const auto p = static_cast<long double>(b);
+    if (p == 0 || p == 1) {
+        return p == 0 ? 0 : a;
+    }
+    return least_exceeding(u, static_cast<int>(a), [&](long double k) {
+        return std::exp(log_choose(trials, k) + k * std::log(p) + (trials - k) * std::log1p(-p));
+    });
+}
+
 float apply_operator(const std::string& name, const std::vector<float>& operands) {
     const float a = operands[0];
     if (operands.size() == 1) {
@@ -226,7 +301,7 @@ float apply_function(const std::string& name, const std::vector<float>& operands
 namespace {
 
 std::size_t ranges_in(const Expr& expr) {
-    std::size_t count = expr.kind == ExprKind::Range ? 1 : 0;
+    std::size_t count = draws(expr) ? 1 : 0;
     for (const Expr& part : expr.parts) {
         count += ranges_in(part);
     }
@@ -241,6 +316,53 @@ void skip_ranges(const Expr& expr, const Environment& environment) {
 }
 
 } // namespace
+
+float curve_value(const std::vector<std::pair<float, float>>& points, float t) {
+    const std::size_t count = points.size();
+    const auto x = [&](std::size_t i) { return static_cast<double>(points[i].first); };
+    const auto y = [&](std::size_t i) { return static_cast<double>(points[i].second); };
+    if (std::isnan(t)) {
+        return t;
+    }
+    std::vector<double> secant;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        secant.push_back((y(i + 1) - y(i)) / (x(i + 1) - x(i)));
+    }
+    std::vector<double> slope{secant.front()};
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const bool turns = secant[i - 1] * secant[i] <= 0.0;
+        slope.push_back(turns ? 0.0 : (secant[i - 1] + secant[i]) / 2.0);
+    }
+    slope.push_back(secant.back());
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        if (secant[i] == 0.0) {
+            slope[i] = slope[i + 1] = 0.0;
+            continue;
+        }
+        const double alpha = slope[i] / secant[i];
+        const double beta = slope[i + 1] / secant[i];
+        if (alpha * alpha + beta * beta > 9.0) {
+            const double factor = 3.0 / std::sqrt(alpha * alpha + beta * beta);
+            slope[i] *= factor;
+            slope[i + 1] *= factor;
+        }
+    }
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        if (t <= points[i].first) {
+            return points[i].second;
+        }
+        if (t >= points[i + 1].first) {
+            continue;
+        }
+        const double width = x(i + 1) - x(i);
+        const double part = (static_cast<double>(t) - x(i)) / width;
+        const double rest = 1.0 - part;
+        return rounded(
+            (1.0 + 2.0 * part) * rest * rest * y(i) + part * part * (3.0 - 2.0 * part) * y(i + 1) +
+            (part * rest * rest * width * slope[i] - part * part * rest * width * slope[i + 1]));
+    }
+    return points.back().second;
+}
 
 float evaluate(const Expr& expr, const Environment& environment) {
     if (expr.kind == ExprKind::Number) {
@@ -281,7 +403,24 @@ float evaluate(const Expr& expr, const Environment& environment) {
         const float u = environment.draw();
         return range_value(operands[0], operands[1], u);
     }
+    if (draws(expr)) {
+        const float u = environment.draw();
+        return distribution_value(expr.text, operands, u);
+    }
     if (expr.kind == ExprKind::Call) {
+        if (environment.functions != nullptr && environment.functions->count(expr.text) != 0) {
+            const UserFunction& function = environment.functions->at(expr.text);
+            if (function.formals.empty()) {
+                return curve_value(function.points, operands[0]);
+            }
+            Environment inner;
+            inner.constants = environment.constants;
+            inner.functions = environment.functions;
+            for (std::size_t i = 0; i < operands.size(); ++i) {
+                inner.formals[function.formals[i]] = operands[i];
+            }
+            return evaluate(function.body, inner);
+        }
         return apply_function(expr.text, operands);
     }
     return apply_operator(expr.text, operands);

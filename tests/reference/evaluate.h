@@ -9,27 +9,49 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys::reference {
 
+// A function of the grammar: of an expression, or of a curve through points.
+struct UserFunction {
+    std::vector<std::string> formals; // empty: a curve
+    Expr body;
+    std::vector<std::pair<float, float>> points;
+};
+
+using Functions = std::map<std::string, UserFunction>;
+
 // What the names of an expression mean, and where its ranges get their random numbers.
 struct Environment {
     const std::map<std::string, float>* constants = nullptr;
+    const Functions* functions = nullptr;
     std::map<std::string, float> formals; // hide constants
     float step = 0;
     float steps = 0;
-    std::function<float()> draw; // called once for every range, in the order of closing braces
+    // Called once for every range and distribution, in the order of closing braces and parentheses.
+    std::function<float()> draw;
 };
 
-// Thrown for a range whose bounds are not finite, in the wrong order, or too far apart.
+// Thrown for a range whose bounds are not finite, in the wrong order, or too far apart, and for a
+// distribution whose arguments are outside their bounds.
 struct BadRange {};
+
+// Whether an expression is a range or a distribution: one draw besides those of its parts.
+bool draws(const Expr& expr);
 
 // The value of `expr`. Precondition: every name in it has a meaning.
 float evaluate(const Expr& expr, const Environment& environment);
 
+// The monotone cubic through the points (Fritsch and Carlson 1980).
+float curve_value(const std::vector<std::pair<float, float>>& points, float t);
+
 // `min + (max - min) * u`, kept below max.
 float range_value(float min, float max, float u);
+
+// The value that the draw `u` of normal, poisson or binomial yields.
+float distribution_value(const std::string& name, const std::vector<float>& arguments, float u);
 
 // The value of a unary or binary operator, or of a function, for the given operands.
 float apply_operator(const std::string& name, const std::vector<float>& operands);

@@ -1,5 +1,7 @@
 #include "tests/reference/features.h"
 
+#include "tests/reference/evaluate.h"
+
 #include <algorithm>
 #include <map>
 
@@ -20,7 +22,8 @@ public:
         groups();
         if (derivation_.error) {
             static const std::vector<std::string> kErrors = {
-                "error: not finite", "error: bad range", "error: unmatched bracket"};
+                "error: not finite", "error: bad range", "error: bad weight",
+                "error: unmatched bracket"};
             found_.insert(kErrors[static_cast<std::size_t>(derivation_.error->failure)]);
         }
         if (!made_.request.definitions.empty()) {
@@ -78,6 +81,9 @@ private:
         } else if (statement.kind == StatementKind::Param) {
             expression(statement.expr, "param: ");
         } else if (statement.kind == StatementKind::Axiom) {
+            if (statement.has_probability) {
+                found_.insert("several axioms");
+            }
             for (const ModuleUse& use : statement.modules) {
                 for (const Expr& argument : use.arguments) {
                     expression(argument, "axiom: ");
@@ -85,6 +91,10 @@ private:
             }
         } else if (statement.kind == StatementKind::Production) {
             production(statement.production);
+        } else if (statement.kind == StatementKind::Function ||
+                   statement.kind == StatementKind::Curve) {
+            const bool is_curve = statement.kind == StatementKind::Curve;
+            defined_[statement.name] = is_curve ? "call of a curve" : "call of a function";
         } else if (statement.kind == StatementKind::Consider) {
             found_.insert("consider");
         }
@@ -121,6 +131,9 @@ private:
             found_.insert("empty successor");
         }
         if (production.probability) {
+            if (is_computed(*production.probability)) {
+                found_.insert("computed weight");
+            }
             const std::string scope = setting(made_.grammar, "choice").value_or("module");
             found_.insert("choice " + scope + ", " + mode);
             found_.insert(production.condition ? "probability with condition"
@@ -172,12 +185,23 @@ private:
         }
     }
 
+    // Whether the value depends on the module or on the generation.
+    bool is_computed(const Expr& expr) const {
+        const bool is_step = expr.kind == ExprKind::Call && expr.text.rfind("step", 0) == 0;
+        const bool is_formal =
+            expr.kind == ExprKind::Name && derivation_.constants.count(expr.text) == 0;
+        return is_step || is_formal ||
+               std::any_of(expr.parts.begin(), expr.parts.end(),
+                           [&](const Expr& part) { return is_computed(part); });
+    }
+
     void expression(const Expr& expr, const std::string& place) {
+        ranges_ += draws(expr) ? 1U : 0U;
         if (expr.kind == ExprKind::Range) {
-            ++ranges_;
             found_.insert(place + "range");
         } else if (expr.kind == ExprKind::Call) {
-            found_.insert("function " + expr.text);
+            const auto defined = defined_.find(expr.text);
+            found_.insert(defined == defined_.end() ? "function " + expr.text : defined->second);
         } else if (expr.kind == ExprKind::Unary || expr.kind == ExprKind::Binary) {
             found_.insert((expr.kind == ExprKind::Unary ? "unary " : "operator ") + expr.text);
         } else if (expr.kind == ExprKind::Number && expr.text.size() > 30) {
@@ -220,6 +244,7 @@ private:
     const Case& made_;
     const Derivation& derivation_;
     std::set<std::string> found_;
+    std::map<std::string, std::string> defined_; // functions of the grammar and their feature
     std::size_t ranges_ = 0;
 };
 
@@ -287,6 +312,9 @@ const std::vector<std::string>& feature_names() {
                                                     "chosen and taken in a group",
                                                     "error: not finite",
                                                     "error: bad range",
+                                                    "error: bad weight",
+                                                    "computed weight",
+                                                    "several axioms",
                                                     "error: unmatched bracket",
                                                     "unary -",
                                                     "unary !",
@@ -325,6 +353,11 @@ const std::vector<std::string>& feature_names() {
                                                     "function if",
                                                     "function clamp",
                                                     "function mix",
+                                                    "function normal",
+                                                    "function poisson",
+                                                    "function binomial",
+                                                    "call of a function",
+                                                    "call of a curve",
                                                     "function step",
                                                     "function steps",
                                                     "consider",

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace lsys::reference {
@@ -37,7 +38,7 @@ Expr range(Expr low, Expr high) {
 }
 
 bool ExpressionMaker::is_constant(const Expr& expr, const Scope& scope) const {
-    if (expr.kind == ExprKind::Range ||
+    if (draws(expr) ||
         (expr.kind == ExprKind::Call && (expr.text == "step" || expr.text == "steps"))) {
         return false;
     }
@@ -50,15 +51,28 @@ bool ExpressionMaker::is_constant(const Expr& expr, const Scope& scope) const {
                        [&](const Expr& part) { return is_constant(part, scope); });
 }
 
+bool ExpressionMaker::calls_user(const Expr& expr) const {
+    return (expr.kind == ExprKind::Call && constants_.functions.count(expr.text) != 0) ||
+           std::any_of(expr.parts.begin(), expr.parts.end(),
+                       [&](const Expr& part) { return calls_user(part); });
+}
+
 float ExpressionMaker::constant_value(const Expr& expr) const {
     Environment environment;
     environment.constants = &constants_.values;
+    environment.functions = &constants_.functions;
     return evaluate(expr, environment);
 }
 
 Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
     const bool divides = expr.text == "/" || expr.text == "mod";
     if (divides && is_constant(expr.parts[1], scope) && constant_value(expr.parts[1]) == 0) {
+        return literal();
+    }
+    // A call of a function that does not use its parameters is a constant for the compiler.
+    const bool is_clear = std::none_of(expr.parts.begin(), expr.parts.end(),
+                                       [&](const Expr& part) { return calls_user(part); });
+    if (draws(expr) && !is_clear) {
         return literal();
     }
     if (expr.kind == ExprKind::Range) {
@@ -71,6 +85,18 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
             return literal();
         }
         return low <= high ? expr : range(expr.parts[1], expr.parts[0]);
+    }
+    if (draws(expr)) { // a distribution whose known arguments are in their bounds
+        std::vector<float> arguments;
+        for (const Expr& part : expr.parts) {
+            arguments.push_back(is_constant(part, scope) ? constant_value(part) : 1);
+        }
+        try {
+            distribution_value(expr.text, arguments, 0.5F);
+        } catch (const BadRange&) {
+            return literal();
+        }
+        return expr;
     }
     if (expr.text == "if" && is_constant(expr.parts[0], scope)) {
         return literal(); // the compiler would leave one side out
@@ -166,7 +192,26 @@ Expr ExpressionMaker::range_of(const Scope& scope, int depth) {
                                                                  {-1e-45F, 0.0F},
                                                                  {1e10F, 1.0000001e10F},
                                                                  {16777212.0F, 16777216.0F}};
-    switch (random_.below(7)) {
+    switch (random_.below(10)) {
+    case 7: {
+        const Expr mean = any(scope, depth - 1);
+        const Expr deviation = random_.percent(80) ? call("abs", {leaf(scope)}) : literal();
+        return legal(call("normal", {mean, deviation}), scope);
+    }
+    case 8: {
+        const Expr mean = random_.percent(50) ? number(static_cast<float>(random_.below(701)))
+                                              : call("abs", {any(scope, depth - 1)});
+        return legal(call("poisson", {mean}), scope);
+    }
+    case 9: {
+        const Expr trials = random_.percent(70)
+                                ? number(static_cast<float>(random_.below(60)))
+                                : call("floor", {call("abs", {any(scope, depth - 1)})});
+        const Expr probability = random_.percent(30)
+                                     ? call("mod", {call("abs", {leaf(scope)}), number(1)})
+                                     : call("abs", {call("sin", {leaf(scope)})});
+        return legal(call("binomial", {trials, probability}), scope);
+    }
     case 6: {
         const auto& [low, high] = random_.pick(kNarrow);
         return range(number(low), number(high));
@@ -208,6 +253,16 @@ Expr ExpressionMaker::any(const Scope& scope, int depth) {
     }
     if (scope.ranges > 0 && random_.percent(8)) {
         return range_of(scope, depth);
+    }
+    if (!constants_.functions.empty() && random_.percent(12)) {
+        auto function = constants_.functions.begin();
+        std::advance(function,
+                     static_cast<std::ptrdiff_t>(random_.below(constants_.functions.size())));
+        std::vector<Expr> arguments;
+        do {
+            arguments.push_back(any(scope, depth - 1));
+        } while (arguments.size() < function->second.formals.size());
+        return legal(call(function->first, arguments), scope);
     }
     if (random_.percent(12)) {
         const Expr first = random_.percent(50) ? comparison(scope) : any(scope, depth - 1);

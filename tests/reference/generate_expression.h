@@ -33,6 +33,7 @@ struct Scope {
 struct Constants {
     std::map<std::string, float> values; // the drawn ones too, with any value
     std::set<std::string> drawn;
+    Functions functions; // they use no drawn constants
 };
 
 class ExpressionMaker {
@@ -51,6 +52,8 @@ public:
     [[nodiscard]] float constant_value(const Expr& expr) const;
 
 private:
+    // Whether a function of the grammar is called.
+    [[nodiscard]] bool calls_user(const Expr& expr) const;
     Expr leaf(const Scope& scope);
     Expr trap();
     Expr range_of(const Scope& scope, int depth);

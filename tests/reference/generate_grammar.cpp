@@ -64,9 +64,16 @@ private:
         };
         add(StatementKind::Define, 0, 3, 0, 70);
         add(StatementKind::Param, 0, 1, 0, 70);
+        if (random_.percent(40)) {
+            add(StatementKind::Function, 0, 3, 0, 70);
+            add(StatementKind::Curve, 0, 1, 0, 70);
+        }
         add(StatementKind::Module, 0, 2, 0, 100);
         add(StatementKind::Object, 0, 1, 0, 100);
-        add(StatementKind::Axiom, 1, 1, 0, 100);
+        axiom_shares_ =
+            random_.percent(15) ? productions_.shares(random_.between(1, 3)) : std::vector<float>{};
+        const int axioms = std::max(1, static_cast<int>(axiom_shares_.size()));
+        add(StatementKind::Axiom, axioms, axioms, 0, 100);
         add(StatementKind::Generations, random_.percent(65) ? 1 : 0, 1, 0, 100);
         add(StatementKind::Production, random_.percent(98) ? 2 : 0, 6, 40, 100);
         std::stable_sort(keys.begin(), keys.end(),
@@ -174,6 +181,12 @@ private:
         case StatementKind::Param:
             fill_param(statement, expressions);
             return;
+        case StatementKind::Function:
+            fill_function(statement, expressions);
+            return;
+        case StatementKind::Curve:
+            fill_curve(statement);
+            return;
         case StatementKind::Module: {
             const Species& species = fitting(letters);
             statement.patterns = {{species.name, {}}};
@@ -200,6 +213,11 @@ private:
             if (random_.percent(3)) {
                 add_many_constants(statement.modules, letters);
             }
+            if (!axiom_shares_.empty()) {
+                statement.has_probability = true;
+                statement.expr = productions_.probability(axiom_shares_.back(), {});
+                axiom_shares_.pop_back();
+            }
             return;
         }
         case StatementKind::Production:
@@ -208,6 +226,48 @@ private:
         default:
             return;
         }
+    }
+
+    std::string new_function() {
+        static const std::vector<std::string> kNames = {"f", "taper", "g", "let", "A", "x", "K"};
+        std::string name;
+        do {
+            name = random_.pick(kNames);
+            name += random_.percent(40) ? to_text(random_.below(20)) : "";
+        } while (constants_.functions.count(name) != 0);
+        return name;
+    }
+
+    static bool divides(const Expr& expr) {
+        return expr.text == "/" || expr.text == "mod" ||
+               std::any_of(expr.parts.begin(), expr.parts.end(), divides);
+    }
+
+    // A body without divisions, since a divisor that a call makes 0 is an error of the text.
+    void fill_function(Statement& statement, ExpressionMaker& expressions) {
+        static const std::vector<std::vector<std::string>> kFormals = {
+            {"x"}, {"a"}, {"x", "y"}, {"s", "t", "K"}, {"if", "let"}};
+        statement.name = new_function();
+        statement.names = random_.pick(kFormals);
+        const Scope scope{statement.names, false, 0, false};
+        do {
+            statement.expr = expressions.any(scope, random_.between(1, 4));
+        } while (divides(statement.expr));
+        constants_.functions[statement.name] = {statement.names, statement.expr, {}};
+    }
+
+    void fill_curve(Statement& statement) {
+        statement.name = new_function();
+        UserFunction curve;
+        float x = static_cast<float>(random_.between(-4, 2));
+        for (int count = random_.between(2, 6); count > 0; --count) {
+            const float y = 0.25F * static_cast<float>(random_.between(-20, 20));
+            curve.points.emplace_back(x, y);
+            const Expr sum = binary("+", number(x), number(0));
+            statement.points.emplace_back(random_.percent(70) ? number(x) : sum, number(y));
+            x += 0.5F * static_cast<float>(random_.between(1, 6));
+        }
+        constants_.functions[statement.name] = curve;
     }
 
     // More modules with constant arguments than one byte can number.
@@ -549,6 +609,7 @@ private:
     std::map<const Statement*, std::vector<Production>> bundles_;
     std::set<std::string> decided_; // groups, whether they are decomposed
     bool has_generations_ = false;
+    std::vector<float> axiom_shares_; // of the axioms to come, if there are several
 };
 
 } // namespace

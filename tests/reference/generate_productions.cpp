@@ -243,6 +243,29 @@ Expr ProductionMaker::probability(float value, const std::vector<std::string>& f
     }
 }
 
+// A weight that depends on the module: 0 for some, and seldom below 0.
+Expr ProductionMaker::weight(const Scope& scope) {
+    // An expression that the compiler cannot find to be the constant 0, which is an error.
+    Expr any = scope.formals.empty() || random_.percent(20) ? call("step", {})
+                                                            : name(random_.pick(scope.formals));
+    if (random_.percent(60)) {
+        static const std::vector<std::string> kOperators = {"+", "-", "*"};
+        any = binary(random_.pick(kOperators), any, expressions_.literal());
+    }
+    switch (random_.below(6)) {
+    case 0:
+        return any;
+    case 1:
+        return unary("-", any);
+    case 2:
+        return call("max", {number(0), binary("-", any, number(2))});
+    case 3:
+        return call("if", {binary(">", any, number(1)), number(3), number(0)});
+    default:
+        return call("min", {call("abs", {any}), number(1000)});
+    }
+}
+
 // Probabilities that sum to 1, nearly.
 std::vector<float> ProductionMaker::shares(int count) {
     static const std::vector<std::vector<std::vector<float>>> kShares = {
@@ -324,7 +347,9 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
             some_condition = true;
         }
         if (stochastic) {
-            production.probability = probability(parts[static_cast<std::size_t>(i)], formals);
+            production.probability = plan_.weights_any && random_.percent(50)
+                                         ? weight(scope)
+                                         : probability(parts[static_cast<std::size_t>(i)], formals);
         }
         scope.ranges = plan_.range_percent;
         if (random_.percent(plan_.local_percent)) {

@@ -25,6 +25,10 @@ public:
     std::vector<Production> bundle(bool letters);
 
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
+    // Probabilities that sum to 1, nearly; with `weights any` any weights.
+    std::vector<float> shares(int count);
+    // `value` as an expression without these formals.
+    Expr probability(float value, const std::vector<std::string>& formals);
 
 private:
     const Species& any_species(bool letters);
@@ -36,8 +40,7 @@ private:
     // Gives the modules of `pattern` names for their parameters, each only once in `used`.
     void name_formals(Pattern& pattern, std::vector<std::string>& used);
     std::string name_local(const std::vector<std::string>& used);
-    Expr probability(float value, const std::vector<std::string>& formals);
-    std::vector<float> shares(int count);
+    Expr weight(const Scope& scope);
 
     Random& random_;
     const Plan& plan_;

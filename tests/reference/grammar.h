@@ -58,6 +58,8 @@ enum class StatementKind {
     Generations,
     Define,
     Param,
+    Function,
+    Curve,
     Module,
     Object,
     IncludeFile,
@@ -70,16 +72,18 @@ enum class StatementKind {
 
 struct Statement {
     StatementKind kind = StatementKind::Axiom;
-    std::string name;               // Define, Param; Object: the module; Set: the key
-    std::string text;               // Object: the object; Set: the value as it is written
-    std::size_t file = 0;           // IncludeFile: index into Grammar::files
-    Expr expr;                      // Generations, Define, Param
-    Expr low;                       // Param: the bounds
-    Expr high;                      //
-    Pattern patterns;               // Module: the one declared
-    std::vector<std::string> names; // Ignore, Consider
-    std::vector<ModuleUse> modules; // Axiom
-    Production production;          // Production
+    std::string name;     // Define, Param, Function, Curve; Object: the module; Set: the key
+    std::string text;     // Object: the object; Set: the value as it is written
+    std::size_t file = 0; // IncludeFile: index into Grammar::files
+    Expr expr;            // Generations, Define, Param; Function: the body; Axiom: its probability
+    bool has_probability = false;              // Axiom: one of several
+    std::vector<std::pair<Expr, Expr>> points; // Curve
+    Expr low;                                  // Param: the bounds
+    Expr high;                                 //
+    Pattern patterns;                          // Module: the one declared
+    std::vector<std::string> names;            // Ignore, Consider; Function: the formals
+    std::vector<ModuleUse> modules;            // Axiom
+    Production production;                     // Production
 };
 
 struct File {

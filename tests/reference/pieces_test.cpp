@@ -1,11 +1,9 @@
 // Random grammars through every way the runtime can cut a derivation into pieces: threads, chunks
 // of a few modules, streaming. The words of the oracle are small, so `lsc` itself never cuts them.
 
-#include "compiler/compile.h"
-#include "grammar/lsys/parse.h"
-#include "grammar/rendering/render_diagnostic.h"
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
+#include "tests/reference/compile_case.h"
 #include "tests/reference/generate.h"
 #include "tests/reference/print.h"
 #include "tests/support/derived.h"
@@ -13,43 +11,12 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
 #include <optional>
 #include <vector>
 
 namespace lsys::reference {
 
 namespace {
-
-// Compiles a case from memory. `messages` gets what the compiler says.
-std::optional<Bytecode> compiled(const Case& made, std::string& messages) {
-    std::map<std::string, std::string> texts;
-    const std::vector<TextFile> files = print_grammar(made.grammar, made.layout_seed);
-    for (const TextFile& file : files) {
-        texts[file.path] = file.text;
-    }
-    const FileLoader load = [&](const std::string& path) -> lsys::Result<std::string> {
-        const auto found = texts.find(std::filesystem::path(path).lexically_normal().string());
-        if (found == texts.end()) {
-            return lsys::Error{"no such file"};
-        }
-        return found->second;
-    };
-    SourceMap sources;
-    Names names;
-    Diagnostics diagnostics;
-    const FileId root = sources.add(files[0].path, files[0].text);
-    CompileOptions options;
-    for (const auto& [name, value] : made.request.definitions) {
-        options.definitions.push_back({name, value});
-    }
-    Ast ast = parse_lsys(root, ParseContext{sources, names, diagnostics, load});
-    std::optional<Bytecode> bytecode =
-        compile(std::move(ast), names, sources, options, diagnostics).bytecode;
-    render_all(diagnostics, sources, {.format = MessageFormat::Human}, messages);
-    return bytecode;
-}
 
 /// `count` modules of codes by chance, most of them `usual`, so that runs of it stand between
 /// others.
@@ -129,7 +96,7 @@ TEST_CASE("long random words give the same word in chunks of any size") {
     for (std::uint64_t seed = 3001; seed <= 3300; ++seed) {
         const Case made = generate(seed);
         std::string messages;
-        const std::optional<Bytecode> bytecode = compiled(made, messages);
+        const std::optional<Bytecode> bytecode = compile_case(made, messages);
         INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         const Code usual = static_cast<Code>(seed * 7 % bytecode->code_count());
@@ -160,7 +127,7 @@ TEST_CASE("random grammars give the same word in pieces of any size") {
         const Case made = generate(seed);
         const Derivation derivation = derive(made.grammar, made.request);
         std::string messages;
-        const std::optional<Bytecode> bytecode = compiled(made, messages);
+        const std::optional<Bytecode> bytecode = compile_case(made, messages);
         INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         if (!derivation.error) {

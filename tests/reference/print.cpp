@@ -72,6 +72,23 @@ private:
         }
     }
 
+    // Numbers as they are, negative ones too; all else in parentheses.
+    void add_coordinate(const Expr& expr) {
+        const bool negative = expr.kind == ExprKind::Unary && expr.text == "-" &&
+                              expr.parts[0].kind == ExprKind::Number;
+        if (negative || expr.kind == ExprKind::Number) {
+            const Expr& number = negative ? expr.parts[0] : expr;
+            if (negative) {
+                add("-");
+            }
+            add(number.text.empty() ? spell_number(number.number, random_) : number.text);
+            return;
+        }
+        add("(");
+        add_expression(expr);
+        add(")");
+    }
+
     // Returns where the name begins in the last token.
     std::size_t add_name(const std::string& name, bool joins_previous) {
         const bool word = is_identifier(name);
@@ -151,6 +168,27 @@ private:
             add_expression(statement.high);
             add("}");
             return;
+        case StatementKind::Function:
+            add("#function");
+            add(statement.name);
+            for (std::size_t i = 0; i < statement.names.size(); ++i) {
+                add(i == 0 ? "(" : ",");
+                add(statement.names[i]);
+            }
+            add(")");
+            add_expression(statement.expr);
+            return;
+        case StatementKind::Curve:
+            add("#curve");
+            add(statement.name);
+            for (std::size_t i = 0; i < statement.points.size(); ++i) {
+                if (i > 0) {
+                    add(",");
+                }
+                add_coordinate(statement.points[i].first);
+                add_coordinate(statement.points[i].second);
+            }
+            return;
         case StatementKind::Module:
             add("#module");
             add_pattern(statement.patterns);
@@ -180,6 +218,10 @@ private:
             return;
         case StatementKind::Axiom:
             add("#w");
+            if (statement.has_probability) {
+                add("~");
+                add_expression(statement.expr);
+            }
             add(":");
             add_modules(statement.modules);
             return;

@@ -141,11 +141,14 @@ std::map<std::string, Case> cases() {
     all["identifier-10mb"] = {repeated(head + "#w : F ", "a", 10'000'000, ";"), count, 0, ""};
     all["number-10mb"] = {repeated(head + "#w : F(0.", "1", 10'000'000, ");"), count, 0, ""};
     all["nul-bytes"] = {repeated(head + "#w : F", std::string("\0F", 2), 1000, ";"), check, 1,
-                        "unknown-character"};
+                        "this file is no text"};
+    all["few-nul-bytes"] = {
+        repeated(head + "#w : F", std::string("\0F", 2) + std::string(38, 'F'), 100'000, ";"), check,
+        1, "unknown-character"};
     all["invalid-utf8"] = {repeated(head + "#w : F", "\xFF\xC0 F", 100'000, ";"), check, 1,
                            "invalid-utf8"};
     all["strays-10mb"] = {repeated(head + "#w : F;\n#p : ", "1 = ", 2'500'000, ": * : F : ;"),
-                          check, 1, "more error"};
+                          check, 1, "a number cannot stand among modules"};
     all["typographic-3mb"] = {repeated(head + "#w : F", "\xE2\x88\x92 \xC3\xA9", 500'000, ";"),
                               check, 1, "look-alike"};
     all["unclosed-comment"] = {repeated(head + "#w : F; /*", "x", 10'000'000, ""), check, 1,

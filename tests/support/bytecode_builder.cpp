@@ -251,9 +251,11 @@ Bytecode BytecodeBuilder::build() const {
         assembler.globals.emplace(text.name, static_cast<std::uint32_t>(assembler.globals.size()));
         bytecode.globals.push_back(std::move(global));
     }
-    bytecode.axiom_site = assembler.site();
-    bytecode.axiom_draw_position = draw_position;
-    bytecode.axiom = assembler.word(axiom_, no_formals);
+    BytecodeAxiom axiom;
+    axiom.site = assembler.site();
+    axiom.draw_position = draw_position;
+    axiom.word = assembler.word(axiom_, no_formals);
+    bytecode.axioms.push_back(axiom);
 
     NameTable rules;
     NameTable groups;

@@ -51,8 +51,7 @@ ForestFilmMoment make_moment(FilmState& state,
     ForestFilmMoment made;
     made.document = request.document;
     made.moment = request.moment;
-    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads,
-                          false};
+    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads, {}};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, made.trees);
         made.messages = std::move(outcome.messages());

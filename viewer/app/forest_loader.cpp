@@ -18,7 +18,9 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
         outcome.files = known->files;
     }
     const Project project{record_files(make_file_host(&cancelled), outcome.files),
-                          request.options.run.limits, request.options.run.threads, false};
+                          request.options.run.limits,
+                          request.options.run.threads,
+                          {}};
     const Stopwatch making;
     const auto work = [&] {
         auto made = make_unpainted_forest(request.options, request.edits, known, project);

@@ -172,8 +172,7 @@ Outcome<std::vector<std::string>> describe(const Picked& picked,
 }
 
 PickOutcome run_pick(const PickRequest& request, const std::atomic<bool>& cancelled) {
-    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads,
-                          false};
+    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads, {}};
     return catch_out_of_memory(
         [&] {
             PickOutcome made;

@@ -64,8 +64,8 @@ make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool
     FilmMoment made;
     made.moment = request.moment;
     made.mesh_options = request.options.mesh;
-    const Project project{make_file_host(&cancelled), request.options.run.limits,
-                          request.options.run.threads, false};
+    const Project project{
+        make_file_host(&cancelled), request.options.run.limits, request.options.run.threads, {}};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, made);
         made.messages = std::move(outcome.messages());

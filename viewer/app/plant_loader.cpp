@@ -18,7 +18,9 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
     outcome.since = request.since;
     outcome.files = {request.options.file};
     const Project project{record_files(make_file_host(&cancelled), outcome.files),
-                          request.options.run.limits, request.options.run.threads, false};
+                          request.options.run.limits,
+                          request.options.run.threads,
+                          {}};
     const Stopwatch making;
     const auto work = [&] {
         auto made = make_plant_document(request.options, project);

@@ -5,6 +5,7 @@
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
 //   rare_number   a number that is kNone in most programs; kNone leaves the digest as it is
+//   rare_table    a table that most programs lack; an empty one leaves the digest as it is
 //   implied       a truth on which the word depends, computed from a field of beside_word()
 //   beside_word() the stream for fields on which no derived word depends: itself, or one that
 //                 ignores them
@@ -37,6 +38,8 @@ struct IgnoringStream {
     void optional_number(const std::optional<std::uint32_t>& /*value*/) {}
     template <typename Row, typename Function>
     void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
+    template <typename Row, typename Function>
+    void rare_table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
 };
 
 // `Value` is const for a stream that does not change it.
@@ -187,7 +190,7 @@ void describe_place_run(Stream& stream, Value& run) {
 template <typename Stream, typename Value>
 void describe_production(Stream& stream, Value& production) {
     auto& [name, name_site, rule, group, stage, has_left, has_right, left, predecessor, right,
-           formal_count, condition, stochastic, weight, successor] = production;
+           formal_count, condition, stochastic, weight, weight_code, successor] = production;
     auto&& beside = stream.beside_word();
     beside.text(name);
     beside.number(name_site);
@@ -203,15 +206,37 @@ void describe_production(Stream& stream, Value& production) {
     stream.number(condition);
     stream.truth(stochastic);
     stream.real(weight);
+    stream.number(weight_code);
     describe_word(stream, successor);
+}
+
+/// Without the slopes, which follow from the points.
+template <typename Stream, typename Value>
+void describe_curve(Stream& stream, Value& curve) {
+    auto& [name, points] = curve;
+    auto&& beside = stream.beside_word();
+    beside.text(name);
+    stream.table(points, [](auto& s, auto& row) {
+        s.real(row.x);
+        s.real(row.y);
+    });
+}
+
+template <typename Stream, typename Value>
+void describe_axiom(Stream& stream, Value& axiom) {
+    auto& [word, site, draw_position, weight] = axiom;
+    describe_word(stream, word);
+    stream.beside_word().number(site);
+    stream.number(draw_position);
+    stream.real(weight);
 }
 
 template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, group_count, axiom, axiom_site, axiom_draw_position, uses_steps, stack_depth,
-           local_count] = bytecode;
+           rule_count, group_count, axioms, uses_steps, curves, stack_depth, local_count] =
+        bytecode;
     auto&& beside = stream.beside_word();
     describe_settings(stream, settings);
     beside.optional_number(generations);
@@ -230,10 +255,9 @@ void describe(Stream& stream, Value& bytecode) {
     stream.table(productions, [](auto& s, auto& row) { describe_production(s, row); });
     stream.number(rule_count);
     stream.number(group_count);
-    describe_word(stream, axiom);
-    beside.number(axiom_site);
-    stream.number(axiom_draw_position);
+    stream.table(axioms, [](auto& s, auto& row) { describe_axiom(s, row); });
     stream.truth(uses_steps);
+    stream.rare_table(curves, [](auto& s, auto& row) { describe_curve(s, row); });
     beside.number(stack_depth);
     beside.number(local_count);
 }

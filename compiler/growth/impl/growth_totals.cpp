@@ -136,18 +136,26 @@ SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations) {
         bytecode.settings.rewriting == RewritingMode::Cyclic) {
         return {};
     }
-    const std::vector<ClassTerm> axiom = classes.axiom();
+    const ClassExpansion start = classes.start();
     if (classes.count() > kMaxClasses) {
         return {};
     }
     TotalsTable table(classes);
-    const std::uint64_t work = axiom.size() + classes.count() + table.terms();
+    std::uint64_t work = classes.count() + table.terms();
+    for (const ClassOutcome& axiom : classes.outcomes(start.outcomes)) {
+        work += axiom.terms.count;
+    }
     if (work * (std::uint64_t{generations} + 1) > kMaxWork) {
         return {};
     }
     SizeBounds bounds;
     for (std::uint32_t g = 0;; ++g) {
-        const Bounds word = sum(axiom, table.values());
+        const std::span<const ClassOutcome> axioms = classes.outcomes(start.outcomes);
+        Bounds word = sum(classes.terms(axioms.front().terms), table.values());
+        for (const ClassOutcome& axiom : axioms.subspan(1)) {
+            const Bounds other = sum(classes.terms(axiom.terms), table.values());
+            word = {min_of(word.low, other.low), max_of(word.high, other.high)};
+        }
         bounds.low.push_back(word.low);
         bounds.high.push_back(word.high);
         if (g == generations) {

@@ -62,13 +62,19 @@ GenerationSize size_of(const Bytecode& bytecode, Code code) {
 }
 
 GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
-    const std::vector<ClassTerm> axiom = classes.axiom();
+    const ClassExpansion start = classes.start();
     reserve();
-    for (const ClassTerm& term : axiom) {
-        const auto i = static_cast<std::size_t>(term.target);
+    for (const ClassTerm& term : classes.terms(start.high)) {
         add_present(term.target);
-        low_[i] = high_[i] = count_of(term.count);
-        expected_[i] = term.count;
+        high_[static_cast<std::size_t>(term.target)] = count_of(term.count);
+    }
+    for (const ClassTerm& term : classes.terms(start.low)) {
+        low_[static_cast<std::size_t>(term.target)] = count_of(term.count);
+    }
+    for (const ClassOutcome& outcome : classes.outcomes(start.outcomes)) {
+        for (const ClassTerm& term : classes.terms(outcome.terms)) {
+            expected_[static_cast<std::size_t>(term.target)] += outcome.probability * term.count;
+        }
     }
     if (classes.bytecode().settings.rewriting != RewritingMode::Parallel) {
         list_rules();

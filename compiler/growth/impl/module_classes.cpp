@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
 namespace lsys::analysis {
@@ -187,12 +187,23 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionI
     return range;
 }
 
-std::vector<ClassTerm> ModuleClasses::axiom() {
-    CountedWord word;
-    count_word(bytecode_->axiom, word);
-    const TableRange range = instantiate(word, {{}, std::nullopt, steps_});
-    const std::span<const ClassTerm> made = terms(range);
-    return {made.begin(), made.end()};
+ClassExpansion ModuleClasses::start() {
+    double sum = 0.0;
+    for (const BytecodeAxiom& axiom : bytecode_->axioms) {
+        sum += static_cast<double>(axiom.weight);
+    }
+    std::vector<ClassOutcome> outcomes;
+    for (const BytecodeAxiom& axiom : bytecode_->axioms) {
+        CountedWord word;
+        count_word(axiom.word, word);
+        ClassOutcome outcome;
+        outcome.probability = static_cast<double>(axiom.weight) / sum;
+        outcome.terms = instantiate(word, {{}, std::nullopt, steps_});
+        outcomes.push_back(outcome);
+    }
+    ClassExpansion expansion;
+    set_outcomes(outcomes, expansion);
+    return expansion;
 }
 
 std::vector<ClassTerm> ModuleClasses::successor(ProductionId production) {
@@ -211,9 +222,15 @@ ExpressionInputs ModuleClasses::inputs(std::span<const KnownValue> formals) cons
 
 KnownValue ModuleClasses::condition(std::uint32_t production,
                                     std::span<const KnownValue> parameters) {
-    const BytecodeProduction& p = bytecode_->productions[production];
+    return value_of(production, bytecode_->productions[production].condition, parameters);
+}
+
+/// The value of the condition or weight of a production at `first`; 1 if it has none.
+KnownValue ModuleClasses::value_of(std::uint32_t production,
+                                   std::uint32_t first_instruction,
+                                   std::span<const KnownValue> parameters) {
     ++work_;
-    if (p.condition == kNone) {
+    if (first_instruction == kNone) {
         return {1.0F, true};
     }
     std::span<const KnownValue> formals = parameters;
@@ -222,7 +239,19 @@ KnownValue ModuleClasses::condition(std::uint32_t production,
         formals_.insert(formals_.end(), parameters.begin(), parameters.end());
         formals = formals_;
     }
-    return evaluator_.run(bytecode_->instructions, p.condition, inputs(formals));
+    return evaluator_.run(bytecode_->instructions, first_instruction, inputs(formals));
+}
+
+/// The weight of a stochastic production; unknown if it is in error.
+KnownValue ModuleClasses::weight_of(std::uint32_t production,
+                                    std::span<const KnownValue> parameters) {
+    const BytecodeProduction& p = bytecode_->productions[production];
+    if (p.weight_code == kNone) {
+        return {p.weight, true};
+    }
+    const KnownValue weight = value_of(production, p.weight_code, parameters);
+    return weight.known && weight.value >= 0.0F && std::isfinite(weight.value) ? weight
+                                                                               : KnownValue{};
 }
 
 ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
@@ -239,7 +268,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                      : Holds::Yes;
     };
     Matches matches;
-    std::unordered_set<std::uint32_t> groups; // already added
+    // By group that is added: whether a member surely matches, with a weight surely above 0.
+    std::unordered_map<std::uint32_t, bool> groups;
     for (const std::uint32_t p : index_.productions_of(symbol)) {
         const BytecodeProduction& production = bytecode_->productions[p];
         const Holds first = holds(p);
@@ -247,23 +277,36 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             continue;
         }
         const bool certain = first == Holds::Yes;
+        bool is_taken = true; // if the production matches
         if (!production.stochastic) {
             matches.list.push_back({p, 1.0});
-        } else if (groups.insert(production.group).second) {
+        } else if (const auto added = groups.find(production.group); added != groups.end()) {
+            is_taken = added->second;
+        } else {
             const std::size_t begin = matches.list.size();
             double sum = 0.0;
+            is_taken = false;
             for (const std::uint32_t q : index_.group(production.group)) {
                 const Holds member = q == p ? first : holds(q);
-                if (member != Holds::No) {
-                    const auto weight = static_cast<double>(bytecode_->productions[q].weight);
-                    matches.list.push_back({q, weight});
-                    matches.decided = matches.decided && member == Holds::Yes;
-                    sum += weight;
+                const KnownValue weight =
+                    member == Holds::No ? KnownValue{0.0F, true} : weight_of(q, parameters);
+                if (!weight.known || weight.value != 0.0F) {
+                    const double share = weight.known ? static_cast<double>(weight.value) : 1.0;
+                    matches.list.push_back({q, share});
+                    matches.decided = matches.decided && member == Holds::Yes && weight.known;
+                    is_taken = is_taken || (member == Holds::Yes && weight.known);
+                    sum += share;
                 }
             }
             for (std::size_t i = begin; i < matches.list.size(); ++i) {
                 matches.list[i].probability /= sum;
             }
+            groups.emplace(production.group, is_taken);
+        }
+        if (certain && !is_taken) { // without a weight above 0 the module is copied
+            matches.decided = matches.decided && matches.list.empty();
+            matches.list.push_back({kNone, 1.0});
+            return matches;
         }
         matches.decided = matches.decided && certain;
         if (certain) {
@@ -381,11 +424,17 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
         }
         outcomes.push_back(outcome);
     }
+    set_outcomes(outcomes, expansion);
+    return expansion;
+}
+
+/// Stores the outcomes, and the min and max count of each class over them.
+void ModuleClasses::set_outcomes(const std::vector<ClassOutcome>& outcomes,
+                                 ClassExpansion& expansion) {
     expansion.outcomes = {static_cast<std::uint32_t>(outcomes_.size()),
                           static_cast<std::uint32_t>(outcomes.size())};
     outcomes_.insert(outcomes_.end(), outcomes.begin(), outcomes.end());
     add_bounds(expansion);
-    return expansion;
 }
 
 /// Adds the min and max count of each class over the outcomes.

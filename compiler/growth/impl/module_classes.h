@@ -60,8 +60,8 @@ public:
     /// The parameters of a class; known ones are exact.
     [[nodiscard]] std::vector<KnownValue> parameters(ClassId id) const;
 
-    /// The classes of the axiom.
-    [[nodiscard]] std::vector<ClassTerm> axiom();
+    /// The word that a derivation begins with: an outcome for each axiom.
+    [[nodiscard]] ClassExpansion start();
     /// The classes of a production's successor for unknown formals.
     [[nodiscard]] std::vector<ClassTerm> successor(ProductionId production);
     /// The outcomes of a class in a word of age `age`. May add classes. The result and its ranges
@@ -123,6 +123,10 @@ private:
 
     [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
+    KnownValue weight_of(std::uint32_t production, std::span<const KnownValue> parameters);
+    KnownValue value_of(std::uint32_t production,
+                        std::uint32_t first_instruction,
+                        std::span<const KnownValue> parameters);
     /// The productions that may be taken. Evaluates conditions at `point`, but conditions of
     /// productions with contexts for the known values of `parameters`.
     Matches match(SymbolId symbol,
@@ -131,6 +135,7 @@ private:
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
     ClassExpansion
     expand_matches(const Matches& matches, ClassId self, std::span<const KnownValue> parameters);
+    void set_outcomes(const std::vector<ClassOutcome>& outcomes, ClassExpansion& expansion);
     void add_bounds(ClassExpansion& expansion);
     [[nodiscard]] bool is_unchanged(const ClassExpansion& expansion, Code code) const;
     [[nodiscard]] bool is_identity(Code code, std::uint32_t production) const;

@@ -44,19 +44,24 @@ public:
             }
         }
         find_effects();
-        walk(program_.axiom, "axiom", kNone);
-        branches_.sites.clear(); // the axiom has no choice
+        for (const Axiom& axiom : program_.axioms) {
+            walk(axiom.word, "axiom", kNone);
+        }
+        branches_.sites.clear(); // branches of an axiom are always taken
         // Branches that a decomposition writes get no id, since the number of passes left for their
         // modules is not part of their key. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
             const Production& production = program_.productions[i];
             walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
         }
-        for_each_symbol(program_, program_.axiom, [&](std::size_t, SymbolId symbol) {
-            branches_.axiom_is_random = branches_.axiom_is_random || effects_of(symbol).is_random;
-        });
-        branches_.axiom_is_random = branches_.axiom_is_random || program_.axiom.draw_count != 0 ||
-                                    !program_.globals.empty();
+        branches_.axiom_is_random = program_.axioms.size() > 1 || !program_.globals.empty();
+        for (const Axiom& axiom : program_.axioms) {
+            for_each_symbol(program_, axiom.word, [&](std::size_t, SymbolId symbol) {
+                branches_.axiom_is_random =
+                    branches_.axiom_is_random || effects_of(symbol).is_random;
+            });
+            branches_.axiom_is_random = branches_.axiom_is_random || axiom.word.draw_count != 0;
+        }
         if (!instanceable_) {
             return std::nullopt;
         }
@@ -71,12 +76,12 @@ private:
                                std::any_of(branches_.kinds.begin(), branches_.kinds.end(),
                                            [](const BranchKind& kind) { return kind.is_random; });
         if (!is_random) {
-            diagnostics_.add(DiagnosticCode::NoVariety, program_.axiom.span,
+            diagnostics_.add(DiagnosticCode::NoVariety, program_.axiom_span(),
                              "nothing that this system derives is left to chance, so all its "
                              "plants are equal");
         } else if (branches_.kinds.empty()) {
             diagnostics_
-                .add(DiagnosticCode::NoVariety, program_.axiom.span,
+                .add(DiagnosticCode::NoVariety, program_.axiom_span(),
                      "no branch of this system holds a module with a production")
                 .notes.emplace_back("nothing can be put in place of anything, so its plants are "
                                     "copies of the heroes");
@@ -115,14 +120,14 @@ private:
 
     void refuse_system() {
         if (program_.settings.choice == ChoiceScope::Generation) {
-            refuse(program_.axiom.span, "a system with `choice generation` cannot be instanced")
+            refuse(program_.axiom_span(), "a system with `choice generation` cannot be instanced")
                 .notes.emplace_back("the branches of one generation all choose alike, which "
                                     "branches that are put together from others would not");
         }
         if (std::any_of(program_.symbols.begin(), program_.symbols.end(), [](const auto& symbol) {
                 return info(symbol.turtle).has(TurtleInfo::DependsOnPlace);
             })) {
-            refuse(program_.axiom.span, "a system that aims at points cannot be instanced")
+            refuse(program_.axiom_span(), "a system that aims at points cannot be instanced")
                 .notes.emplace_back("where a branch is put elsewhere, it would aim at another "
                                     "point");
         }
@@ -250,6 +255,9 @@ private:
                 add_module(word, index, arguments);
                 break;
             case SymbolKind::PolygonClose:
+                if (polygons == 0) {
+                    refuse_open_polygon(word, index, where);
+                }
                 polygons -= polygons > 0 ? 1U : 0U;
                 if (!open_.empty() && polygons < open_.back().polygons) {
                     across_polygon(word, open_.back().index);
@@ -269,9 +277,19 @@ private:
                                "instanced",
                                where));
         }
+        if (polygons != 0) {
+            refuse_open_polygon(word, 0, where);
+        }
         if (production != kNone) {
             give_ids();
         }
+    }
+
+    void refuse_open_polygon(const ProgramWord& word, std::uint32_t index, const char* where) {
+        refuse(span_of(word, index),
+               fmt::format("a polygon begins and ends in different words, as in this {}, so the "
+                           "system cannot be instanced",
+                           where));
     }
 
     void across_polygon(const ProgramWord& word, std::uint32_t index) {
@@ -316,11 +334,15 @@ private:
                 append_bytes(open.key, value.index);
                 break;
             case Opcode::Global:
+            case Opcode::Curve:
             case Opcode::SetLocal:
                 append_bytes(open.key, value.index);
                 break;
             case Opcode::Range:
-                open.effects.is_random = true; // the number of a range is not part of the key
+            case Opcode::Normal:
+            case Opcode::Poisson:
+            case Opcode::Binomial:
+                open.effects.is_random = true; // the number of a draw is not part of the key
                 break;
             default:
                 break;

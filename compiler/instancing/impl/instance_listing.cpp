@@ -35,7 +35,11 @@ public:
           rho_(as_written(rho)), page_(page), put_(put) {}
 
     void run() {
-        out_ = fmt::format("#w : @(0,0) {} $;\n", text_of(program_.axiom.span));
+        for (const Axiom& axiom : program_.axioms) {
+            const std::string weight =
+                axiom.has_weight ? fmt::format(" ~ {}", text_of(axiom.weight_span)) : "";
+            out_ += fmt::format("#w{} : @(0,0) {} $;\n", weight, text_of(axiom.word.span));
+        }
         std::size_t site = 0;
         const std::vector<double> chances = probabilities();
         bool wanted = true;
@@ -54,7 +58,7 @@ public:
 
 private:
     /// The share of each production in the weights of its group; without conditions this is its
-    /// probability.
+    /// probability. NaN: weights of the group are computed.
     [[nodiscard]] std::vector<double> probabilities() const {
         std::vector<double> sums(program_.group_count, 0.0);
         for (const Production& production : program_.productions) {
@@ -63,8 +67,7 @@ private:
         std::vector<double> all;
         for (const Production& production : program_.productions) {
             const double sum = sums[production.group];
-            all.push_back(production.stochastic && sum > 0.0 ? as_written(production.weight) / sum
-                                                             : 1.0);
+            all.push_back(!production.stochastic ? 1.0 : as_written(production.weight) / sum);
         }
         return all;
     }
@@ -91,9 +94,8 @@ private:
             for (std::size_t c = 0; c < sites.size(); ++c) {
                 taken += takes(form, c) ? 1U : 0U;
             }
-            const double probability =
-                chance * std::pow(rho_, static_cast<double>(taken)) *
-                std::pow(1.0 - rho_, static_cast<double>(sites.size() - taken));
+            const double part = std::pow(rho_, static_cast<double>(taken)) *
+                                std::pow(1.0 - rho_, static_cast<double>(sites.size() - taken));
             const std::string_view name = names_.text(production.name);
             const bool rewrites = production.stage == Stage::Rewrite;
             out_ += rewrites ? fmt::format("#{}.{}", name, form)
@@ -101,7 +103,9 @@ private:
             out_ += fmt::format(" : {} : ", text_of(production.predecessor.span));
             out_ += production.condition == kNoValue ? "*" : text_of(production.condition_span);
             if (rewrites || production.stochastic) {
-                out_ += fmt::format(" ~ {:.9g}", probability);
+                out_ += std::isnan(chance)
+                            ? fmt::format(" ~ {:.9g}*({})", part, text_of(production.weight_span))
+                            : fmt::format(" ~ {:.9g}", chance * part);
             }
             for (std::size_t i = 0; i < production.locals.size(); ++i) {
                 out_ += i == 0 ? " : let " : ", ";

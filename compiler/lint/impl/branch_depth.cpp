@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <deque>
 #include <numeric>
+#include <optional>
 
 namespace lsys {
 
@@ -123,21 +124,38 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
         opening = sum > 0 && opening == nullptr ? &production : opening;
         closing = sum < 0 && closing == nullptr ? &production : closing;
     }
-    if (closing == nullptr || (opening == nullptr && balance(program, program.axiom) <= 0)) {
+    const std::vector<Axiom>& axioms = program.axioms;
+    const bool axiom_opens = std::any_of(axioms.begin(), axioms.end(), [&](const Axiom& axiom) {
+        return balance(program, axiom.word) > 0;
+    });
+    if (closing == nullptr || (opening == nullptr && !axiom_opens)) {
         return;
     }
     DepthAnalysis analysis(program);
     analysis.run();
-    if (analysis.depth_of(program.axiom).lowest < 0) {
+    if (std::any_of(axioms.begin(), axioms.end(),
+                    [&](const Axiom& axiom) { return analysis.depth_of(axiom.word).lowest < 0; })) {
         return;
     }
+    // The note stands for the warnings about the brackets of the two.
+    diagnostics.rejudge([&](const Diagnostic& known) -> std::optional<Severity> {
+        const auto is_of = [&](const Production* production) {
+            return production != nullptr && known.span.file == production->span.file &&
+                   known.span.begin >= production->span.begin &&
+                   known.span.end <= production->span.end;
+        };
+        const bool is_explained =
+            (known.code == DiagnosticCode::UnopenedBranch && is_of(closing)) ||
+            (known.code == DiagnosticCode::UnclosedBranch && is_of(opening));
+        return is_explained ? std::nullopt : std::optional(known.severity);
+    });
     Diagnostic& diagnostic = diagnostics.add(
         DiagnosticCode::BalancedAcross, closing->name_span,
         fmt::format(
             "the brackets of {} balance only with those of {}", quoted(input.name(closing->name)),
             opening != nullptr ? quoted(input.name(opening->name)) : std::string("the axiom")));
     diagnostic.labels.push_back(
-        {opening != nullptr ? opening->name_span : program.axiom.span, "leaves branches open"});
+        {opening != nullptr ? opening->name_span : program.axiom_span(), "leaves branches open"});
     diagnostic.notes.emplace_back("no word of this grammar has a `]` without its `[`");
 }
 

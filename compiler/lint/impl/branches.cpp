@@ -76,7 +76,9 @@ void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
     if (!any) {
         return;
     }
-    check_word(input, kinds, input.program.axiom, "axiom", diagnostics);
+    for (const Axiom& axiom : input.program.axioms) {
+        check_word(input, kinds, axiom.word, "axiom", diagnostics);
+    }
     for (const Production& production : input.program.productions) {
         check_word(input, kinds, production.successor, "successor", diagnostics);
     }

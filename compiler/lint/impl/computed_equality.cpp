@@ -177,7 +177,9 @@ private:
             changed = changed || next != parameter_levels_[parameter];
             parameter_levels_[parameter] = next;
         };
-        for_each_argument(program_.axiom, pass);
+        for (const Axiom& axiom : program_.axioms) {
+            for_each_argument(axiom.word, pass);
+        }
         for (const Production& production : program_.productions) {
             for_each_argument(production.successor, pass);
         }
@@ -215,6 +217,8 @@ private:
         if (at == std::string_view::npos || text.find(sign, at + 2) != std::string_view::npos) {
             return;
         }
+        const std::uint32_t place = value.span.begin + static_cast<std::uint32_t>(at);
+        diagnostic.span = {value.span.file, place, place + 2};
         const auto trim = [](std::string_view side) {
             const std::size_t first = side.find_first_not_of(" \t\r\n");
             const std::size_t last = side.find_last_not_of(" \t\r\n");

@@ -83,7 +83,8 @@ private:
     [[nodiscard]] bool is_exempt(const Production& production, SymbolId symbol) const {
         const auto s = static_cast<std::size_t>(symbol);
         // A library may rewrite more than a grammar uses; a declared module may be unused.
-        return production.span.file != program_.axiom.file || use_.reported[s] || use_.declared[s];
+        return production.span.file != program_.axiom_span().file || use_.reported[s] ||
+               use_.declared[s];
     }
 
     /// Adds a label where the name occurs with another number of parameters; false if nowhere.

@@ -35,7 +35,7 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
             return;
         }
         Diagnostic& diagnostic =
-            diagnostics.add(DiagnosticCode::NothingDrawn, program.axiom.span,
+            diagnostics.add(DiagnosticCode::NothingDrawn, program.axiom_span(),
                             "nothing is drawn: the axiom leads to no module that draws");
         diagnostic.help.emplace_back(
             "`F` draws a segment, and `#object NAME SPHERE;` draws an object for a module");
@@ -48,7 +48,7 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     if (known_generations && generations < first) {
         const bool written = !input.options.generations;
         Diagnostic& diagnostic = diagnostics.add(
-            DiagnosticCode::NothingDrawn, written ? program.generations_span : program.axiom.span,
+            DiagnosticCode::NothingDrawn, written ? program.generations_span : program.axiom_span(),
             fmt::format("nothing is drawn yet in generation {}: {} first appears in generation {}",
                         generations, quoted(input.name(drawn)), first));
         diagnostic.help.push_back(fmt::format("ask for {} generations or more", first));

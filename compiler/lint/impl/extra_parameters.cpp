@@ -71,7 +71,9 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
                 }
             });
     };
-    check_word(program.axiom);
+    for (const Axiom& axiom : program.axioms) {
+        check_word(axiom.word);
+    }
     for (const Production& production : program.productions) {
         check_word(production.successor);
     }

@@ -21,7 +21,7 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     const bool written = !input.options.generations && program.generations;
-    const SourceSpan place = written ? program.generations_span : program.axiom.span;
+    const SourceSpan place = written ? program.generations_span : program.axiom_span();
     const std::optional<GrowthLimit> limit =
         find_growth_limit(*input.bytecode, generations, input.options.max_modules);
     if (limit) {

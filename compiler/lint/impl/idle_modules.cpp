@@ -31,7 +31,7 @@ std::vector<std::string_view> working_names(const CheckInput& input, const Modul
 void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
     const Program& program = input.program;
     for (const ObjectBinding& object : program.objects) {
-        if (object.name_span.file != program.axiom.file) {
+        if (object.name_span.file != program.axiom_span().file) {
             continue; // a library may bind more than a grammar uses
         }
         const auto named = use.by_name.find(static_cast<std::uint32_t>(object.name));

@@ -24,6 +24,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics);
 void check_drawing(const CheckInput& input, Diagnostics& diagnostics);
 void check_undrawn_edges(const CheckInput& input, Diagnostics& diagnostics);
 void check_rolled_sides(const CheckInput& input, Diagnostics& diagnostics);
+void check_endless_stages(const CheckInput& input, Diagnostics& diagnostics);
 void check_growth(const CheckInput& input, Diagnostics& diagnostics);
 
 } // namespace lsys

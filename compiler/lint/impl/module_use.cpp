@@ -32,7 +32,9 @@ ModuleUse find_module_use(const Program& program) {
             }
         });
     };
-    add_places(program.axiom, true);
+    for (const Axiom& axiom : program.axioms) {
+        add_places(axiom.word, true);
+    }
     for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
         const Production& production = program.productions[p];
         add_places(production.successor, use.reachable.usable[p]);

@@ -1,12 +1,14 @@
-// Polygons: `{` and `}` balance in the axiom and in every successor and do not nest; `.` only
-// stands within them, and a polygon has at least three vertices.
+// Polygons: `{` and `}` are of equal number in the axiom and in every successor; `.` only stands
+// within them, and a polygon has at least three vertices. In profile `carey` they do not nest.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -29,9 +31,14 @@ public:
             return;
         }
         find_inside();
-        check_word(program_.axiom, "axiom", false);
+        crosses_words_ = std::any_of(
+            program_.productions.begin(), program_.productions.end(),
+            [&](const Production& production) { return leaves_open(production.successor); });
+        for (const Axiom& axiom : program_.axioms) {
+            check_word(axiom.word, "axiom", crosses_words_);
+        }
         for (const Production& production : program_.productions) {
-            bool may_be_inside = false;
+            bool may_be_inside = crosses_words_;
             for (const ProgramPatternItem& item : production.predecessor.items) {
                 may_be_inside = may_be_inside || inside_[static_cast<std::size_t>(item.symbol)];
             }
@@ -44,20 +51,28 @@ private:
         return program_.symbol(program_.modules[index].symbol).kind;
     }
 
-    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it. A `{` that is
-    /// never closed is an error and opens no polygon.
+    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it, or in one that
+    /// another word begins or ends.
     template <typename Visit>
     void for_each_inside(const ProgramWord& word, Visit&& visit) const {
-        std::optional<std::size_t> open;
-        for (std::size_t i = word.first_module;
-             i < std::size_t{word.first_module} + word.module_count; ++i) {
-            if (kind(i) == SymbolKind::PolygonOpen) {
-                open = open.value_or(i);
-            } else if (kind(i) == SymbolKind::PolygonClose && open) {
-                for (std::size_t inner = *open + 1; inner < i; ++inner) {
-                    visit_module(inner, visit);
-                }
-                open.reset();
+        std::size_t depth = 0;
+        std::size_t last_end = word.first_module; // of a polygon that another word begins
+        const std::size_t end = std::size_t{word.first_module} + word.module_count;
+        for (std::size_t i = word.first_module; i < end; ++i) {
+            if (kind(i) == SymbolKind::PolygonClose && depth-- == 0) {
+                depth = 0;
+                last_end = i;
+            }
+            depth += kind(i) == SymbolKind::PolygonOpen ? 1U : 0U;
+        }
+        depth = 0;
+        for (std::size_t i = word.first_module; i < end; ++i) {
+            if (kind(i) == SymbolKind::PolygonClose) {
+                depth -= depth > 0 ? 1U : 0U;
+            } else if (kind(i) == SymbolKind::PolygonOpen) {
+                ++depth;
+            } else if (depth > 0 || i < last_end) {
+                visit(program_.modules[i].symbol);
             }
         }
     }
@@ -77,6 +92,17 @@ private:
         }
     }
 
+    /// Whether a polygon that the word begins is still open at its end.
+    bool leaves_open(const ProgramWord& word) const {
+        std::size_t depth = 0;
+        for (std::size_t i = word.first_module;
+             i < std::size_t{word.first_module} + word.module_count; ++i) {
+            depth += kind(i) == SymbolKind::PolygonOpen ? 1U : 0U;
+            depth -= kind(i) == SymbolKind::PolygonClose && depth > 0 ? 1U : 0U;
+        }
+        return depth > 0;
+    }
+
     /// Finds the modules that can stand in a polygon, directly or in place of a module that does.
     void find_inside() {
         std::vector<SymbolId> work;
@@ -86,7 +112,9 @@ private:
                 work.push_back(symbol);
             }
         };
-        for_each_inside(program_.axiom, mark);
+        for (const Axiom& axiom : program_.axioms) {
+            for_each_inside(axiom.word, mark);
+        }
         for (const Production& production : program_.productions) {
             for_each_inside(production.successor, mark);
         }
@@ -99,54 +127,48 @@ private:
         }
     }
 
-    void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
-        std::optional<std::size_t> open;
-        bool error_reported = false; // one error per word
-        bool may_nest = false;       // one warning per word, beside the error
-        std::uint32_t vertices = 0;  // of the open polygon
+    /// An open polygon of a word.
+    struct Open {
+        std::size_t begin = 0;      // index of its `{`
+        std::uint32_t vertices = 0; // `.` in it
         std::uint32_t moves = 0;
         bool may_grow = false; // some module in it is rewritten
+    };
+
+    void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
+        const bool may_nest = program_.settings.turtle != TurtleProfile::Carey;
+        std::vector<Open> open;
+        bool nesting_reported = false;        // one message per word
+        std::optional<std::size_t> first_end; // the first `}` without its `{`
+        std::size_t opened = 0;
+        std::size_t closed = 0;
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             const SymbolId id = program_.modules[i].symbol;
             const Symbol& symbol = program_.symbol(id);
             if (symbol.kind == SymbolKind::PolygonOpen) {
-                if (open && !error_reported) {
-                    error_reported = true;
-                    Diagnostic& diagnostic = add(DiagnosticCode::NestedPolygon, word, i,
-                                                 "a polygon begins within a polygon");
-                    diagnostic.labels.push_back(
-                        {module_name_span(input_, word, *open), "this one is still open"});
-                    diagnostic.help.emplace_back(
-                        "close the first with `}` before the second begins");
-                } else if (!open && may_be_inside && !error_reported && !may_nest) {
-                    may_nest = true;
-                    Diagnostic diagnostic = make_diagnostic(
-                        DiagnosticCode::NestedPolygon, module_name_span(input_, word, i),
-                        "this polygon can begin within another one: the module that becomes it "
-                        "also stands in one");
-                    diagnostic.severity = Severity::Warning; // before add() counts it
-                    diagnostics_.add(std::move(diagnostic));
+                if (!may_nest && !nesting_reported) {
+                    nesting_reported = report_nesting(word, i, open, may_be_inside);
                 }
-                open = i;
-                vertices = moves = 0;
-                may_grow = false;
+                open.push_back({i, 0, 0, false});
+                ++opened;
             } else if (symbol.kind == SymbolKind::PolygonClose) {
-                if (!open && !error_reported) {
-                    error_reported = true;
-                    Diagnostic& diagnostic =
-                        add(DiagnosticCode::UnbalancedPolygon, word, i,
-                            fmt::format("`}}` ends no polygon of this {}", where));
-                    diagnostic.help.push_back(
-                        fmt::format("`{{` and `}}` balance in every {}", where));
-                } else if (open && !error_reported && !may_nest && !may_grow) {
-                    check_size(word, *open, i, vertices, moves);
+                ++closed;
+                if (open.empty()) {
+                    first_end = first_end.value_or(i);
+                    continue;
                 }
-                open.reset();
-            } else if (open) {
-                vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
-                moves += info(symbol.turtle).has(TurtleInfo::AddsCorners) ? 1U : 0U;
-                may_grow = may_grow || !rewriters_[static_cast<std::size_t>(id)].empty();
+                const Open ended = open.back();
+                open.pop_back();
+                if (!ended.may_grow) {
+                    check_size(word, ended.begin, i, ended.vertices, ended.moves);
+                }
+            } else if (!open.empty()) {
+                Open& inner = open.back();
+                inner.vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
+                inner.moves += info(symbol.turtle).has(TurtleInfo::AddsCorners) ? 1U : 0U;
+                inner.may_grow =
+                    inner.may_grow || !rewriters_[static_cast<std::size_t>(id)].empty();
             } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
                        !std::exchange(stray_reported_, true)) {
                 Diagnostic& diagnostic =
@@ -155,11 +177,43 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        if (open && !error_reported) {
-            Diagnostic& diagnostic = add(DiagnosticCode::UnbalancedPolygon, word, *open,
-                                         fmt::format("`{{` is closed nowhere in this {}", where));
-            diagnostic.help.push_back(fmt::format("`{{` and `}}` balance in every {}", where));
+        if (opened != closed) {
+            report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
+                             opened > closed);
         }
+    }
+
+    /// Reports a `{` within a polygon, which the profile `carey` has not; returns whether it did.
+    bool report_nesting(const ProgramWord& word,
+                        std::size_t index,
+                        const std::vector<Open>& open,
+                        bool may_be_inside) {
+        if (!open.empty()) {
+            Diagnostic& diagnostic = add(DiagnosticCode::NestedPolygon, word, index,
+                                         "a polygon begins within a polygon");
+            diagnostic.labels.push_back(
+                {module_name_span(input_, word, open.back().begin), "this one is still open"});
+            diagnostic.help.emplace_back("close the first with `}` before the second begins");
+        } else if (may_be_inside) {
+            Diagnostic diagnostic = make_diagnostic(
+                DiagnosticCode::NestedPolygon, module_name_span(input_, word, index),
+                "this polygon can begin within another one: the module that becomes it also stands "
+                "in one");
+            diagnostic.severity = Severity::Warning; // before add() counts it
+            diagnostics_.add(std::move(diagnostic));
+        }
+        return !open.empty() || may_be_inside;
+    }
+
+    void
+    report_imbalance(const ProgramWord& word, const char* where, std::size_t index, bool is_open) {
+        Diagnostic diagnostic = make_diagnostic(
+            DiagnosticCode::UnbalancedPolygon, module_name_span(input_, word, index),
+            is_open ? fmt::format("`{{` is closed nowhere in this {}", where)
+                    : fmt::format("`}}` ends no polygon of this {}", where));
+        diagnostic.notes.emplace_back("polygons begin and end along the whole word, so another "
+                                      "production may hold the other bracket");
+        diagnostics_.add(std::move(diagnostic));
     }
 
     /// The vertices of a polygon without `.` are the start and end of every move (ABOP 1.25).
@@ -194,6 +248,8 @@ private:
     std::vector<bool> inside_; // by symbol: can stand in a polygon
     GroupedLists rewriters_;
     bool stray_reported_ = false;
+    /// A polygon may begin in one successor and end in another, so modules behind it may be inside.
+    bool crosses_words_ = false;
 };
 
 } // namespace

@@ -20,7 +20,8 @@ void check_probabilities(const CheckInput& input, Diagnostics& diagnostics) {
         const bool must_be_one =
             production.condition == kNoValue && program.settings.weights == WeightRule::One;
         if (!production.stochastic || production.group >= members.size() ||
-            members[production.group] != 1 || production.weight == 1.0F || must_be_one) {
+            members[production.group] != 1 || production.weight == 1.0F ||
+            production.weight_value != kNoValue || must_be_one) {
             continue;
         }
         const SymbolId symbol = production.predecessor.items.front().symbol;

@@ -1,11 +1,13 @@
 // The probabilities of a choice without conditions sum to 1 (docs/language.md section 5). With
-// conditions the sum depends on the matches, and weights are normalised at run time.
+// conditions the sum depends on the matches, and weights are normalised at run time; so are all with
+// `weights any`, whose sum has to be finite.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace lsys {
@@ -15,6 +17,8 @@ namespace {
 /// Tolerance of sums: 0.33 + 0.33 + 0.33 is accepted.
 constexpr double kTolerance = 0.011 + 1e-6;
 constexpr std::size_t kMaxLabels = 12;
+constexpr const char* kUseWeights =
+    "change the numbers, or let them be weights that are normalised: `#set weights any;`";
 
 struct Group {
     double sum = 0.0;
@@ -49,17 +53,52 @@ void report(const CheckInput& input, const Group& group, Diagnostics& diagnostic
                                     fmt::format("normalised, {}", normalised(member))});
         }
     }
-    error.help.emplace_back(
-        "change the numbers, or let them be weights that are normalised: `#set weights any;`");
+    error.help.emplace_back(kUseWeights);
+}
+
+/// Reports weights whose sum is not finite; `whose` names what they choose among.
+void report_overflow(SourceSpan span, const std::string& whose, Diagnostics& diagnostics) {
+    Diagnostic& error = diagnostics.add(
+        DiagnosticCode::BadProbability, span,
+        fmt::format("the weights of {} are too large: their sum overflows binary32", whose));
+    error.help.emplace_back("only the ratios of weights matter: make all smaller");
+}
+
+bool overflows(double sum) {
+    return sum > static_cast<double>(std::numeric_limits<float>::max());
+}
+
+/// The probabilities of several axioms.
+void check_axioms(const CheckInput& input, Diagnostics& diagnostics) {
+    const std::vector<Axiom>& axioms = input.program.axioms;
+    if (axioms.empty() || !axioms.front().has_weight) {
+        return;
+    }
+    double sum = 0.0;
+    for (const Axiom& axiom : axioms) {
+        sum += static_cast<double>(axiom.weight);
+    }
+    const SourceSpan last = axioms.back().weight_span;
+    if (input.program.settings.weights == WeightRule::Any) {
+        if (overflows(sum)) {
+            report_overflow(last, "the axioms", diagnostics);
+        }
+    } else if (std::fabs(sum - 1.0) > kTolerance) { // not if a weight is in error
+        Diagnostic& error = diagnostics.add(
+            DiagnosticCode::ProbabilitySum, last,
+            fmt::format("the probabilities of the axioms sum to {:.6g}, not to 1", sum));
+        error.help.emplace_back(kUseWeights);
+    }
 }
 
 } // namespace
 
 void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    if (program.settings.weights == WeightRule::Any || !program.has_all_statements) {
+    if (!program.has_all_statements) {
         return;
     }
+    check_axioms(input, diagnostics);
     std::vector<Group> groups(program.group_count);
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];
@@ -72,8 +111,15 @@ void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics) {
         }
     }
     for (const Group& group : groups) {
-        if (!group.members.empty() && group.has_fixed_sum &&
-            std::fabs(group.sum - 1.0) > kTolerance) {
+        if (program.settings.weights == WeightRule::Any) {
+            if (overflows(group.sum)) {
+                const Production& last = program.productions[group.members.back()];
+                report_overflow(last.weight_span,
+                                quoted(input.name(last.predecessor.items.front().symbol)),
+                                diagnostics);
+            }
+        } else if (!group.members.empty() && group.has_fixed_sum &&
+                   std::fabs(group.sum - 1.0) > kTolerance) {
             report(input, group, diagnostics);
         }
     }

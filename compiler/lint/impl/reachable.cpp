@@ -65,7 +65,9 @@ Reachable find_reachable(const Program& program) {
             }
         });
     };
-    reach(program.axiom, 0);
+    for (const Axiom& axiom : program.axioms) {
+        reach(axiom.word, 0);
+    }
     for (std::size_t head = 0; head < queue.size(); ++head) {
         const auto s = static_cast<std::size_t>(queue[head]);
         for (const std::uint32_t p : waiting[s]) {

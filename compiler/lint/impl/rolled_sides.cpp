@@ -66,7 +66,9 @@ private:
     [[nodiscard]] bool ends_branches(SymbolId symbol) {
         if (ends_branch_.empty()) {
             ends_branch_.assign(program_.symbols.size(), 1);
-            find_inner_modules(program_.axiom);
+            for (const Axiom& axiom : program_.axioms) {
+                find_inner_modules(axiom.word);
+            }
             for (const Production& production : program_.productions) {
                 find_inner_modules(production.successor);
             }

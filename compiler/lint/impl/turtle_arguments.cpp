@@ -79,7 +79,9 @@ void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics) {
     if (std::none_of(symbols.begin(), symbols.end(), is_checked)) {
         return;
     }
-    check_word(input, input.program.axiom, diagnostics);
+    for (const Axiom& axiom : input.program.axioms) {
+        check_word(input, axiom.word, diagnostics);
+    }
     for (const Production& production : input.program.productions) {
         check_word(input, production.successor, diagnostics);
     }

@@ -11,7 +11,7 @@ namespace {
 void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Constant& constant : input.program.constants) {
         // An included file may define more than a grammar needs.
-        if (constant.is_used || constant.span.file != input.program.axiom.file) {
+        if (constant.is_used || constant.span.file != input.program.axiom_span().file) {
             continue;
         }
         Diagnostic& diagnostic = diagnostics.add(

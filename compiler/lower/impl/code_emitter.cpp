@@ -122,13 +122,19 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
         instruction(value.opcode, value.index);
         return;
     case Opcode::Range:
-        // Errors of a random range are reported at its braces, others at the whole argument.
+    case Opcode::Normal:
+    case Opcode::Poisson:
+    case Opcode::Binomial:
+        // Errors of a draw are reported at its text, others at the whole argument.
         if (swapped) {
             instruction(Opcode::Swap);
         }
         begin_site(add_site(value.span));
-        instruction(Opcode::Range, value.index);
+        instruction(value.opcode, value.index);
         begin_site(site);
+        return;
+    case Opcode::Curve:
+        instruction(Opcode::Curve, value.index);
         return;
     default:
         if (value.opcode == Opcode::Steps) {

@@ -6,28 +6,33 @@ namespace lsys {
 
 ConstantTable::ConstantTable(Resolution& resolution)
     : resolution_(resolution), entry_of_(resolution.names.count(), kNone) {
-    for (const Statement& statement : resolution.ast.statements) {
+    for (std::size_t i = 0; i < resolution.ast.statements.size(); ++i) {
+        const Statement& statement = resolution.ast.statements[i];
         if (statement.kind == StatementKind::Define) {
             const DefineNode& node = resolution.ast.defines[statement.index];
-            declare(node.name, node.name_span);
+            declare(node.name, node.name_span, i);
         } else if (statement.kind == StatementKind::Param) {
             const ParamNode& node = resolution.ast.params[statement.index];
-            declare(node.name, node.name_span);
+            declare(node.name, node.name_span, i);
         }
     }
 }
 
-void ConstantTable::declare(NameId name, SourceSpan span) {
+void ConstantTable::declare(NameId name, SourceSpan span, std::size_t statement) {
     std::uint32_t& entry = entry_of_[index_of(name)];
     if (entry == kNone) {
         entry = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({span, ConstantState::Later, kNone});
+        entries_.push_back({span, ConstantState::Later, kNone, statement});
     }
 }
 
 ConstantState ConstantTable::state(NameId name) const {
     const std::uint32_t entry = entry_of_[index_of(name)];
-    return entry == kNone ? ConstantState::Unknown : entries_[entry].state;
+    if (entry == kNone) {
+        return ConstantState::Unknown;
+    }
+    return entries_[entry].statement < visible_until_ ? entries_[entry].state
+                                                      : ConstantState::Later;
 }
 
 SourceSpan ConstantTable::definition_span(NameId name) const {

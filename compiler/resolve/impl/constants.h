@@ -5,7 +5,9 @@
 
 #include "compiler/resolve/impl/resolution.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -23,7 +25,10 @@ class ConstantTable {
 public:
     explicit ConstantTable(Resolution& resolution);
 
+    /// Later for a constant of a statement behind visible_until().
     [[nodiscard]] ConstantState state(NameId name) const;
+    /// Only definitions before this statement of the Ast count from now on.
+    void visible_until(std::size_t statement) { visible_until_ = statement; }
     /// The place of the first definition of the name. Precondition: not Unknown.
     [[nodiscard]] SourceSpan definition_span(NameId name) const;
     /// Precondition: Known.
@@ -42,12 +47,14 @@ private:
         SourceSpan span;
         ConstantState state = ConstantState::Later;
         std::uint32_t constant = kNone; // in Program::constants
+        std::size_t statement = 0;      // of the definition
     };
-    void declare(NameId name, SourceSpan span);
+    void declare(NameId name, SourceSpan span, std::size_t statement);
 
     Resolution& resolution_;
     std::vector<std::uint32_t> entry_of_; // by name: in entries_, or kNone
     std::vector<Entry> entries_;
+    std::size_t visible_until_ = std::numeric_limits<std::size_t>::max();
 };
 
 } // namespace lsys

@@ -7,13 +7,14 @@
 
 namespace lsys {
 
-void report_duplicate(Resolution& resolution,
-                      SourceSpan second,
-                      SourceSpan first,
-                      const std::string& what) {
+Diagnostic& report_duplicate(Resolution& resolution,
+                             SourceSpan second,
+                             SourceSpan first,
+                             const std::string& what) {
     Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::DuplicateStatement, second,
                                                    fmt::format("a second {}", what));
     error.labels.push_back({first, "the first is here"});
+    return error;
 }
 
 std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,

@@ -13,11 +13,11 @@
 
 namespace lsys {
 
-/// Reports a second statement of a kind that may occur once.
-void report_duplicate(Resolution& resolution,
-                      SourceSpan second,
-                      SourceSpan first,
-                      const std::string& what);
+/// Reports a second statement of a kind that may occur once; returns the message.
+Diagnostic& report_duplicate(Resolution& resolution,
+                             SourceSpan second,
+                             SourceSpan first,
+                             const std::string& what);
 
 /// The exact value of a literal that is nothing but digits, if it fits; binary32 lacks 16,777,217.
 [[nodiscard]] std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,

@@ -1,5 +1,6 @@
 #include "compiler/resolve/impl/expressions.h"
 
+#include "compiler/bytecode/distributions.h"
 #include "compiler/bytecode/instructions.h"
 #include "compiler/resolve/impl/folding_faults.h"
 #include "grammar/base/contract.h"
@@ -20,18 +21,20 @@ struct FunctionRow {
 };
 
 constexpr std::array kFunctions{
-    FunctionRow{"sin", Opcode::Sin},     FunctionRow{"cos", Opcode::Cos},
-    FunctionRow{"tan", Opcode::Tan},     FunctionRow{"asin", Opcode::Asin},
-    FunctionRow{"acos", Opcode::Acos},   FunctionRow{"atan", Opcode::Atan},
-    FunctionRow{"atan2", Opcode::Atan2}, FunctionRow{"sqrt", Opcode::Sqrt},
-    FunctionRow{"exp", Opcode::Exp},     FunctionRow{"log", Opcode::Log},
-    FunctionRow{"pow", Opcode::Power},   FunctionRow{"abs", Opcode::Abs},
-    FunctionRow{"floor", Opcode::Floor}, FunctionRow{"ceil", Opcode::Ceil},
-    FunctionRow{"round", Opcode::Round}, FunctionRow{"sign", Opcode::Sign},
-    FunctionRow{"min", Opcode::Min},     FunctionRow{"max", Opcode::Max},
-    FunctionRow{"mod", Opcode::Mod},     FunctionRow{"step", Opcode::Step},
-    FunctionRow{"steps", Opcode::Steps}, FunctionRow{"mix", Opcode::Mix},
-    FunctionRow{"clamp", Opcode::Min},   FunctionRow{"if", Opcode::If},
+    FunctionRow{"sin", Opcode::Sin},           FunctionRow{"cos", Opcode::Cos},
+    FunctionRow{"tan", Opcode::Tan},           FunctionRow{"asin", Opcode::Asin},
+    FunctionRow{"acos", Opcode::Acos},         FunctionRow{"atan", Opcode::Atan},
+    FunctionRow{"atan2", Opcode::Atan2},       FunctionRow{"sqrt", Opcode::Sqrt},
+    FunctionRow{"exp", Opcode::Exp},           FunctionRow{"log", Opcode::Log},
+    FunctionRow{"pow", Opcode::Power},         FunctionRow{"abs", Opcode::Abs},
+    FunctionRow{"floor", Opcode::Floor},       FunctionRow{"ceil", Opcode::Ceil},
+    FunctionRow{"round", Opcode::Round},       FunctionRow{"sign", Opcode::Sign},
+    FunctionRow{"min", Opcode::Min},           FunctionRow{"max", Opcode::Max},
+    FunctionRow{"mod", Opcode::Mod},           FunctionRow{"step", Opcode::Step},
+    FunctionRow{"steps", Opcode::Steps},       FunctionRow{"mix", Opcode::Mix},
+    FunctionRow{"clamp", Opcode::Min},         FunctionRow{"if", Opcode::If},
+    FunctionRow{"normal", Opcode::Normal},     FunctionRow{"poisson", Opcode::Poisson},
+    FunctionRow{"binomial", Opcode::Binomial},
 };
 
 /// `clamp(x, low, high)` is min(max(x, low), high); a choice has both sides as operands.
@@ -61,19 +64,19 @@ bool in_production(ExpressionPlace place) {
            place == ExpressionPlace::Successor;
 }
 
-/// Whether `{min, max}` may be written here.
+/// Whether `{min, max}` and distributions may be written here.
 bool ranges_allowed(ExpressionPlace place) {
     return place == ExpressionPlace::Define || place == ExpressionPlace::Param ||
            place == ExpressionPlace::Axiom || place == ExpressionPlace::Local ||
            place == ExpressionPlace::Successor;
 }
 
-/// Whether constants that are drawn when the derivation starts may be used here.
-bool drawn_constants_allowed(ExpressionPlace place) {
-    return ranges_allowed(place) || place == ExpressionPlace::Condition;
-}
-
 } // namespace
+
+bool drawn_constants_allowed(ExpressionPlace place) {
+    return ranges_allowed(place) || place == ExpressionPlace::Condition ||
+           place == ExpressionPlace::Function;
+}
 
 std::vector<std::string_view> function_names() {
     std::vector<std::string_view> names;
@@ -93,6 +96,15 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
         functions_.emplace(resolution.names.intern(row.name),
                            Function{row.opcode, argument_count(row)});
     }
+    for (const Statement& statement : resolution.ast.statements) {
+        if (statement.kind == StatementKind::Function) {
+            const FunctionNode& node = resolution.ast.functions[statement.index];
+            user_functions_.try_emplace(node.name, UserFunction(node.name_span));
+        } else if (statement.kind == StatementKind::Curve) {
+            const CurveNode& node = resolution.ast.curves[statement.index];
+            user_functions_.try_emplace(node.name, UserFunction(node.name_span));
+        }
+    }
     for (const IncludeNode& include : resolution.ast.includes) {
         files_missing_ = files_missing_ || include.file == kNoFile;
     }
@@ -102,7 +114,9 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
 void ExpressionResolver::begin_statement() {
     // Children come before parents and statements follow each other, so every expression before
     // the last root has been resolved.
-    resolution_.ast.expressions.release_before(last_root_);
+    if (!keeps_expressions_) {
+        resolution_.ast.expressions.release_before(last_root_);
+    }
     for (const NameId formal : formals_) {
         formal_of_[index_of(formal)] = kNone;
     }
@@ -110,6 +124,8 @@ void ExpressionResolver::begin_statement() {
     formal_spans_.clear();
     locals_.clear();
     used_locals_.clear();
+    slot_count_ = 0;
+    expanded_count_ = 0;
     formals_incomplete_ = false;
     reported_.clear();
     drawn_once_noted_ = false;
@@ -263,20 +279,26 @@ ValueId ExpressionResolver::apply(Opcode opcode,
     if (const auto folded = constant_value(result);
         folded && !std::isfinite(*folded) && !culprit_) {
         culprit_ =
-            Culprit{expression.span(), reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
-                    std::nullopt};
+            Culprit{fault_place(opcode, y, expression),
+                    reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)), std::nullopt};
     }
     return result;
 }
 
+/// Whether weights may depend on parameters and on step().
+bool ExpressionResolver::weights_may_vary() const {
+    return resolution_.program.settings.weights == WeightRule::Any;
+}
+
 ValueId ExpressionResolver::name_value(const Expression& expression, ExpressionPlace place) {
     if (const std::uint32_t formal = formal_of_[index_of(expression.name)]; formal != kNone) {
-        if (place == ExpressionPlace::Probability) {
+        if (place == ExpressionPlace::Probability && !weights_may_vary()) {
             Diagnostic& error = resolution_.diagnostics.add(
                 DiagnosticCode::BadProbability, expression.span(),
                 fmt::format("a probability cannot depend on the parameter `{}`",
                             resolution_.text(expression.name)));
-            error.help.emplace_back("write productions with conditions for the cases");
+            error.help.emplace_back("write `#set weights any;`, or productions with conditions for "
+                                    "the cases");
             return kPoison;
         }
         return values_.leaf(Opcode::Formal, formal, expression.span());
@@ -298,7 +320,8 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
     constant.is_used = true;
     if (constant.is_random) {
         is_random_ = true;
-        if (!drawn_constants_allowed(place)) {
+        const bool is_weight = place == ExpressionPlace::Probability && weights_may_vary();
+        if (!drawn_constants_allowed(place) && !is_weight) {
             report_not_allowed(expression, place, false);
             return kPoison;
         }
@@ -316,22 +339,47 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
 ValueId ExpressionResolver::range_value(const Expression& expression, ExpressionPlace place) {
     const ValueId maximum = pop();
     const ValueId minimum = pop();
+    return may_draw(expression, place) && check_range(expression, minimum, maximum)
+               ? draw_value(Opcode::Range, minimum, maximum, expression, place)
+               : kPoison;
+}
+
+ValueId ExpressionResolver::distribution_value(const Expression& expression,
+                                               Opcode opcode,
+                                               std::span<const ValueId> arguments,
+                                               ExpressionPlace place) {
+    const ValueId second = arguments.size() > 1 ? arguments[1] : kNoValue;
+    return may_draw(expression, place) &&
+                   check_distribution_of(expression, opcode, arguments[0], second)
+               ? draw_value(opcode, arguments[0], second, expression, place)
+               : kPoison;
+}
+
+/// Whether a range or distribution may stand here; reports one that may not.
+bool ExpressionResolver::may_draw(const Expression& expression, ExpressionPlace place) {
     is_random_ = true;
     if (!ranges_allowed(place)) {
         report_not_allowed(expression, place, true);
-        return kPoison;
+        return false;
     }
-    if (!check_range(expression, minimum, maximum)) {
-        return kPoison;
-    }
+    return true;
+}
+
+/// The next draw of the statement.
+ValueId ExpressionResolver::draw_value(Opcode opcode,
+                                       ValueId first,
+                                       ValueId second,
+                                       const Expression& expression,
+                                       ExpressionPlace place) {
     if (!in_production(place) && !drawn_once_noted_) {
         drawn_once_noted_ = true;
-        Diagnostic& note =
-            resolution_.diagnostics.add(DiagnosticCode::DrawnOnce, expression.span(),
-                                        "this range is drawn once, when the derivation starts");
+        Diagnostic& note = resolution_.diagnostics.add(
+            DiagnosticCode::DrawnOnce, expression.span(),
+            fmt::format("{} is drawn once, when the derivation starts",
+                        opcode == Opcode::Range ? "this range" : "this number"));
         note.notes.emplace_back("in a successor it would be drawn each time a module is rewritten");
     }
-    return values_.range(minimum, maximum, draw_count_++, expression.span());
+    return values_.draw(opcode, first, second, draw_count_++, expression.span());
 }
 
 ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionPlace place) {
@@ -340,6 +388,9 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
                                          operands_.end());
     operands_.resize(operands_.size() - count);
 
+    if (const auto user = user_functions_.find(expression.name); user != user_functions_.end()) {
+        return user_call(expression, place, user->second, arguments);
+    }
     const auto found = functions_.find(expression.name);
     if (found == functions_.end()) {
         report_unknown_function(expression, expression.name);
@@ -358,7 +409,8 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
         return kPoison;
     }
     if (count == 0) {
-        if (!in_production(place)) {
+        const bool is_weight = place == ExpressionPlace::Probability && weights_may_vary();
+        if (!in_production(place) && !is_weight) {
             Diagnostic& error =
                 resolution_.diagnostics.add(DiagnosticCode::StepNotAllowed, expression.span(),
                                             fmt::format("`{}()` has no value here", name));
@@ -367,6 +419,9 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
             return kPoison;
         }
         return values_.leaf(function.opcode, 0, expression.span());
+    }
+    if (is_distribution(function.opcode)) {
+        return distribution_value(expression, function.opcode, arguments, place);
     }
     if (count < 3) {
         return apply(function.opcode, arguments[0], count > 1 ? arguments[1] : kNoValue,

@@ -25,11 +25,17 @@ enum class ExpressionPlace : std::uint8_t {
     Bound, // min or max of a #param
     Setting,
     Axiom,
+    AxiomProbability,
     Condition,
     Probability,
-    Local, // the value of a `let`
+    Function, // the body of a #function
+    Curve,    // a coordinate of a #curve
+    Local,    // the value of a `let`
     Successor,
 };
+
+/// Whether constants that are drawn when the derivation starts may be used here.
+[[nodiscard]] bool drawn_constants_allowed(ExpressionPlace place);
 
 class ExpressionResolver {
 public:
@@ -41,6 +47,14 @@ public:
     /// the name is a formal already.
     bool add_formal(NameId name, SourceSpan where);
     [[nodiscard]] SourceSpan formal_span(NameId name) const;
+    /// Defines the function of a #function or #curve, or reports why it cannot be used.
+    void define_function(const FunctionNode& node);
+    void define_curve(const CurveNode& node);
+    /// Slots below `count` are those of local values.
+    void reserve_slots(std::uint32_t count) { slot_count_ = count; }
+    /// Expressions of the Ast stay until keep_expressions(false).
+    void keep_expressions(bool keep) { keeps_expressions_ = keep; }
+
     /// Names a local value of the current production that add_local() will define, for messages.
     void expect_local(NameId name);
     /// Defines a local value: its name means `value`, or slot `slot` if that is no leaf.
@@ -57,7 +71,7 @@ public:
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
     /// Whether the last resolved value depends on a range.
     [[nodiscard]] bool is_random() const { return is_random_; }
-    /// Number of ranges since begin_statement().
+    /// Number of draws since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }
 
     /// The number, if the value is a literal.
@@ -78,28 +92,70 @@ private:
         Opcode opcode;
         std::uint32_t argument_count;
     };
+    /// A function of the grammar.
+    struct UserFunction {
+        explicit UserFunction(SourceSpan place) : span(place) {}
+
+        SourceSpan span; // of its name in its first definition
+        ConstantState state = ConstantState::Later;
+        bool is_curve = false;
+        std::uint32_t curve = 0; // in Program::curves
+        /// By formal, whose number is that of a leaf of Opcode::Formal: the number of its uses.
+        std::vector<std::uint32_t> uses;
+        std::vector<ValueId> nodes; // of the body but for literals, operands first
+        ValueId body = kPoison;
+        bool has_choice = false;
+    };
 
     void visit(ExpressionPlace place);
     void combine(const Expression& expression, ExpressionPlace place);
+    [[nodiscard]] bool weights_may_vary() const;
     [[nodiscard]] ValueId name_value(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId constant_of(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId range_value(const Expression& expression, ExpressionPlace place);
+    [[nodiscard]] ValueId distribution_value(const Expression& expression,
+                                             Opcode opcode,
+                                             std::span<const ValueId> arguments,
+                                             ExpressionPlace place);
+    [[nodiscard]] bool may_draw(const Expression& expression, ExpressionPlace place);
+    [[nodiscard]] ValueId draw_value(Opcode opcode,
+                                     ValueId first,
+                                     ValueId second,
+                                     const Expression& expression,
+                                     ExpressionPlace place);
     [[nodiscard]] ValueId call_value(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId
     apply(Opcode opcode, ValueId left, ValueId right, const Expression& expression);
     [[nodiscard]] ValueId choice_value(const Expression& expression,
                                        std::span<const ValueId> arguments);
     void forget_faults(SourceSpan unchosen);
+    [[nodiscard]] ValueId user_call(const Expression& expression,
+                                    ExpressionPlace place,
+                                    UserFunction& function,
+                                    std::span<const ValueId> arguments);
+    [[nodiscard]] ValueId
+    expanded(const UserFunction& function, std::span<const ValueId> arguments, SourceSpan span);
+    [[nodiscard]] bool draws(ValueId root) const;
+    [[nodiscard]] bool is_free_name(NameId name, SourceSpan span);
+    [[nodiscard]] bool read_formals(const FunctionNode& node);
+    [[nodiscard]] std::optional<std::vector<CurveKnot>> read_points(const CurveNode& node);
     [[nodiscard]] ValueId pop();
     [[nodiscard]] std::uint32_t operand_count(const Expression& expression) const;
     [[nodiscard]] ExpressionId operand(const Expression& expression, std::uint32_t index) const;
 
     // Messages.
     void report_unknown_name(const Expression& expression);
+    [[nodiscard]] SourceSpan
+    fault_place(Opcode opcode, std::optional<float> right, const Expression& expression) const;
+    [[nodiscard]] bool is_only_choice(std::string_view text, const Expression& unknown) const;
     void report_unknown_function(const Expression& expression, NameId function);
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
     void check_finite(ValueId value, ExpressionId root, ExpressionPlace place);
     [[nodiscard]] bool check_range(const Expression& expression, ValueId minimum, ValueId maximum);
+    [[nodiscard]] bool check_distribution_of(const Expression& expression,
+                                             Opcode opcode,
+                                             ValueId first,
+                                             ValueId second);
     [[nodiscard]] bool first_report_of(NameId name) { return reported_.insert(name).second; }
 
     Resolution& resolution_;
@@ -109,6 +165,11 @@ private:
     Suggestions suggestions_;
     bool files_missing_ = false;
     std::unordered_map<NameId, Function> functions_;
+    std::unordered_map<NameId, UserFunction> user_functions_;
+    std::uint32_t slot_count_ = 0;   // of the current statement
+    std::size_t expanded_count_ = 0; // values of calls in the current statement
+    bool keeps_expressions_ = false;
+    NameId defining_ = kNoName; // the function whose body is read
     NameId step_;
     NameId steps_;
 

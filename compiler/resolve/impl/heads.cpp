@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace lsys {
 
@@ -82,6 +83,7 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
     out.span = list.span;
     out.items.reserve(list.count);
     open_.clear();
+    bracket_reported_ = false;
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, list);
     for (; !cursor.done(); cursor.next()) {
         const ModuleView module = cursor.view();
@@ -115,6 +117,9 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
     const bool rewritten = part == Part::Predecessor &&
                            resolution_.program.settings.rewriting == RewritingMode::Leftmost;
     if (part != Part::Right && !rewritten) {
+        if (std::exchange(bracket_reported_, true)) {
+            return false;
+        }
         Diagnostic& error =
             resolution_.diagnostics.add(DiagnosticCode::BracketInHead, module.span,
                                         part == Part::Left ? "a left context cannot hold brackets"

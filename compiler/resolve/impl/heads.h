@@ -33,7 +33,8 @@ private:
     ConstantTable& constants_;
     const ProductionNode* node_ = nullptr;
     Production* production_ = nullptr;
-    std::vector<SourceSpan> open_; // open brackets of the right context
+    std::vector<SourceSpan> open_;  // open brackets of the right context
+    bool bracket_reported_ = false; // of the current pattern
 };
 
 } // namespace lsys

@@ -40,6 +40,7 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
         reading_.expressions.set_formals_incomplete();
         ok = false;
     }
+    reading_.expressions.reserve_slots(node.locals.count);
     for (std::uint32_t i = 0; i < node.locals.count; ++i) {
         reading_.expressions.expect_local(resolution_.ast.locals[node.locals.first + i].name);
     }
@@ -87,9 +88,7 @@ void ProductionResolver::resolve_condition(const ConditionNode& node, Production
         production.condition_span = resolution_.ast.expression(node.condition).span();
     }
     if (node.probability != kNoExpression) {
-        production.stochastic = true;
-        production.weight = weight_of(node.probability);
-        production.weight_span = resolution_.ast.expression(node.probability).span();
+        resolve_weight(node.probability, production);
     }
 }
 
@@ -138,29 +137,38 @@ bool ProductionResolver::is_new_local(const LocalNode& node, const Production& p
     return true;
 }
 
-/// The probability, or NaN after an error.
-float ProductionResolver::weight_of(ExpressionId probability) {
-    constexpr float kInError = std::numeric_limits<float>::quiet_NaN();
+/// Sets what stands behind `~`: a number, or with `weights any` an expression.
+void ProductionResolver::resolve_weight(ExpressionId probability, Production& production) {
+    production.stochastic = true;
+    production.weight = std::numeric_limits<float>::quiet_NaN();
+    production.weight_span = resolution_.ast.expression(probability).span();
     const ValueId value = reading_.expressions.resolve(probability, ExpressionPlace::Probability);
     const std::optional<float> weight = reading_.expressions.constant_value(value);
     if (!weight) {
-        return kInError;
+        production.weight_value = value;
+        return;
     }
-    const bool any = resolution_.program.settings.weights == WeightRule::Any;
-    if (std::isfinite(*weight) && *weight > 0.0F && (*weight <= 1.0F || any)) {
-        return *weight;
+    if (value == kPoison) {
+        return;
     }
-    Diagnostic& error = resolution_.diagnostics.add(
-        DiagnosticCode::BadProbability, resolution_.ast.expression(probability).span(),
-        fmt::format("{} is not a probability", *weight));
-    if (*weight > 1.0F && std::isfinite(*weight)) {
+    production.weight = checked_weight(resolution_, *weight, production.weight_span);
+}
+
+float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
+    const bool any = resolution.program.settings.weights == WeightRule::Any;
+    if (std::isfinite(weight) && weight > 0.0F && (weight <= 1.0F || any)) {
+        return weight;
+    }
+    Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::BadProbability, span,
+                                                   fmt::format("{} is not a probability", weight));
+    if (weight > 1.0F && std::isfinite(weight)) {
         error.help.emplace_back("probabilities lie above 0 and go up to 1; for weights that are "
                                 "normalised, write `#set weights any;`");
     } else {
         error.help.emplace_back(any ? "weights lie above 0"
                                     : "probabilities lie above 0 and go up to 1");
     }
-    return kInError;
+    return std::numeric_limits<float>::quiet_NaN();
 }
 
 void ProductionResolver::check_draws(const ProgramWord& successor) {

@@ -11,6 +11,9 @@
 
 namespace lsys {
 
+/// A probability or weight that is a constant; NaN after it was reported as none.
+[[nodiscard]] float checked_weight(Resolution& resolution, float weight, SourceSpan span);
+
 class ProductionResolver {
 public:
     ProductionResolver(ModuleReading& reading, ConstantTable& constants);
@@ -24,7 +27,7 @@ private:
     void resolve_condition(const ConditionNode& node, Production& production);
     void resolve_locals(ListRange locals, Production& production);
     [[nodiscard]] bool is_new_local(const LocalNode& node, const Production& production);
-    [[nodiscard]] float weight_of(ExpressionId probability);
+    void resolve_weight(ExpressionId probability, Production& production);
     void check_draws(const ProgramWord& successor);
 
     ModuleReading& reading_;

@@ -1,6 +1,7 @@
 #include "compiler/resolve/impl/set_statements.h"
 
 #include "compiler/resolve/impl/definitions.h"
+#include "grammar/base/synonyms.h"
 
 #include <fmt/format.h>
 
@@ -95,6 +96,14 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     const std::vector<std::string_view> keys(kKeys.begin(), kKeys.end());
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
                                                     fmt::format("there is no setting `{}`", key));
+    if (const Synonym* const synonym = find_synonym(SynonymKind::Setting, key)) {
+        error.help.push_back(help_for(*synonym, key));
+        if (!synonym->spelling.empty()) {
+            add_fix(error, fmt::format("write `{}`", synonym->spelling), node.key_span,
+                    std::string(synonym->spelling), false);
+        }
+        return;
+    }
     const std::string nearest = suggestions_.nearest(key, keys);
     if (!nearest.empty()) {
         suggest(error, node.key_span, nearest);

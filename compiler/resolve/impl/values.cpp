@@ -83,12 +83,13 @@ ValueId ValueBuilder::leaf(Opcode opcode, std::uint32_t index, SourceSpan span) 
     return add(node);
 }
 
-ValueId ValueBuilder::range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span) {
-    if (minimum == kPoison || maximum == kPoison) {
+ValueId ValueBuilder::draw(
+    Opcode opcode, ValueId first, ValueId second, std::uint32_t number, SourceSpan span) {
+    if (first == kPoison || second == kPoison) {
         return kPoison;
     }
-    Value node = node_of(Opcode::Range, span, minimum, maximum);
-    node.index = draw;
+    Value node = node_of(opcode, span, first, second);
+    node.index = number;
     return add(node);
 }
 
@@ -127,6 +128,37 @@ ValueId ValueBuilder::choice(ValueId condition, ValueId yes, ValueId no, SourceS
     }
     Value node = node_of(Opcode::If, span, yes, no);
     node.third = condition;
+    return add(node);
+}
+
+ValueId ValueBuilder::curve(std::uint32_t index,
+                            std::span<const CurveKnot> points,
+                            ValueId x,
+                            SourceSpan span) {
+    if (x == kPoison) {
+        return kPoison;
+    }
+    if (is_literal(x)) {
+        return literal(curve_value(points, (*this)[x].literal), span);
+    }
+    Value node;
+    node.opcode = Opcode::Curve;
+    node.span = span;
+    node.index = index;
+    node.left = x;
+    return add(node);
+}
+
+ValueId ValueBuilder::with_local(std::uint32_t slot, ValueId value, ValueId body, SourceSpan span) {
+    if (value == kPoison || body == kPoison) {
+        return kPoison;
+    }
+    Value node;
+    node.opcode = Opcode::SetLocal;
+    node.span = span;
+    node.index = slot;
+    node.left = value;
+    node.right = body;
     return add(node);
 }
 

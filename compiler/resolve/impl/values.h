@@ -6,6 +6,7 @@
 #include "grammar/base/chunked_vector.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lsys {
@@ -18,18 +19,26 @@ public:
     [[nodiscard]] ValueId literal(float value, SourceSpan span);
     /// A value without operands: Formal, Global, Local, Step, Steps.
     [[nodiscard]] ValueId leaf(Opcode opcode, std::uint32_t index, SourceSpan span);
-    /// A random range, which is never folded since it draws.
+    /// A range or distribution, which is never folded since it draws. `second` is kNoValue where
+    /// it takes one argument.
     [[nodiscard]] ValueId
-    range(ValueId minimum, ValueId maximum, std::uint32_t draw, SourceSpan span);
+    draw(Opcode opcode, ValueId first, ValueId second, std::uint32_t number, SourceSpan span);
     /// An operation on one or two values: a literal if all operands are, kPoison if one is.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
     /// arithmetic::mix().
     [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);
     /// `yes` where the condition is not 0, else `no`; one of these if the condition is a literal.
     [[nodiscard]] ValueId choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span);
+    /// The value of curve `index` with these points at `x`.
+    [[nodiscard]] ValueId
+    curve(std::uint32_t index, std::span<const CurveKnot> points, ValueId x, SourceSpan span);
+    /// `body` with slot `slot` set to `value` before it.
+    [[nodiscard]] ValueId
+    with_local(std::uint32_t slot, ValueId value, ValueId body, SourceSpan span);
     /// A value without operands at another place.
     [[nodiscard]] ValueId leaf_at(ValueId leaf, SourceSpan span);
 
+    [[nodiscard]] std::size_t size() const { return values_.size(); }
     [[nodiscard]] const Value& operator[](ValueId id) const {
         return values_[static_cast<std::size_t>(id)];
     }

@@ -25,7 +25,7 @@ void write_settings(const CareyFile& file, const ParseContext& context, Translat
         }
         const std::string_view value = context.sources.text(setting.value);
         if (!is_number(value, "-")) {
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax, setting.value,
+            context.diagnostics.add(DiagnosticCode::ForeignValue, setting.value,
                                     "`" + shown(value) + "` is no number");
             continue;
         }
@@ -124,7 +124,7 @@ void write_rules(const CareyFile& file,
     for (std::size_t i = 0; i < file.rules.size(); ++i) {
         const CareyRule& rule = file.rules[i];
         if (rule.ratio && !is_number(context.sources.text(*rule.ratio), "-")) {
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax, *rule.ratio,
+            context.diagnostics.add(DiagnosticCode::ForeignValue, *rule.ratio,
                                     "`" + shown(context.sources.text(*rule.ratio)) +
                                         "` is no ratio");
         }

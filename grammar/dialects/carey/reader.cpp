@@ -2,11 +2,13 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/impl/line_reader.h"
+#include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -46,8 +48,13 @@ void report_no_equals(const LinePiece& name,
         return;
     }
     Diagnostic& error =
-        diagnostics.add(DiagnosticCode::ForeignSyntax, name.span,
+        diagnostics.add(DiagnosticCode::ForeignKey, name.span,
                         "`" + shown(name.text) + "` is no setting, and a rule has a `=`");
+    std::vector<std::string_view> keys;
+    for (const CareyKey& key : kKeys) {
+        keys.push_back(key.name);
+    }
+    suggest_key(error, name.span, name.text, keys);
     std::string names;
     for (const CareyKey& key : kKeys) {
         names += (names.empty() ? "`" : ", `") + std::string(key.name) + "`";

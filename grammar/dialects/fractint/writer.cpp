@@ -4,6 +4,7 @@
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
+#include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <array>
@@ -76,6 +77,9 @@ void FractintWriter::write(std::string_view turtle) {
         }
         known = &line;
     }
+    if ((axiom == nullptr || angle == nullptr) && has_unknown_key_) {
+        return; // which may be meant as the one that is missing
+    }
     if (axiom == nullptr || axiom->texts.empty()) {
         report_syntax(axiom == nullptr ? name_ : axiom->key, "the system has no axiom");
         return;
@@ -107,7 +111,8 @@ void FractintWriter::write_angle(const FractintLine& line) {
     std::uint32_t parts = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts);
     if (line.texts.size() <= first || error != std::errc() || parts == 0) {
-        report_syntax(place, "expected the number of parts of a full turn, as in `Angle 8`");
+        context_.diagnostics.add(DiagnosticCode::ForeignValue, place,
+                                 "expected the number of parts of a full turn, as in `Angle 8`");
         return;
     }
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
@@ -127,9 +132,16 @@ void FractintWriter::write_angle(const FractintLine& line) {
 bool FractintWriter::check_key(const FractintLine& line) {
     const std::string_view key = context_.sources.text(line.key);
     if (key.size() != 1) {
-        report_syntax(line.key, "`" + shown(key) +
-                                    "` is neither `Angle` nor `Axiom` nor one symbol that a rule "
-                                    "replaces");
+        has_unknown_key_ = true;
+        if (report_foreign_look_alike(line.key, context_)) {
+            return false;
+        }
+        constexpr std::string_view kKeys[] = {"angle", "axiom"};
+        Diagnostic& diagnostic = context_.diagnostics.add(
+            DiagnosticCode::ForeignKey, line.key,
+            "`" + shown(key) +
+                "` is neither `Angle` nor `Axiom` nor one symbol that a rule replaces");
+        suggest_key(diagnostic, line.key, key, kKeys);
         return false;
     }
     const char symbol = folded(key[0]);

@@ -2,6 +2,7 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
+#include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <cstdint>
@@ -99,8 +100,11 @@ bool write_plain_arguments(SourceSpan arguments,
             const auto begin =
                 static_cast<std::uint32_t>(arguments.begin + 1 + (number.data() - inner.data()));
             const auto length = static_cast<std::uint32_t>(number.size());
-            context.diagnostics.add(DiagnosticCode::ForeignSyntax,
-                                    {arguments.file, begin, begin + length},
+            const SourceSpan place{arguments.file, begin, begin + length};
+            if (report_foreign_look_alike(place, context)) {
+                return false;
+            }
+            context.diagnostics.add(DiagnosticCode::ForeignValue, place,
                                     number.empty() ? std::string("a number is missing")
                                                    : "`" + shown(number) + "` is no number");
             return false;

@@ -59,7 +59,7 @@ bool LineReader::expect(bool fits,
     if (fits) {
         return true;
     }
-    SyntaxMessage message(context_, found.span);
+    SyntaxMessage message(context_, found.span, words_);
     for (const std::string_view piece : wanted) {
         message.add_expected(piece);
     }

@@ -30,6 +30,8 @@ struct LineFormat {
     bool comment_nul = false; // a comment goes on after a NUL character
 };
 
+struct DialectWords;
+
 class LineReader {
 public:
     /// Bytes of the piece at the start of a text, which is not empty and begins with no blank; 0:
@@ -38,6 +40,8 @@ public:
 
     /// Precondition: the sources of `context` hold `text` as long as the reader is in use.
     LineReader(SourceSpan text, const LineFormat& format, const ParseContext& context);
+    /// Sets the words that messages compare with; null: none.
+    void set_words(const DialectWords* words) { words_ = words; }
 
     /// Skips blanks and comments; returns the next piece.
     LinePiece next(PieceLength length);
@@ -60,6 +64,7 @@ private:
     std::string_view text_;
     LineFormat format_;
     const ParseContext& context_;
+    const DialectWords* words_ = nullptr;
     std::size_t at_ = 0;
     bool ended_ = false; // the last LineEnd has been taken
 };

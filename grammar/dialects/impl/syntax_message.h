@@ -1,29 +1,53 @@
-// The message of a syntax error of a dialect: tokens that were expected, and the one found.
+// The messages of a syntax error of a dialect: the tokens that were expected, and the one found; or
+// the mistake behind it: a character that looks like another, a misspelt keyword, another arrow.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace lsys {
 
+/// Words of a dialect, for messages about its lines.
+struct DialectWords {
+    std::string_view name;                  // of the dialect: "cpfg"
+    std::span<const std::string_view> keys; // in lower case, before a `:` or alone
+    std::string_view arrow;                 // between the sides of a rule
+};
+
 class SyntaxMessage {
 public:
-    SyntaxMessage(const ParseContext& context, SourceSpan place)
-        : context_(context), place_(place) {}
+    /// `words` may be null.
+    SyntaxMessage(const ParseContext& context, SourceSpan place, const DialectWords* words)
+        : context_(context), place_(place), words_(words) {}
 
     /// Adds an expected token, in words.
     void add_expected(std::string_view token);
-    /// `saw`: the token found, in words.
-    void report(std::string_view saw);
+    /// `found`: the token found, in words.
+    void report(std::string_view found);
 
 private:
+    [[nodiscard]] bool report_look_alike();
+    [[nodiscard]] bool report_key();
+    [[nodiscard]] bool report_arrow();
+
     const ParseContext& context_;
     SourceSpan place_;
+    const DialectWords* words_;
     std::string expected_;
     std::string last_;
     int count_ = 0;
 };
+
+/// Reports the character at the begin of `place` if it looks like an ASCII character, with the
+/// repair.
+bool report_foreign_look_alike(SourceSpan place, const ParseContext& context);
+/// Adds "did you mean `name`?" with the repair, if a name is near.
+void suggest_key(Diagnostic& diagnostic,
+                 SourceSpan place,
+                 std::string_view written,
+                 std::span<const std::string_view> names);
 
 } // namespace lsys

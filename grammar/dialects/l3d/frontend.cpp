@@ -36,7 +36,7 @@ std::uint32_t
 write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
     const float generations = value_of(file.numbers[0], context);
     if (!(generations >= 0.0F && generations < kMaxGenerations)) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, file.numbers[0],
+        context.diagnostics.add(DiagnosticCode::ForeignValue, file.numbers[0],
                                 "`" + shown(context.sources.text(file.numbers[0])) +
                                     "` is no number of generations");
         return 0;

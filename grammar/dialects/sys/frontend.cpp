@@ -190,10 +190,10 @@ void check_count(const SysFile& file, const ParseContext& context) {
     std::uint32_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc() || end != text.data() + text.size()) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, *file.count,
-                                "expected the number of rules, saw `" + shown(text) + "`");
+        context.diagnostics.add(DiagnosticCode::ForeignValue, *file.count,
+                                "expected the number of rules, found `" + shown(text) + "`");
     } else if (count != file.rules.size() && !context.diagnostics.has_errors()) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, *file.count,
+        context.diagnostics.add(DiagnosticCode::ForeignValue, *file.count,
                                 "the file says that it has " + std::string(text) +
                                     " rules, and has " + std::to_string(file.rules.size()));
     }
@@ -228,7 +228,7 @@ void write_rule(const SysRule& rule,
     translation.put(" : ", rule.symbol);
     const std::string_view probability = context.sources.text(rule.probability);
     if (literal_length(probability) != probability.size()) {
-        context.diagnostics.add(DiagnosticCode::ForeignSyntax, rule.probability,
+        context.diagnostics.add(DiagnosticCode::ForeignValue, rule.probability,
                                 "`" + shown(probability) + "` is no probability");
     }
     if (certain) {

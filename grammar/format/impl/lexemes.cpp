@@ -84,11 +84,14 @@ void LexemeReader::keyword() {
     depth_ = 0;
     part_ = 0;
     has_locals_ = false;
+    has_chance_ = false;
+    in_formals_ = false;
     after_value_ = false;
     const char next = next_character();
     if (name == "w" || name == "ignore" || name == "consider") {
         shape_ = List;
-        area_ = Area::Modules;
+        has_chance_ = next == '~';
+        area_ = has_chance_ ? Area::Expression : Area::Modules;
     } else if (next == ':' || name == "decompose" || name == "interpret") {
         shape_ = Production;
         area_ = Area::Modules;
@@ -99,9 +102,13 @@ void LexemeReader::keyword() {
     } else if (name == "object" || name == "include") {
         shape_ = name == "include" && next == '"' ? Other : Declaration;
         area_ = Area::Object;
-    } else if (name == "set") {
+    } else if (name == "set" || name == "curve") {
         shape_ = Setting;
         area_ = Area::Set;
+    } else if (name == "function") {
+        shape_ = Other;
+        area_ = Area::Name;
+        in_formals_ = true;
     } else if (name == "define" || name == "param") {
         shape_ = Definition;
         area_ = Area::Name;
@@ -127,8 +134,14 @@ char LexemeReader::next_character() const {
     return '\0';
 }
 
-/// Enters the next part of a production, `#name :` head `:` condition `:` successor.
+/// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an axiom,
+/// `#w ~` probability `:` modules.
 void LexemeReader::next_part() {
+    if (has_chance_) { // behind it the axiom begins
+        has_chance_ = false;
+        area_ = Area::Modules;
+        after_value_ = false;
+    }
     if (part_ == 0) {
         return;
     }
@@ -186,7 +199,7 @@ void LexemeReader::module() {
 void LexemeReader::value(LexemeKind kind, std::size_t length) {
     take(kind, length);
     // Values of `#set` are adjacent, and an expression follows the name of a constant.
-    after_value_ = !((area_ == Area::Set && depth_ == 0) || area_ == Area::Name);
+    after_value_ = !(area_ == Area::Set && depth_ == 0) && (area_ != Area::Name || in_formals_);
     if (area_ == Area::Name) {
         area_ = Area::Expression;
     }
@@ -211,7 +224,9 @@ void LexemeReader::expression() {
         const bool module = depth_ == 1 && (area_ == Area::Modules || area_ == Area::Object);
         take(module ? LexemeKind::Close : LexemeKind::Right, 1);
         depth_ -= depth_ > 0 ? 1U : 0U;
-        after_value_ = !(area_ == Area::Set && depth_ == 0);
+        const bool ends_formals = in_formals_ && depth_ == 0;
+        in_formals_ = in_formals_ && !ends_formals;
+        after_value_ = !(area_ == Area::Set && depth_ == 0) && !ends_formals;
     } else if (c == ',') {
         take(LexemeKind::Comma, 1);
         after_value_ = false;

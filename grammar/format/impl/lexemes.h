@@ -97,6 +97,8 @@ private:
     StatementShape shape_ = StatementShape::Other;
     std::uint32_t part_ = 0; // 1 head, 3 condition and local values, 4 successor
     bool has_locals_ = false;
+    bool has_chance_ = false; // in the probability of an axiom
+    bool in_formals_ = false; // of #function, its name included
     std::uint32_t depth_ = 0;
     bool after_value_ = false;
     LexemeKind previous_ = LexemeKind::Semicolon;

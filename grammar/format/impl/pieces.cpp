@@ -174,13 +174,17 @@ BreakClass PieceReader::break_class() const {
     }
     switch (current_.kind) {
     case Operator:
-        return previous_.kind == Keyword ? BreakClass::Never : BreakClass::Fine;
+        return previous_.kind == Keyword || current_.text == "=" ? BreakClass::Never
+                                                                 : BreakClass::Fine;
     case Context:
     case Module:
         return BreakClass::Fine;
     default:
-        return previous_.kind == Colon && current_.kind != Semicolon ? BreakClass::Fine
-                                                                     : BreakClass::Never;
+        // Behind a `:`, and behind the `,` between local values.
+        return (previous_.kind == Colon || (previous_.kind == Comma && parentheses_ == 0)) &&
+                       current_.kind != Semicolon
+                   ? BreakClass::Fine
+                   : BreakClass::Never;
     }
 }
 

@@ -3,10 +3,14 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
+#include "grammar/base/contract.h"
+#include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -131,6 +135,155 @@ bool lacks_comma(std::string_view text,
               !is_word_character(before[before.size() - value.size() - 1])));
 }
 
+/// Whether `text` compares something outside of parentheses.
+bool compares(std::string_view text) {
+    int depth = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (depth == 0 && (c == '>' || c == '<' || c == '=')) {
+            return true;
+        }
+    }
+    return text.find_first_not_of(" \t\r\n*") == std::string_view::npos && !text.empty();
+}
+
+/// Reports a production whose successor stands before its condition.
+bool report_exchanged_parts(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    if (scan.part != Part::Condition || !scan.open.empty() ||
+        scan.bracket_searches++ >= kMaxBracketSearches) {
+        return false;
+    }
+    const std::size_t colon = text.find_first_of(":;#", scan.begin);
+    if (colon == std::string_view::npos || text[colon] != ':') {
+        return false;
+    }
+    const std::size_t end = text.find_first_of(":;#~", colon + 1);
+    if (end == std::string_view::npos || text[end] == ':' || text[end] == '#') {
+        return false;
+    }
+    const std::size_t stop = std::min(text.find(';', end), text.size());
+    const std::string_view first = text.substr(scan.part_begin, colon - scan.part_begin);
+    const std::string_view second = text.substr(colon + 1, end - colon - 1);
+    if (!compares(second) || compares(first)) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const auto trimmed = [&](std::size_t from, std::size_t to) {
+            const std::size_t begin = text.find_first_not_of(" \t\r\n", from);
+            const std::size_t last = text.find_last_not_of(" \t\r\n", to - 1);
+            return session.scanned.span(static_cast<std::uint32_t>(begin),
+                                        static_cast<std::uint32_t>(last) + 1);
+        };
+        const SourceSpan successor = trimmed(scan.part_begin, colon);
+        const SourceSpan condition = trimmed(colon + 1, stop);
+        Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, successor,
+                                                "the successor stands before the condition");
+        diagnostic.labels.push_back({condition, "this is the condition"});
+        if (successor.begin < successor.end && condition.begin < condition.end) {
+            diagnostic.fixes.push_back(
+                {"exchange them",
+                 {{successor, std::string(session.context.sources.text(condition))},
+                  {condition, std::string(session.context.sources.text(successor))}},
+                 false});
+        }
+    }
+    return true;
+}
+
+/// Reports a name whose `(` is lost: values follow it, and a `)` closes nothing.
+bool report_lost_open(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (!scan.name_before || scan.bracket_searches++ >= kMaxBracketSearches) {
+        return false;
+    }
+    std::uint32_t at = scan.begin;
+    for (std::size_t level = 0; level <= scan.open.size(); ++level) {
+        const std::optional<std::uint32_t> close = unmatched_parenthesis(session.scanned.text, at);
+        if (!close) {
+            return false;
+        }
+        at = *close + 1;
+    }
+    if (session.wants(DiagnosticCode::ExtraParenthesis)) {
+        const SourceSpan place = session.insertion_place();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::ExtraParenthesis, session.scanned.span(at - 1, at),
+                           "`)` closes no `(`");
+        diagnostic.labels.push_back({place, "a `(` may be missing here"});
+        add_fix(diagnostic, "add `(`", place, "(", false);
+    }
+    return true;
+}
+
+/// Reports the arguments of a module that lack their `)`: the current value belongs to the next
+/// module.
+bool report_lost_close(ParseSession& session) {
+    ScanState& scan = session.scan;
+    if (scan.open.empty() || scan.open.front().kind != OpenBracket::Kind::Module ||
+        scan.open_braces != 0 || scan.bracket_searches++ >= kMaxBracketSearches) {
+        return false;
+    }
+    const std::size_t end = session.scanned.text.find(';', scan.begin);
+    if (end == std::string_view::npos || end - scan.begin > kMaxBracketSearch) {
+        return false;
+    }
+    std::uint32_t at = scan.begin;
+    for (std::size_t level = 0; level < scan.open.size(); ++level) {
+        const std::optional<std::uint32_t> close = unmatched_parenthesis(session.scanned.text, at);
+        if (!close) {
+            break;
+        }
+        if (level + 1 == scan.open.size()) {
+            return false;
+        }
+        at = *close + 1;
+    }
+    if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
+        const std::uint32_t open = scan.open.back().begin;
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::UnclosedParenthesis,
+                           session.scanned.span(open, open + 1), "`(` is never closed");
+        diagnostic.labels.push_back({session.match(), "this begins another value"});
+        add_fix(diagnostic, "add `)`", session.insertion_place(), ")", false);
+    }
+    return true;
+}
+
+/// Reports `#define f(x) ...`, which other languages have.
+bool report_macro(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    if (scan.keyword != Keyword::Define || !scan.open.empty() || text[scan.last_end - 1] != ')') {
+        return false;
+    }
+    const std::string_view written =
+        text.substr(scan.statement_begin, scan.last_end - scan.statement_begin);
+    const std::size_t open = written.find('(');
+    const std::size_t close = written.find(')');
+    if (open == 0 || open == std::string_view::npos || close + 1 != written.size() ||
+        !is_word_character(written[open - 1])) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic = session.report(
+            DiagnosticCode::SyntaxError,
+            session.scanned.span(scan.statement_begin + static_cast<std::uint32_t>(open),
+                                 scan.last_end),
+            "a constant has no parameters");
+        diagnostic.help.emplace_back("`#define NAME expr;` names a value that is the same "
+                                     "everywhere");
+        if (find_keyword("function") != Keyword::Label) {
+            add_fix(diagnostic, "functions are `#function`",
+                    session.scanned.span(scan.statement_begin, scan.statement_begin + 7),
+                    "#function", false);
+        }
+    }
+    return true;
+}
+
 bool is_number_end(char c) {
     return is_digit(c) || c == '.';
 }
@@ -151,6 +304,10 @@ bool begins_next_local(const ParseSession& session) {
 Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool had_name = scan.name_before;
+    if (report_macro(session) || report_exchanged_parts(session) || report_lost_open(session) ||
+        report_lost_close(session)) {
+        return discard_statement(session);
+    }
     scan.after_operator();
     const SourceSpan place = session.insertion_place();
     const std::string_view text = session.scanned.text;
@@ -195,11 +352,11 @@ Token between_values(ParseSession& session) {
             }
             const std::string_view word = text.substr(scan.begin, end - scan.begin);
             diagnostic.labels.push_back({session.match(), "this begins another value"});
-            diagnostic.help.emplace_back(word == "and"  ? "`and` is written `&&`"
-                                         : word == "or" ? "`or` is written `||`"
-                                         : joins_conditions
-                                             ? "two conditions are joined with `&&` or `||`"
-                                             : "a product is written with `*`");
+            const Synonym* const synonym = find_synonym(SynonymKind::Operator, word);
+            diagnostic.help.push_back(synonym != nullptr ? help_for(*synonym, word)
+                                      : joins_conditions
+                                          ? "two conditions are joined with `&&` or `||`"
+                                          : "a product is written with `*`");
         }
     }
     return (joins_conditions ? Token(Parser::token::TOK_AND, place)
@@ -266,6 +423,9 @@ std::optional<Token> closing_bracket(ParseSession& session, char character) {
     if (is_brace == (scan.open.back().kind == OpenBracket::Kind::Brace)) {
         const SourceSpan span = session.token();
         const OpenBracket::Kind kind = scan.pop();
+        if (scan.part == Part::FunctionHead && scan.open.empty()) {
+            scan.enter(Part::Value);
+        }
         return is_brace                            ? Token(Parser::token::TOK_RBRACE, span)
                : kind == OpenBracket::Kind::Module ? Token(Parser::token::TOK_CLOSE, span)
                                                    : Token(Parser::token::TOK_RPAREN, span);
@@ -330,10 +490,11 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
         return;
     }
     const std::string_view text = session.match_text();
+    const Synonym* const synonym = find_synonym(SynonymKind::Operator, text);
+    LSYS_DCHECK(synonym != nullptr && synonym->spelling == right);
     Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                             "there is no operator `" + std::string(text) + "`");
-    add_fix(diagnostic, "write `" + std::string(right) + "`", diagnostic.span, std::string(right),
-            true);
+    add_fix(diagnostic, help_for(*synonym, text), diagnostic.span, std::string(right), true);
 }
 
 bool is_word_for_operator(ParseSession& session, std::string_view word) {
@@ -347,13 +508,37 @@ bool is_word_for_operator(ParseSession& session, std::string_view word) {
         return false;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
-        const std::string right = word == "and" ? "&&" : "||";
+        const Synonym& synonym = *find_synonym(SynonymKind::Operator, word);
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                                 "there is no operator `" + std::string(word) + "`");
         // Between arguments the word may be a name without its commas.
         const bool in_list =
             !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
-        add_fix(diagnostic, "write `" + right + "`", diagnostic.span, right, !in_list);
+        add_fix(diagnostic, help_for(synonym, word), diagnostic.span, std::string(synonym.spelling),
+                !in_list);
+    }
+    return true;
+}
+
+bool is_word_for_not(ParseSession& session, std::string_view word) {
+    const ScanState& scan = session.scan;
+    if (scan.value_before || word != "not") {
+        return false;
+    }
+    const std::string_view text = session.scanned.text;
+    const char next = next_character(text, scan.end);
+    if (!is_word_character(next) && next != '(' && next != '!') {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, "there is no operator `not`");
+        const std::size_t end = text.find_first_not_of(" \t", scan.end);
+        // `not x > 1` means `!(x > 1)`, while `!x > 1` is `(!x) > 1`.
+        add_fix(diagnostic,
+                help_for(*find_synonym(SynonymKind::Operator, word), word) +
+                    ", which goes before comparisons: `!(x > 1)`",
+                session.scanned.span(scan.begin, static_cast<std::uint32_t>(end)), "!", false);
     }
     return true;
 }
@@ -362,7 +547,7 @@ void report_remainder_operator(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, "there is no operator `%`");
-        diagnostic.help.emplace_back("the remainder of a division is `mod(a, b)`");
+        diagnostic.help.push_back(help_for(*find_synonym(SynonymKind::Operator, "%"), "%"));
     }
 }
 
@@ -373,6 +558,43 @@ void report_assignment(ParseSession& session) {
                            "`=` compares nothing: it only stands in `#n = ...;`");
         add_fix(diagnostic, "compare with `==`", diagnostic.span, "==", true);
     }
+}
+
+namespace {
+
+/// Where the identifier directly before the current character begins, if it begins an argument.
+std::optional<std::uint32_t> argument_name(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::size_t last = text.find_last_not_of(" \t", scan.begin - 1);
+    if (!scan.name_before || scan.open.empty() || last == std::string_view::npos ||
+        (scan.open.back().kind != OpenBracket::Kind::Module &&
+         scan.open.back().kind != OpenBracket::Kind::Call)) {
+        return std::nullopt;
+    }
+    auto first = static_cast<std::uint32_t>(last);
+    while (first > 0 && is_word_character(text[first - 1])) {
+        --first;
+    }
+    const char before = first == 0 ? '\0' : character_before(text, first);
+    return before == '(' || before == ',' ? std::optional(first) : std::nullopt;
+}
+
+} // namespace
+
+bool is_named_argument(const ParseSession& session) {
+    return argument_name(session).has_value();
+}
+
+void report_named_argument(ParseSession& session) {
+    if (!session.wants(DiagnosticCode::AssignmentInExpression)) {
+        return;
+    }
+    const SourceSpan name = session.scanned.span(*argument_name(session), session.scan.end);
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::AssignmentInExpression, name,
+                       "arguments have no names: they are told apart by their order");
+    add_fix(diagnostic, "leave the name out", name, "", false);
 }
 
 void report_stray_hash(ParseSession& session) {

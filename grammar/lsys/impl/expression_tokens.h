@@ -34,10 +34,15 @@ Token nesting_operator(ParseSession& session, Token::Kind token);
 /// Whether the current name is `and` or `or` between two values, in place of an operator; reports
 /// it.
 bool is_word_for_operator(ParseSession& session, std::string_view word);
+/// Whether the current name is a `not` before a value, in place of `!`; reports it.
+bool is_word_for_not(ParseSession& session, std::string_view word);
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);
 void report_remainder_operator(ParseSession& session);
 void report_assignment(ParseSession& session);
+/// Whether the current `=` gives an argument a name, `F(length=2)`.
+[[nodiscard]] bool is_named_argument(const ParseSession& session);
+void report_named_argument(ParseSession& session);
 /// Reports a `#` within an expression or setting.
 void report_stray_hash(ParseSession& session);
 

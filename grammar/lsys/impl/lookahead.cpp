@@ -2,6 +2,7 @@
 
 #include "grammar/base/characters.h"
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/synonyms.h"
 
 #include <algorithm>
 #include <array>
@@ -12,31 +13,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kSpellings{
-    "",    "n",      "define",   "param",     "module",    "object", "include",
-    "set", "ignore", "consider", "decompose", "interpret", "w"};
-
-/// A name of a keyword in other programs, or a common typing mistake.
-struct Synonym {
-    std::string_view word;
-    Keyword keyword;
-};
-constexpr std::array<Synonym, 14> kSynonyms{{
-    {"axiom", Keyword::Axiom},
-    {"omega", Keyword::Axiom},
-    {"start", Keyword::Axiom},
-    {"W", Keyword::Axiom},
-    {"iterations", Keyword::Generations},
-    {"generations", Keyword::Generations},
-    {"depth", Keyword::Generations},
-    {"N", Keyword::Generations},
-    {"const", Keyword::Define},
-    {"let", Keyword::Define},
-    {"import", Keyword::Include},
-    {"interpretation", Keyword::Interpret},
-    {"homomorphism", Keyword::Interpret},
-    {"decomposition", Keyword::Decompose},
-}};
+constexpr std::array<std::string_view, 15> kSpellings{
+    "",        "n",   "define", "param",    "function",  "curve",     "module", "object",
+    "include", "set", "ignore", "consider", "decompose", "interpret", "w"};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
 constexpr std::array<std::string_view, 25> kSettings{
@@ -152,18 +131,24 @@ bool is_setting(std::string_view word) {
     return std::find(kSettings.begin(), kSettings.end(), word) != kSettings.end();
 }
 
-bool is_synonym(std::string_view word, Keyword keyword) {
-    return std::any_of(kSynonyms.begin(), kSynonyms.end(), [&](const Synonym& synonym) {
-        return synonym.keyword == keyword && synonym.word == word;
-    });
+std::optional<std::string_view> nearest_setting(std::string_view word) {
+    return nearest_name(word, {kSettings.begin(), kSettings.end()});
 }
 
-std::optional<Keyword> suggest_keyword(std::string_view word) {
-    for (const Synonym& synonym : kSynonyms) {
-        if (synonym.word == word) {
-            return synonym.keyword;
-        }
+bool is_synonym(std::string_view word, Keyword keyword) {
+    const Synonym* const synonym = find_synonym(SynonymKind::Statement, word);
+    return synonym != nullptr && keyword_of(*synonym) == keyword;
+}
+
+std::optional<Keyword> keyword_of(const Synonym& synonym) {
+    if (!synonym.spelling.starts_with('#')) {
+        return std::nullopt;
     }
+    const Keyword keyword = find_keyword(synonym.spelling.substr(1));
+    return keyword == Keyword::Label ? std::nullopt : std::optional(keyword);
+}
+
+std::optional<Keyword> nearest_keyword(std::string_view word) {
     if (word.size() < 2) {
         return std::nullopt;
     }

@@ -2,6 +2,7 @@
 // Linear in the bytes passed; called once per statement or mistake.
 #pragma once
 
+#include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/scan_state.h"
 
 #include <cstdint>
@@ -34,8 +35,11 @@ namespace lsys {
 [[nodiscard]] bool is_synonym(std::string_view word, Keyword keyword);
 /// Whether `word` is a key of `#set`.
 [[nodiscard]] bool is_setting(std::string_view word);
-/// The keyword probably meant by `#word`: the one with this name in another program, or the
-/// nearest.
-[[nodiscard]] std::optional<Keyword> suggest_keyword(std::string_view word);
+/// The key of `#set` with the nearest name.
+[[nodiscard]] std::optional<std::string_view> nearest_setting(std::string_view word);
+/// The keyword that stands here for a word of another program, if it is one alone.
+[[nodiscard]] std::optional<Keyword> keyword_of(const Synonym& synonym);
+/// The keyword with the nearest name.
+[[nodiscard]] std::optional<Keyword> nearest_keyword(std::string_view word);
 
 } // namespace lsys

@@ -1,11 +1,13 @@
 #include "grammar/lsys/impl/module_tokens.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/message_levels.h"
 #include "grammar/base/utf8.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -125,9 +127,44 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
 
 } // namespace
 
+namespace {
+
+/// The `//` before the current character, on its line and among the same modules, with a blank
+/// behind it, as comments have.
+std::optional<std::uint32_t> comment_before(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    constexpr std::uint32_t kMaxLine = 4096;
+    const std::uint32_t first = scan.begin - std::min(scan.begin, kMaxLine);
+    const std::size_t newline = text.substr(first, scan.begin - first).rfind('\n');
+    const std::size_t begin = std::max<std::size_t>(
+        scan.part_begin, newline == std::string_view::npos ? first : first + newline + 1);
+    const std::size_t slashes = text.substr(0, scan.begin).find("// ", begin);
+    return slashes == std::string_view::npos ? std::nullopt
+                                             : std::optional(static_cast<std::uint32_t>(slashes));
+}
+
+} // namespace
+
+bool is_behind_comment(ParseSession& session) {
+    const std::optional<std::uint32_t> slashes = comment_before(session);
+    if (slashes && session.wants_reports()) {
+        const std::string_view all = session.scanned.text;
+        std::string_view line = all.substr(*slashes, all.find('\n', *slashes) - *slashes);
+        line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        report_stray_comment(session.context.diagnostics, line,
+                             session.scanned.span(*slashes, *slashes + 2));
+    }
+    return slashes.has_value();
+}
+
 StrayHandling report_stray_in_modules(ParseSession& session, std::string_view text) {
     const char first = text[0];
     const ScanState& scan = session.scan;
+    const bool has_modules = scan.part == Part::Successor || scan.part == Part::Axiom;
+    if (has_modules && is_behind_comment(session)) {
+        return StrayHandling::Skip;
+    }
     if (scan.part == Part::Head) {
         const bool begins_condition = (first == '*' || first == '~') && !scan.part_empty;
         if (lacks_colon(session, begins_condition ? ": " : "")) {
@@ -169,6 +206,12 @@ void report_foreign_symbol(ParseSession& session, char symbol) {
             diagnostic.help.emplace_back(foreign.meaning);
         }
     }
+    if (symbol == '>' && session.scan.begin > 0 &&
+        session.scanned.text[session.scan.begin - 1] == '-') {
+        diagnostic.help = {"there is no arrow here: a production is "
+                           "`#name : predecessor : condition : successor;`"};
+        return;
+    }
     add_fix(diagnostic, "as a module without meaning of its own, write it in back quotes",
             diagnostic.span, std::string("`") + symbol + "`", false);
 }
@@ -180,7 +223,8 @@ StrayHandling report_extra_parenthesis(ParseSession& session) {
         may_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
     if (branch) {
         report_missing_open(session, scan.begin, branch);
-        return StrayHandling::ReadAsModule;
+        // No head has such a branch.
+        return scan.part == Part::Head ? StrayHandling::Discard : StrayHandling::ReadAsModule;
     }
     if (character_before(text, scan.begin) != ')') {
         report_missing_open(session, scan.begin, std::nullopt);
@@ -312,7 +356,56 @@ void report_unclosed_comment(ParseSession& session) {
     session.failed = true;
 }
 
+namespace {
+
+/// The next word of `text`, between blanks, commas and line ends; removes it.
+std::string_view take_word(std::string_view& text) {
+    constexpr std::string_view kGaps = " \t\r\n,";
+    text.remove_prefix(std::min(text.find_first_not_of(kGaps), text.size()));
+    const std::string_view word = text.substr(0, text.find_first_of(kGaps));
+    text.remove_prefix(word.size());
+    return word;
+}
+
+/// Reads `lsc: allow CODE, CODE` of a comment.
+void read_allowances(ParseSession& session) {
+    const std::uint32_t begin = session.scan.comment_begin;
+    const std::string_view comment = session.scanned.text.substr(begin, session.scan.end - begin);
+    std::string_view rest = comment.substr(std::min<std::size_t>(2, comment.size()));
+    if (comment.starts_with("/*") && rest.ends_with("*/")) {
+        rest.remove_suffix(2);
+    }
+    if (take_word(rest) != "lsc:" || take_word(rest) != "allow") {
+        return;
+    }
+    std::size_t count = 0;
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), ++count) {
+        const std::optional<std::string> reason = reason_against_level(word);
+        if (!reason) {
+            session.allowed.push_back(*find_diagnostic_code(word));
+        } else if (session.context.diagnostics.admits(DiagnosticCode::UnknownCode)) {
+            const std::uint32_t at =
+                static_cast<std::uint32_t>(word.data() - session.scanned.text.data());
+            Diagnostic& diagnostic = session.context.diagnostics.add(
+                DiagnosticCode::UnknownCode,
+                session.scanned.span(at, at + static_cast<std::uint32_t>(word.size())), *reason);
+            diagnostic.help.emplace_back("messages end with their code, for example "
+                                         "`[idle-module]`; `lsc explain` lists all");
+        }
+    }
+    if (count == 0 && session.context.diagnostics.admits(DiagnosticCode::UnknownCode)) {
+        session.context.diagnostics.add(DiagnosticCode::UnknownCode,
+                                        session.scanned.span(begin, session.scan.end),
+                                        "this comment allows nothing: a code is missing");
+    }
+}
+
+} // namespace
+
 void keep_comment(ParseSession& session) {
+    if (!session.silent) {
+        read_allowances(session);
+    }
     if (session.comments != nullptr) {
         session.comments->push_back({session.scan.comment_begin, session.scan.end});
     }

@@ -24,6 +24,8 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
 /// The current match as the module `name`, as if in back quotes.
 Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
+/// Whether a `//` stands before the current character on its line, as a comment does; reports it.
+bool is_behind_comment(ParseSession& session);
 /// Reports one or more `)` without `(`; returns their handling.
 StrayHandling report_extra_parenthesis(ParseSession& session);
 /// Whether the current `;` is a module of another program, `;(0.9)`; reports it.

@@ -1,7 +1,8 @@
 #include "grammar/lsys/impl/normalized_text.h"
 
+#include "grammar/base/characters.h"
+#include "grammar/base/confusables.h"
 #include "grammar/base/utf8.h"
-#include "grammar/lsys/impl/confusables.h"
 #include "grammar/lsys/impl/normalizer.h"
 #include "grammar/lsys/impl/scanning.h"
 
@@ -89,7 +90,7 @@ std::vector<StrayCharacter> all_beyond_ascii(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
         if (point.value >= 0x80) {
-            strays.push_back({static_cast<std::uint32_t>(at), false});
+            strays.push_back({static_cast<std::uint32_t>(at), false, false});
         }
         at += point.length;
     }
@@ -212,7 +213,10 @@ namespace lsys_grammar {
 namespace {
 
 void record_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
-    session.strays->push_back({session.scanned.source_begin(begin), in_quotes});
+    const ScanState& scan = session.scan;
+    const bool in_value = !scan.open.empty() || scan.part == Part::Value ||
+                          scan.part == Part::Condition || scan.part == Part::Setting;
+    session.strays->push_back({session.scanned.source_begin(begin), in_quotes, in_value});
 }
 
 /// Records the closing quote of a file name with a curly opening quote if it is curly too. The name
@@ -284,6 +288,19 @@ int normalize_character(ParseSession& session, char* character, int length) {
     const auto size = static_cast<int>(ascii.size());
     std::memcpy(character + length - size, ascii.data(), ascii.size());
     return length - size;
+}
+
+void normalize_behind_word(ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::uint32_t at = session.scan.end;
+    if (session.strays == nullptr || at >= text.size() ||
+        (static_cast<unsigned char>(text[at]) & 0x80u) == 0) {
+        return;
+    }
+    const Confusable* const confusable = find_confusable(decode_utf8(text.substr(at)).value);
+    if (confusable != nullptr && !confusable->ascii.empty() && is_letter(confusable->ascii[0])) {
+        record_stray(session, at, false);
+    }
 }
 
 void normalize_quoted(ParseSession& session, std::string_view text) {

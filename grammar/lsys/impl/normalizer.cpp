@@ -1,7 +1,7 @@
 #include "grammar/lsys/impl/normalizer.h"
 
 #include "grammar/base/characters.h"
-#include "grammar/lsys/impl/confusables.h"
+#include "grammar/base/confusables.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,6 +13,34 @@ namespace {
 /// Whether `c` is a continuation byte of UTF-8.
 bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
+}
+
+constexpr std::string_view kSuperscript = "superscript";
+constexpr std::string_view kFraction = "fraction";
+constexpr std::string_view kDegreeSign = "degree sign";
+
+/// The decimals of a fraction behind a whole number, `1` and a third: `.3333333`, as many as
+/// binary32 keeps.
+std::string_view decimals_of(std::string_view fraction) {
+    return fraction == "(1/3)"   ? ".3333333"
+           : fraction == "(2/3)" ? ".6666667"
+           : fraction == "(1/6)" ? ".1666667"
+           : fraction == "(5/6)" ? ".8333333"
+           : fraction == "(1/7)" ? ".1428571"
+                                 : ".1111111";
+}
+
+/// Whether the last character of `text` is a superscript.
+bool ends_with_superscript(std::string_view text) {
+    std::size_t at = text.size();
+    while (at > 0 && is_continuation(text[at - 1])) {
+        --at;
+    }
+    if (at == 0 || at == text.size()) {
+        return false;
+    }
+    const Confusable* const confusable = find_confusable(decode_utf8(text.substr(at - 1)).value);
+    return confusable != nullptr && confusable->name == kSuperscript;
 }
 
 } // namespace
@@ -30,8 +58,18 @@ void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
         const Confusable* const confusable = find_confusable(point.value);
-        if (confusable != nullptr) {
-            replace_confusable(stray.begin, point, confusable->ascii, confusable->name);
+        if (confusable != nullptr && confusable->name == kSuperscript && !stray.in_value) {
+            report_power(stray.begin, point);
+            map_.replace(stray.begin, stray.begin + point.length, " ");
+        } else if (confusable != nullptr) {
+            const bool continues = confusable->name == kSuperscript &&
+                                   ends_with_superscript(text_.substr(0, stray.begin));
+            const bool is_mixed = confusable->ascii.starts_with('(') && stray.begin > 0 &&
+                                  is_digit(text_[stray.begin - 1]);
+            replace_confusable(stray.begin, point,
+                               is_mixed ? decimals_of(confusable->ascii)
+                                        : confusable->ascii.substr(continues ? 1 : 0),
+                               confusable->name);
         } else if (!stray.in_quotes) {
             report_unknown(stray.begin, point);
             const std::string ascii = normalized_form(point.value);
@@ -78,10 +116,13 @@ void Normalizer::report_group() {
             group_.code_points + (group_.name.empty() ? "" : " (" + std::string(group_.name) + ")");
         const SourceSpan span{file_, group_.begin, group_.end};
         const std::string message =
-            group_.ascii.empty()  ? "an invisible character, " + what + ", has no meaning here"
-            : is_blank            ? "this is no plain blank but " + what
-            : group_.ascii == ":" ? "this is " + what + "; parts are separated by `:`"
-                                  : "this looks like `" + group_.ascii + "` but is " + what;
+            group_.name == kDegreeSign    ? "angles are in degrees, without a sign; this is " + what
+            : group_.name == kSuperscript ? "a power is written with `^`; this is " + what
+            : group_.name == kFraction    ? "a fraction is written with digits; this is " + what
+            : group_.ascii.empty() ? "an invisible character, " + what + ", has no meaning here"
+            : is_blank             ? "this is no plain blank but " + what
+            : group_.ascii == ":"  ? "this is " + what + "; parts are separated by `:`"
+                                   : "this looks like `" + group_.ascii + "` but is " + what;
         Diagnostic& diagnostic = diagnostics_->add(DiagnosticCode::LookAlike, span, message);
         add_fix(diagnostic,
                 group_.ascii.empty() ? "remove it"
@@ -95,6 +136,18 @@ void Normalizer::report_group() {
         }
     }
     group_ = {};
+}
+
+/// Reports a superscript behind a module.
+void Normalizer::report_power(std::uint32_t begin, const CodePoint& point) {
+    report_group();
+    if (diagnostics_ == nullptr || !diagnostics_->admits(DiagnosticCode::LookAlike)) {
+        return;
+    }
+    Diagnostic& diagnostic = diagnostics_->add(
+        DiagnosticCode::LookAlike, {file_, begin, begin + point.length},
+        "a module has no power; this is " + code_point_name(point.value) + " (superscript)");
+    diagnostic.help.emplace_back("write the module as often as it stands: `F F`");
 }
 
 bool Normalizer::is_word_at(std::uint32_t at) const {

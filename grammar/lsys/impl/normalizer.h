@@ -17,6 +17,7 @@ namespace lsys {
 struct StrayCharacter {
     std::uint32_t begin = 0; // of the source
     bool in_quotes = false;  // back quotes: only confusables are replaced
+    bool in_value = false;   // of an expression or a setting, not among modules
 
     friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
 };
@@ -49,6 +50,7 @@ private:
                             const CodePoint& point,
                             std::string_view ascii,
                             std::string_view name);
+    void report_power(std::uint32_t begin, const CodePoint& point);
     void report_unknown(std::uint32_t begin, const CodePoint& point);
     void report_group();
     [[nodiscard]] bool is_word_at(std::uint32_t at) const;

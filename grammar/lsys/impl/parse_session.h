@@ -37,6 +37,7 @@ public:
     ScanState scan;
     IncludeChain* includes; // null: included files are not read
 
+    std::vector<DiagnosticCode> allowed;           // by comments, for the next statement
     bool silent = false;                           // reports nothing
     std::vector<TextRange>* comments = nullptr;    // receives comments; may be null
     std::vector<StrayCharacter>* strays = nullptr; // receives characters; null during the parse
@@ -63,7 +64,8 @@ public:
     [[nodiscard]] bool wants_reports() const { return !silent && !failed; }
     /// Whether to compose a syntax error of `code`; counts it if the list is full.
     [[nodiscard]] bool wants(DiagnosticCode code) {
-        return wants_reports() && context.diagnostics.admits(code);
+        return wants_reports() && (is_independent(code) || !follows_doubtful_error()) &&
+               context.diagnostics.admits(code);
     }
 
     /// Reports the current match.
@@ -84,6 +86,11 @@ public:
     }
 
 private:
+    /// Whether an error of `code` is neither the cause nor the consequence of others.
+    [[nodiscard]] static bool is_independent(DiagnosticCode code);
+    /// Whether the part of the statement has an error without a certain fix: what follows it may be
+    /// a consequence. A `:` begins a new part.
+    [[nodiscard]] bool follows_doubtful_error();
     /// Whether the line of `at` begins with `//` and is no comment only because the statement
     /// before it has no end. Each call searches on from the last `at`. Precondition: `at` never
     /// decreases between calls.
@@ -99,8 +106,16 @@ private:
         bool has_doubtful_error = false; // one of the errors has no certain fix
     };
 
+    /// Diagnostics of a part of a statement.
+    struct PartDiagnostics {
+        std::uint32_t part_begin = 0xFFFFFFFF;
+        std::size_t next = 0; // the first that has not been checked
+        bool has_doubtful_error = false;
+    };
+
     Ast& ast_;
     CheckedDiagnostics checked_;
+    PartDiagnostics part_diagnostics_;
     std::size_t line_search_end_ = 0;
     std::size_t line_first_ = std::string_view::npos; // first character that is not blank
 };

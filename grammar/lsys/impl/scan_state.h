@@ -20,6 +20,8 @@ enum class Keyword : std::uint8_t {
     Generations,
     Define,
     Param,
+    Function,
+    Curve,
     Module,
     Object,
     Include,
@@ -32,14 +34,16 @@ enum class Keyword : std::uint8_t {
 };
 
 enum class Part : std::uint8_t {
-    Between,     // statements
-    Opening,     // after `#word`, up to the `:` or `=` or the name
-    Value,       // the expression of #n, #define, #param
-    Declaration, // the modules of #module
+    Between,      // statements
+    Opening,      // after `#word`, up to the `:` or `=` or the name
+    FunctionHead, // the formals of #function
+    Value,        // the expression of #n, #define, #param, #function
+    Declaration,  // the modules of #module
     ObjectName,
     ObjectValue,
     Setting,
     Ignored,
+    Chance, // the probability of an axiom
     Axiom,
     Head,
     Condition,

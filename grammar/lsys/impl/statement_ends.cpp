@@ -1,6 +1,7 @@
 #include "grammar/lsys/impl/statement_ends.h"
 
 #include "grammar/base/characters.h"
+#include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/lookahead.h"
 
 #include <algorithm>
@@ -188,6 +189,7 @@ void report_missing_semicolon(ParseSession& session) {
     }
     SourceSpan place = session.insertion_place();
     if (comment) {
+        session.builder.forget_slashes(comment->begin);
         const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
         place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
     }
@@ -238,7 +240,7 @@ void report_quotient(ParseSession& session) {
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, "there is no operator `//`");
-        diagnostic.help.emplace_back("a quotient is `a / b`, its whole part is `floor(a / b)`");
+        diagnostic.help.push_back(help_for(*find_synonym(SynonymKind::Operator, "//"), "//"));
         diagnostic.help.emplace_back("a comment inside a statement is `/* ... */`");
     }
 }

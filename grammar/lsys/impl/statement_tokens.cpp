@@ -3,8 +3,11 @@
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/local_values.h"
+#include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
+#include "grammar/lsys/impl/module_tokens.h"
+#include "grammar/lsys/impl/normalized_text.h"
 
 #include <algorithm>
 #include <array>
@@ -20,12 +23,12 @@ constexpr const char* kFourParts =
     "condition";
 
 /// Tokens by Keyword.
-constexpr std::array<Token::Kind, 13> kKeywordTokens{
-    Parser::token::TOK_LABEL,    Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
-    Parser::token::TOK_PARAM,    Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,
-    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,
-    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET,
-    Parser::token::TOK_W};
+constexpr std::array<Token::Kind, 15> kKeywordTokens{
+    Parser::token::TOK_LABEL,     Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
+    Parser::token::TOK_PARAM,     Parser::token::TOK_FUNCTION,  Parser::token::TOK_CURVE,
+    Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,    Parser::token::TOK_INCLUDE,
+    Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,    Parser::token::TOK_CONSIDER,
+    Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET, Parser::token::TOK_W};
 
 Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
     const Keyword keyword = session.scan.keyword;
@@ -72,6 +75,36 @@ std::uint32_t colons_of_statement(ParseSession& session) {
     return *scan.colons;
 }
 
+/// The text from behind the `;` at `at` to the `;` or the statement after it.
+std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
+    const std::size_t begin = at + 1;
+    constexpr std::size_t kMaxLength = 4096;
+    const std::string_view rest = text.substr(begin, kMaxLength);
+    return rest.substr(0, rest.find_first_of(";#"));
+}
+
+/// Whether the `;` at `at` stands where a `:` is meant: the text behind it has the `missing` other
+/// `:` of the production and no statement of its own.
+bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
+    const std::string_view rest = text_after_semicolon(text, at);
+    const std::size_t first = rest.find_first_not_of(" \t\r\n");
+    const bool is_ended = at + 1 + rest.size() < text.size() && text[at + 1 + rest.size()] == ';';
+    return is_ended && first != std::string_view::npos && rest.substr(first, 2) != "//" &&
+           rest.substr(first, 2) != "/*" && std::count(rest.begin(), rest.end(), ':') == missing;
+}
+
+/// Whether a `;` follows the `#word` in place of its `:`.
+bool lacks_first_colon(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t next = text.find_first_not_of(" \t\r\n", session.scan.end);
+    if (next == std::string_view::npos || text[next] != ';') {
+        return false;
+    }
+    const Keyword keyword = session.scan.keyword;
+    return keyword == Keyword::Label ? is_mistyped_colon(text, next, 2)
+                                     : is_mistyped_colon(text, next, 0);
+}
+
 Token begin_parts(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();
@@ -97,30 +130,64 @@ Token setting_without_set(ParseSession& session, std::string_view word) {
     return begin_parts(session, spelling(Keyword::Set), word.front());
 }
 
+/// The key of the `#set` statement that stands here for `word`; empty: none.
+std::string_view meant_setting(const Synonym* synonym) {
+    constexpr std::string_view kSet = "#set ";
+    return synonym != nullptr && synonym->spelling.starts_with(kSet)
+               ? synonym->spelling.substr(kSet.size())
+               : std::string_view{};
+}
+
+/// Reports `#word`, which is no statement; returns the keyword that is meant, if that is sure.
+std::optional<Keyword> report_unknown_statement(ParseSession& session, std::string_view word) {
+    const Synonym* const synonym = find_synonym(SynonymKind::Statement, word);
+    const std::string_view setting = meant_setting(synonym);
+    std::optional<Keyword> meant;
+    if (synonym != nullptr) {
+        meant = keyword_of(*synonym);
+    } else {
+        meant = nearest_keyword(word);
+    }
+    if (!session.wants(DiagnosticCode::UnknownStatement)) {
+        return meant;
+    }
+    const SourceSpan span = session.match();
+    const std::string written = "#" + shown(word);
+    Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
+                                            "there is no statement `" + written + "`");
+    if (meant) {
+        const std::string name = "#" + std::string(spelling(*meant));
+        add_fix(diagnostic,
+                synonym == nullptr || synonym->source.empty() ? "did you mean `" + name + "`?"
+                                                              : help_for(*synonym, written),
+                span, name, true);
+    } else if (!setting.empty()) {
+        add_fix(diagnostic, help_for(*synonym, written), span, std::string(synonym->spelling),
+                false);
+    } else if (synonym != nullptr) {
+        diagnostic.help.push_back(help_for(*synonym, written));
+    } else if (const std::optional<std::string_view> key = nearest_setting(word)) {
+        const std::string name = "#set " + std::string(*key);
+        add_fix(diagnostic, "did you mean `" + name + "`?", span, name, false);
+    } else {
+        diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#function`, "
+                                     "`#curve`, `#module`, `#object`, `#include`, `#set`, "
+                                     "`#ignore :`, `#consider :`, `#w :`, `#decompose`, "
+                                     "`#interpret` and productions, `#name : ...`");
+    }
+    return meant;
+}
+
 /// The `#word` that is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
-    if (colons_of_statement(session) >= 2) {
+    if (colons_of_statement(session) >= 2 || lacks_first_colon(session)) {
         return begin_parts(session, word, next); // a production; missing_opening() reports
     }
     if (is_setting(word) && session.scanned.text[scan.begin] == '#') {
         return setting_without_set(session, word);
     }
-    const std::optional<Keyword> meant = suggest_keyword(word);
-    if (session.wants(DiagnosticCode::UnknownStatement)) {
-        const SourceSpan span = session.match();
-        Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
-                                                "there is no statement `#" + shown(word) + "`");
-        if (meant) {
-            const std::string name = "#" + std::string(spelling(*meant));
-            add_fix(diagnostic, "did you mean `" + name + "`?", span, name, true);
-        } else {
-            diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#module`, "
-                                         "`#object`, `#include`, `#set`, `#ignore :`, "
-                                         "`#consider :`, `#w :`, `#decompose`, `#interpret` and "
-                                         "productions, `#name : ...`");
-        }
-    }
+    const std::optional<Keyword> meant = report_unknown_statement(session, word);
     if (!meant) {
         return discard_statement(session);
     }
@@ -194,6 +261,7 @@ bool is_hash_comment(ParseSession& session, std::string_view text) {
 
 Token start_statement(ParseSession& session, std::string_view text) {
     session.scan.first_diagnostic = session.context.diagnostics.all().size();
+    normalize_behind_word(session);
     const std::size_t name = text.find_first_not_of(" \t", 1);
     if (name > 1) {
         const ScanState& scan = session.scan;
@@ -215,6 +283,7 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     const Keyword keyword = find_keyword(word);
     const char next = word.empty() ? '\0' : next_character(text, scan.end);
     const bool takes_words = keyword == Keyword::Define || keyword == Keyword::Param ||
+                             keyword == Keyword::Function || keyword == Keyword::Curve ||
                              keyword == Keyword::Set || keyword == Keyword::Object ||
                              keyword == Keyword::Include || keyword == Keyword::Module ||
                              keyword == Keyword::Decompose || keyword == Keyword::Interpret;
@@ -231,9 +300,15 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
         const SourceSpan span = session.match();
+        const bool is_nameless = text[scan.begin] == '#' && next_character(text, scan.end) == ':';
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::MissingHash, span, "a statement begins with `#`");
-        if (is_statement) {
+            session.report(DiagnosticCode::MissingHash, span,
+                           is_nameless ? "a production has a name between `#` and `:`"
+                                       : "a statement begins with `#`");
+        if (is_nameless) {
+            add_fix(diagnostic, "give it a name, for example `p`", {span.file, span.end, span.end},
+                    "p", false);
+        } else if (is_statement) {
             add_fix(diagnostic, "write `#" + shown(word) + "`", {span.file, span.begin, span.begin},
                     "#", true);
         } else if (after_modules) {
@@ -345,6 +420,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
 bool is_needless_sign(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
+                            scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
                             scan.keyword == Keyword::Set || scan.keyword == Keyword::Generations;
     if (!scan.part_empty || !takes_none || !scan.open.empty()) {
         return false;
@@ -387,6 +463,14 @@ Token colon_after_modules(ParseSession& session) {
         scan.enter(Part::Condition);
         return Token(Parser::token::TOK_COLON, span);
     }
+    const std::string_view text = session.scanned.text;
+    const std::string_view rest = text.substr(scan.end, text.find('\n', scan.end) - scan.end);
+    const bool ends_line = rest.find_first_not_of(" \t\r") == std::string_view::npos;
+    // At the end of a line the `:` may be a mistyped `;`.
+    if ((scan.part == Part::Successor || scan.part == Part::Axiom) && !ends_line &&
+        is_behind_comment(session)) {
+        return discard_statement(session);
+    }
     if (session.wants(DiagnosticCode::ExtraColon)) {
         const std::string word(spelling(scan.keyword));
         Diagnostic& diagnostic =
@@ -395,6 +479,11 @@ Token colon_after_modules(ParseSession& session) {
                                                            : "`#" + word + "` has no further part");
         if (scan.part == Part::Successor) {
             diagnostic.help.emplace_back(kFourParts);
+            const char next = next_character(session.scanned.text, scan.end);
+            if (is_digit(next) || next == '.') {
+                diagnostic.help.emplace_back(
+                    "a probability stands behind the condition: `#name : A : * ~ 0.5 : B;`");
+            }
         } else if (scan.part == Part::Axiom) {
             diagnostic.help.emplace_back("the axiom is `#w : modules;`");
         }
@@ -408,6 +497,8 @@ namespace {
 Part part_after_colon(const ParseSession& session) {
     const ScanState& scan = session.scan;
     switch (scan.part) {
+    case Part::Chance:
+        return Part::Axiom;
     case Part::Head:
         return Part::Condition;
     case Part::Condition:
@@ -421,8 +512,8 @@ Part part_after_colon(const ParseSession& session) {
 
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
-    const bool in_production =
-        scan.part == Part::Head || scan.part == Part::Condition || scan.part == Part::Locals;
+    const bool in_production = scan.part == Part::Chance || scan.part == Part::Head ||
+                               scan.part == Part::Condition || scan.part == Part::Locals;
     if (!scan.open.empty() && in_production) {
         return begin_insertion(session, Insertion::Colon, session.match());
     }
@@ -461,9 +552,75 @@ std::optional<Token> local_value_token(ParseSession& session, std::string_view t
     return std::nullopt;
 }
 
+namespace {
+
+/// The number of `:` that the production lacks behind the current `;` if it stands for one; none:
+/// the `;` ends the statement.
+std::optional<std::ptrdiff_t> colons_after_semicolon(const ScanState& scan) {
+    if (!scan.open.empty() || scan.skipping) {
+        return std::nullopt;
+    }
+    switch (scan.part) {
+    case Part::Opening:
+        if (scan.keyword == Keyword::Axiom || scan.keyword == Keyword::Ignore ||
+            scan.keyword == Keyword::Consider) {
+            return 0;
+        }
+        return scan.keyword == Keyword::Label || names_production(scan.keyword)
+                   ? std::optional<std::ptrdiff_t>(2)
+                   : std::nullopt;
+    case Part::Head:
+        return 1;
+    case Part::Condition:
+        return 0;
+    default:
+        return std::nullopt;
+    }
+}
+
+/// Whether the condition before the current `;` is one, so that only a successor can follow.
+bool has_condition_before(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view condition =
+        session.scanned.text.substr(scan.part_begin, scan.begin - scan.part_begin);
+    return condition.find_first_of("<>=!~&|") != std::string_view::npos ||
+           condition.find_first_not_of(" \t\r\n*") == std::string_view::npos;
+}
+
+/// The current `;` as the `:` that is meant; none: it ends the statement.
+std::optional<Token> semicolon_for_colon(ParseSession& session) {
+    ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::optional<std::ptrdiff_t> missing = colons_after_semicolon(scan);
+    if (!missing || scan.bracket_searches++ >= kMaxBracketSearches ||
+        !is_mistyped_colon(text, scan.begin, *missing) ||
+        (scan.part == Part::Condition && !has_condition_before(session))) {
+        return std::nullopt;
+    }
+    if (session.wants(DiagnosticCode::MissingColon)) {
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::MissingColon, span, "a `:` stands here, not a `;`");
+        add_fix(diagnostic, "write `:`", span, ":", true);
+    }
+    const SourceSpan span = session.token();
+    scan.colons = 3; // with those behind this one
+    if (scan.part == Part::Opening) {
+        after_opening_colon(session);
+    } else {
+        scan.enter(scan.part == Part::Head ? Part::Condition : Part::Successor);
+    }
+    return Token(Parser::token::TOK_COLON, span);
+}
+
+} // namespace
+
 std::optional<Token> semicolon(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.statement_open) {
+        if (std::optional<Token> colon = semicolon_for_colon(session)) {
+            return colon;
+        }
         return begin_insertion(session, Insertion::Semicolon, session.match());
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::StraySemicolon)) {
@@ -519,6 +676,23 @@ bool has_plain_head(const ParseSession& session) {
     return at != std::string_view::npos && (text[at] == ':' || text[at] == '~');
 }
 
+/// Offers `: * :` for an arrow of other languages in the head of a production.
+void offer_colon_for_arrow(const ParseSession& session, Diagnostic& diagnostic) {
+    const ScanState& scan = session.scan;
+    const std::string_view head =
+        session.scanned.text.substr(scan.part_begin, scan.last_end - scan.part_begin);
+    for (const std::string_view arrow : {"-->", "==>", "->", "=>"}) {
+        const std::size_t at = head.find(arrow);
+        if (at != std::string_view::npos && head.find(arrow, at + 1) == std::string_view::npos) {
+            const auto begin = static_cast<std::uint32_t>(scan.part_begin + at);
+            add_fix(diagnostic, "`" + std::string(arrow) + "` of other programs is `: * :` here",
+                    session.scanned.span(begin, begin + static_cast<std::uint32_t>(arrow.size())),
+                    ": * :", false);
+            return;
+        }
+    }
+}
+
 /// Reports the end of a production before its successor.
 void report_missing_parts(ParseSession& session) {
     const ScanState& scan = session.scan;
@@ -532,6 +706,7 @@ void report_missing_parts(ParseSession& session) {
             diagnostics.add(DiagnosticCode::MissingColon, place,
                             "the production ends before its condition and its successor");
         diagnostic.help.emplace_back(kFourParts);
+        offer_colon_for_arrow(session, diagnostic);
         if (scan.keyword == Keyword::Generations) {
             diagnostic.help.emplace_back("the number of generations is `#n = 6;`");
         }
@@ -733,6 +908,10 @@ bool lacks_colon(ParseSession& session, std::string_view inserted) {
             add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
                     std::string(inserted),
                     session.scanned.text[scan.begin] == '*' || has_plain_head(session));
+        } else if (session.scanned.text[scan.begin] == '=' && scan.part == Part::Head &&
+                   colons_of_statement(session) == 1) {
+            add_fix(diagnostic, "`=` of other programs is `: * :` here",
+                    session.scanned.span(scan.begin, scan.begin + 1), ": * :", false);
         }
         diagnostic.help.emplace_back(kFourParts);
     }

@@ -2,6 +2,8 @@
 
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
+#include "grammar/base/synonyms.h"
+#include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_tokens.h"
 
@@ -39,6 +41,10 @@ std::string name_expected(const ScanState& scan) {
     case Keyword::Decompose:
     case Keyword::Interpret:
         return "the name of the production";
+    case Keyword::Function:
+        return "the name of the function";
+    case Keyword::Curve:
+        return "the name of the curve";
     default:
         return "the name of the constant";
     }
@@ -96,6 +102,38 @@ std::string found_text(const Unexpected& error, const ScanState& scan) {
     return "`" + shown(error.text) + "`";
 }
 
+/// Whether the current `.` stands between two words: `math.sin`.
+bool is_attribute(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const ScanState& scan = session.scan;
+    return scan.begin > 0 && is_word_character(text[scan.begin - 1]) && scan.end < text.size() &&
+           is_letter(text[scan.end]);
+}
+
+/// Explains `random.uniform(1, 2)`: what stands here for the word behind the `.`.
+void explain_attribute(const ParseSession& session, Diagnostic& diagnostic) {
+    const std::string_view word = leading_word(session.scanned.text.substr(session.scan.end));
+    const Synonym* const synonym = find_synonym(SynonymKind::Function, word);
+    diagnostic.help.push_back(synonym != nullptr
+                                  ? help_for(*synonym, word)
+                                  : "functions stand without a `.`: `" + shown(word) + "(x)`");
+}
+
+/// Offers quotes around the name of a file that the current `.` is part of.
+void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
+    const std::string_view text = session.scanned.text;
+    constexpr std::string_view kEnds = " \t\r\n;\"";
+    std::uint32_t begin = session.scan.begin;
+    while (begin > 0 && kEnds.find(text[begin - 1]) == std::string_view::npos) {
+        --begin;
+    }
+    const auto end = static_cast<std::uint32_t>(
+        std::min(text.find_first_of(kEnds, session.scan.begin), text.size()));
+    const std::string name(text.substr(begin, end - begin));
+    add_fix(diagnostic, "the name of a file stands in quotes: `\"" + shown(name) + "\"`",
+            session.scanned.span(begin, end), '"' + name + '"', false);
+}
+
 void report_expected(ParseSession& session, const Unexpected& error) {
     if (!session.wants(DiagnosticCode::SyntaxError)) {
         return;
@@ -123,9 +161,17 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                                          ? "the words of a setting stand without quotes"
                                          : "an expression stands in parentheses here: "
                                            "`#set angle (360 / 7);`");
+    } else if (error.text == "." && error.part != Part::ObjectValue && is_attribute(session)) {
+        explain_attribute(session, diagnostic);
+    } else if (error.expects(Kind::S_NUMBER) && error.token == Kind::S_RPAREN &&
+               character_before(session.scanned.text, scan.begin) == ',') {
+        diagnostic.help.emplace_back("no comma stands behind the last argument");
     } else if (error.text == "?") {
         diagnostic.help.emplace_back("there is no conditional operator; a comparison is 1 or 0 and "
                                      "can be a factor");
+    } else if (error.part == Part::ObjectValue && error.token == Kind::S_OTHER &&
+               error.text == ".") {
+        offer_quotes(session, diagnostic);
     } else if (error.token == Kind::S_COMMA && scan.open.empty()) {
         diagnostic.help.emplace_back("a comma stands only between arguments in parentheses");
     }

@@ -2,6 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+#include <variant>
+
 namespace lsys::rendering {
 
 namespace {
@@ -26,6 +29,8 @@ void set_place(SourceSpan span, const SourceMap& sources, Json& object) {
     object["column"] = begin.column;
     object["end_line"] = end.line;
     object["end_column"] = end.column;
+    object["utf16_column"] = begin.utf16_column;
+    object["end_utf16_column"] = end.utf16_column;
     object["byte"] = span.begin + skipped;
     object["end_byte"] = span.end + skipped;
 }
@@ -73,6 +78,13 @@ void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::st
     object["notes"] = diagnostic.notes;
     object["help"] = diagnostic.help;
     object["fixes"] = make_fixes(diagnostic, sources);
+    if (!diagnostic.facts.empty()) {
+        Json data;
+        for (const Fact& fact : diagnostic.facts) {
+            std::visit([&](const auto& value) { data[fact.name] = value; }, fact.value);
+        }
+        object["data"] = std::move(data);
+    }
     append(object, out);
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/derive/engine/choose.h"
 
+#include <cmath>
+
 namespace lsys {
 
 template <typename C>
@@ -23,16 +25,57 @@ bool Chooser<C>::condition(const Candidate& candidate,
     case ConditionKind::Expression:
         break;
     }
-    const PlanInputs& inputs = plan_.inputs();
-    const EvalFrame frame{matcher_.formals(candidate, place), inputs.globals,
-                          static_cast<float>(keys_.generation), inputs.steps};
     float value = 0.0F;
     const std::uint32_t first = plan_.bytecode().productions[candidate.production].condition;
-    if (!evaluate(plan_.bytecode(), first, frame, nullptr, &value, fault_)) {
-        faulty_candidate_ = static_cast<std::uint32_t>(&candidate - &plan_.candidate(0));
+    if (!evaluate_for(candidate, first, place, value)) {
         return false;
     }
     is_true = value != 0.0F;
+    return true;
+}
+
+/// The value of the code of a candidate at `first`.
+template <typename C>
+bool Chooser<C>::evaluate_for(const Candidate& candidate,
+                              std::uint32_t first,
+                              const ModulePlace& place,
+                              float& value) {
+    const PlanInputs& inputs = plan_.inputs();
+    const EvalFrame frame{matcher_.formals(candidate, place), inputs.globals,
+                          static_cast<float>(keys_.generation), inputs.steps};
+    return evaluate(plan_.bytecode(), first, frame, nullptr, &value, fault_) ||
+           blame(candidate, false);
+}
+
+/// Notes that fault_ is that of a candidate; returns false.
+template <typename C>
+bool Chooser<C>::blame(const Candidate& candidate, bool in_weight) {
+    faulty_candidate_ = static_cast<std::uint32_t>(&candidate - &plan_.candidate(0));
+    fault_in_weight_ = in_weight;
+    return false;
+}
+
+/// The weight of a candidate that matches, added to `sum`.
+template <typename C>
+bool Chooser<C>::weight(const Candidate& candidate,
+                        const ModulePlace& place,
+                        float& sum,
+                        float& weight) {
+    weight = candidate.weight;
+    if (!candidate.computes_weight) {
+        sum += weight;
+        return true;
+    }
+    const std::uint32_t first = plan_.bytecode().productions[candidate.production].weight_code;
+    if (!evaluate_for(candidate, first, place, weight)) {
+        return blame(candidate, true);
+    }
+    sum += weight;
+    if (weight < 0.0F || !std::isfinite(sum)) {
+        fault_ = {weight < 0.0F ? Fault::NegativeWeight : Fault::WeightsTooLarge, first, weight,
+                  0.0F, 0.0F};
+        return blame(candidate, true);
+    }
     return true;
 }
 
@@ -90,8 +133,7 @@ bool Chooser<C>::choose_among(const Family& family,
     const std::span<const Candidate> candidates = plan_.candidates(family);
     const std::uint32_t group = candidates[first].group;
     const float* const own = matcher_.own_parameters(place);
-    matching_.assign(1, first);
-    float sum = candidates[first].weight;
+    matching_.assign(1, {first, 0.0F});
     for (std::uint32_t i = first + 1; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
         if (candidate.group != group || !candidate.stochastic) {
@@ -102,13 +144,19 @@ bool Chooser<C>::choose_among(const Family& family,
             return false;
         }
         if (is_true) {
-            matching_.push_back(i);
-            sum += candidate.weight;
+            matching_.push_back({i, 0.0F});
         }
     }
-    record = first + 1;
-    if (matching_.size() == 1) {
-        return true;
+    float sum = 0.0F;
+    for (Matching& each : matching_) {
+        if (!weight(candidates[each.candidate], place, sum, each.weight)) {
+            return false;
+        }
+    }
+    std::erase_if(matching_, [](const Matching& each) { return each.weight == 0.0F; });
+    record = matching_.empty() ? 0 : matching_.front().candidate + 1;
+    if (matching_.size() <= 1) {
+        return true; // without a weight above 0 the module counts as not matched
     }
     const Bytecode& bytecode = plan_.bytecode();
     const std::uint32_t rule = bytecode.productions[candidates[first].production].rule;
@@ -116,9 +164,9 @@ bool Chooser<C>::choose_among(const Family& family,
                         ? plan_.rule_draw(rule, keys_.generation)
                         : module_draw(place.index);
     float running = 0.0F;
-    for (const std::uint32_t i : matching_) {
-        record = i + 1;
-        running += candidates[i].weight / sum;
+    for (const Matching& each : matching_) {
+        record = each.candidate + 1;
+        running += each.weight / sum;
         if (running > u) {
             break;
         }

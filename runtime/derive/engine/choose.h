@@ -32,7 +32,7 @@ public:
           matcher_(plan, word, contexts) {}
 
     /// Sets `record` of a module whose row is not Fixed: 0 if nothing matches, r if entry
-    /// row.base + r rewrites it. Returns false if a condition has no finite value; see fault().
+    /// row.base + r rewrites it. Returns false if a condition or weight is at fault; see fault().
     [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
 
     /// The draw of a module of a Choice row. module_draws() draws for `count` modules at once.
@@ -81,6 +81,8 @@ public:
     }
 
     [[nodiscard]] const EvalFault& fault() const { return fault_; }
+    /// Whether the fault is that of a weight.
+    [[nodiscard]] bool fault_in_weight() const { return fault_in_weight_; }
     /// The candidate of the fault, an index for Plan::candidate().
     [[nodiscard]] std::uint32_t faulty_candidate() const { return faulty_candidate_; }
     [[nodiscard]] Matcher<C>& matcher() { return matcher_; }
@@ -90,6 +92,13 @@ private:
                                  const ModulePlace& place,
                                  const float* own,
                                  bool& is_true);
+    [[nodiscard]] bool evaluate_for(const Candidate& candidate,
+                                    std::uint32_t first,
+                                    const ModulePlace& place,
+                                    float& value);
+    bool blame(const Candidate& candidate, bool in_weight);
+    [[nodiscard]] bool
+    weight(const Candidate& candidate, const ModulePlace& place, float& sum, float& weight);
     [[nodiscard]] bool choose_among(const Family& family,
                                     std::uint32_t first,
                                     const ModulePlace& place,
@@ -106,7 +115,13 @@ private:
     Matcher<C> matcher_;
     EvalFault fault_;
     std::uint32_t faulty_candidate_ = 0;
-    std::vector<std::uint32_t> matching_;
+    bool fault_in_weight_ = false;
+    /// A candidate that matches, by its index in the family, and its weight.
+    struct Matching {
+        std::uint32_t candidate = 0;
+        float weight = 0.0F;
+    };
+    std::vector<Matching> matching_;
 };
 
 } // namespace lsys

@@ -1,6 +1,7 @@
 #include "runtime/derive/engine/eval.h"
 
 #include "compiler/bytecode/arithmetic.h"
+#include "compiler/bytecode/distributions.h"
 #include "compiler/bytecode/interpret.h"
 #include "compiler/bytecode/verify.h"
 #include "grammar/base/contract.h"
@@ -40,6 +41,7 @@ constexpr std::uint32_t kUsualSlots = 32;
 struct Numbers : UnknownDomain<float> {
     static constexpr bool kKnowsChoices = true;
 
+    const Bytecode& bytecode;
     const EvalFrame& frame;
     RangeDraws* draws;
     float* out;
@@ -68,16 +70,23 @@ struct Numbers : UnknownDomain<float> {
             return arithmetic::apply(opcode, x, y);
         }
     }
+    [[nodiscard]] float curve(std::uint32_t index, float x) const {
+        return curve_value(bytecode.curves[index].points, x);
+    }
     static float mix(float x, float y, float t) { return arithmetic::mix(x, y, t); }
     static bool holds(float x) { return x != 0.0F; }
-    bool range(float& x, float maximum, std::uint32_t index, const std::uint32_t* at) {
-        const Fault kind = check_range(x, maximum);
+    bool draw(Opcode opcode, float& x, float y, std::uint32_t index, const std::uint32_t* at) {
+        const Fault kind = opcode == Opcode::Range ? check_range(x, y)
+                           : check_distribution(opcode, x, y) == DistributionFault::None
+                               ? Fault::None
+                               : Fault::BadDistribution;
         if (kind != Fault::None) {
-            fault = {kind, static_cast<std::uint32_t>(at - begin), 0.0F, x, maximum};
+            fault = {kind, static_cast<std::uint32_t>(at - begin), 0.0F, x, y};
             return false;
         }
         LSYS_DCHECK(draws != nullptr);
-        x = draw_in_range(x, maximum, draws->draw(index));
+        const float u = draws->draw(index);
+        x = opcode == Opcode::Range ? draw_in_range(x, y, u) : draw_from(opcode, x, y, u);
         return true;
     }
     bool take(float x, const std::uint32_t* at) {
@@ -110,7 +119,7 @@ bool evaluate(const Bytecode& bytecode,
               float* out,
               EvalFault& fault) {
     const std::uint32_t* const begin = bytecode.instructions.data();
-    Numbers numbers{{}, frame, draws, out, begin, fault};
+    Numbers numbers{{}, bytecode, frame, draws, out, begin, fault};
     const auto run = [&](float* stack, float* slots) {
         for (const std::uint32_t first : {word.locals, word.arguments}) {
             if (first != kNone && !interpret(begin + first, numbers, stack, slots)) {

@@ -54,15 +54,23 @@ private:
     std::uint32_t generation_;
 };
 
-enum class Fault : std::uint8_t { None, NotFinite, RangeReversed, RangeTooWide };
+enum class Fault : std::uint8_t {
+    None,
+    NotFinite,
+    RangeReversed,
+    RangeTooWide,
+    BadDistribution,
+    NegativeWeight,
+    WeightsTooLarge
+};
 
 /// The fault that stopped an evaluation, and its instruction.
 struct EvalFault {
     Fault kind = Fault::None;
     std::uint32_t instruction = 0;
-    float value = 0.0F;   // for NotFinite
-    float minimum = 0.0F; // for RangeReversed and RangeTooWide
-    float maximum = 0.0F;
+    float value = 0.0F;   // for NotFinite and NegativeWeight
+    float minimum = 0.0F; // for faults of ranges; the first argument of a distribution
+    float maximum = 0.0F; // its second argument
 };
 
 /// The fault of the range `{minimum, maximum}`; None if it can be drawn from.

@@ -1,5 +1,6 @@
 #include "runtime/derive/engine/faults.h"
 
+#include "compiler/bytecode/instructions.h"
 #include "runtime/derive/engine/instantiate.h"
 #include "runtime/derive/engine/write.h"
 
@@ -15,12 +16,33 @@ RuntimeErrorKind kind_of(Fault fault) {
         return RuntimeErrorKind::RangeReversed;
     case Fault::RangeTooWide:
         return RuntimeErrorKind::RangeTooWide;
+    case Fault::BadDistribution:
+        return RuntimeErrorKind::BadDistribution;
+    case Fault::NegativeWeight:
+        return RuntimeErrorKind::NegativeWeight;
+    case Fault::WeightsTooLarge:
+        return RuntimeErrorKind::WeightsTooLarge;
     case Fault::None:
     case Fault::NotFinite:
         break;
     }
     return RuntimeErrorKind::NotFinite;
 }
+
+} // namespace
+
+RuntimeError error_of(const Bytecode& bytecode, const EvalFault& fault) {
+    RuntimeError error;
+    error.kind = kind_of(fault.kind);
+    error.site = site_of(bytecode, fault.instruction);
+    error.value = fault.value;
+    error.minimum = fault.minimum;
+    error.maximum = fault.maximum;
+    error.opcode = opcode_of(bytecode.instructions[fault.instruction]);
+    return error;
+}
+
+namespace {
 
 template <typename C>
 RuntimeError make_error(const Plan& plan,
@@ -32,17 +54,12 @@ RuntimeError make_error(const Plan& plan,
                         const EvalFault& fault,
                         bool in_condition) {
     const Bytecode& bytecode = plan.bytecode();
-    RuntimeError error;
-    error.kind = kind_of(fault.kind);
+    RuntimeError error = error_of(bytecode, fault);
     error.production = static_cast<ProductionId>(candidate.production);
-    error.site = site_of(bytecode, fault.instruction);
     error.generation = keys.generation;
     error.position = word.first_position + place.index;
     error.symbol = bytecode.symbol_of(word.codes[place.index]);
     error.parameters.assign(own, own + bytecode.symbol(error.symbol).parameter_count);
-    error.value = fault.value;
-    error.minimum = fault.minimum;
-    error.maximum = fault.maximum;
     error.in_condition = in_condition;
     return error;
 }
@@ -65,8 +82,11 @@ std::optional<RuntimeError> find_fault(const Plan& plan,
         const Row& row = plan.row(code);
         std::uint32_t record = 0;
         if (row.kind != RowKind::Fixed && !chooser.choose(place, row, record)) {
-            return make_error(plan, keys, word, place, matcher.own_parameters(place),
-                              plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
+            RuntimeError error =
+                make_error(plan, keys, word, place, matcher.own_parameters(place),
+                           plan.candidate(chooser.faulty_candidate()), chooser.fault(), true);
+            error.in_weight = chooser.fault_in_weight();
+            return error;
         }
         const Entry& entry = plan.entries()[record == 0 ? code : row.base + record];
         if (entry.candidate != kNone && (entry.parameter_count != 0 || entry.general)) {

@@ -9,6 +9,9 @@
 
 namespace lsys {
 
+/// What a fault says of its error; the production and module at fault are to be set.
+[[nodiscard]] RuntimeError error_of(const Bytecode& bytecode, const EvalFault& fault);
+
 /// The first fault among the modules from `begin` to `end`; a match of several modules may reach
 /// past `end`. Within a module, conditions in file order come before arguments from left to right.
 template <typename C>

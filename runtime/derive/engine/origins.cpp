@@ -108,9 +108,9 @@ Origin* trace_origins(const Plan& plan,
     return Tracer<C, R>(plan, word, request, records, out).run();
 }
 
-void copy_axiom_origins(const Bytecode& bytecode, Origin* out) {
-    for (std::uint32_t i = 0; i < bytecode.axiom.codes.count; ++i) {
-        out[i] = {bytecode.axiom.codes.first + i, 0};
+void copy_axiom_origins(const BytecodeAxiom& axiom, Origin* out) {
+    for (std::uint32_t i = 0; i < axiom.word.codes.count; ++i) {
+        out[i] = {axiom.word.codes.first + i, 0};
     }
 }
 

@@ -29,6 +29,6 @@ template <typename C, typename R>
                                     Origin* out);
 
 /// Writes the origins of the axiom's modules.
-void copy_axiom_origins(const Bytecode& bytecode, Origin* out);
+void copy_axiom_origins(const BytecodeAxiom& axiom, Origin* out);
 
 } // namespace lsys

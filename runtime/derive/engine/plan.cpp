@@ -23,6 +23,7 @@ constexpr Code kMaxFoldedCodes = 4096;
 
 bool uses_step(const Bytecode& bytecode, const BytecodeProduction& production) {
     return contains(bytecode, production.condition, Opcode::Step) ||
+           contains(bytecode, production.weight_code, Opcode::Step) ||
            contains(bytecode, production.successor, Opcode::Step);
 }
 
@@ -169,9 +170,11 @@ void Plan::make_families() {
         candidate.own_first = item.first_formal;
         candidate.weight = production.weight;
         candidate.stochastic = production.stochastic;
+        candidate.computes_weight = production.weight_code != kNone;
         candidate.has_context = production.has_left || production.has_right;
         candidate.reads_context =
             uses_formal_outside(bytecode_, production.condition, item.first_formal, own_end) ||
+            uses_formal_outside(bytecode_, production.weight_code, item.first_formal, own_end) ||
             uses_formal_outside(bytecode_, production.successor.locals, item.first_formal,
                                 own_end) ||
             uses_formal_outside(bytecode_, production.successor.arguments, item.first_formal,

@@ -96,6 +96,7 @@ struct Candidate {
     float weight = 0.0F;
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
+    bool computes_weight = false; // by the code of the production, for each module
     bool has_context = false;
     bool gathers = false;       // formals must be collected: some are not the module's own
     bool reads_context = false; // some formals belong to contexts

@@ -69,8 +69,8 @@ void Plan::shape_condition(Candidate& candidate) {
 
 void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    // Ranges of local values may be at fault where no argument uses them.
-    const bool has_drawn_locals = successor.locals != kNone && successor.draw_count != 0;
+    // Ranges in slots may be at fault where no argument uses them.
+    const bool has_drawn_locals = bytecode_.local_count != 0 && successor.draw_count != 0;
     entry.general = has_drawn_locals;
     entry.reads_own = false;
     if (successor.parameter_count == 0 || has_drawn_locals) {
@@ -265,7 +265,7 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         if (condition == ConditionKind::Never) {
             continue;
         }
-        if (condition != ConditionKind::Always) {
+        if (condition != ConditionKind::Always || candidate.computes_weight) {
             set_kind(code, RowKind::General);
             fold_records(family, code);
             return;

@@ -2,21 +2,15 @@
 
 #include "compiler/bytecode/instructions.h"
 #include "runtime/derive/engine/eval.h"
+#include "runtime/derive/engine/faults.h"
 
 namespace lsys {
 
 namespace {
 
 RuntimeError make_error(const Bytecode& bytecode, const EvalFault& fault) {
-    RuntimeError error;
-    error.kind = fault.kind == Fault::RangeReversed  ? RuntimeErrorKind::RangeReversed
-                 : fault.kind == Fault::RangeTooWide ? RuntimeErrorKind::RangeTooWide
-                                                     : RuntimeErrorKind::NotFinite;
+    RuntimeError error = error_of(bytecode, fault);
     error.generation = kStartGeneration;
-    error.site = site_of(bytecode, fault.instruction);
-    error.value = fault.value;
-    error.minimum = fault.minimum;
-    error.maximum = fault.maximum;
     return error;
 }
 
@@ -51,16 +45,38 @@ draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& g
     return std::nullopt;
 }
 
+const BytecodeAxiom& chosen_axiom(const Bytecode& bytecode, std::uint64_t seed) {
+    constexpr std::uint64_t kPosition = ~std::uint64_t{0};
+    const std::vector<BytecodeAxiom>& axioms = bytecode.axioms;
+    if (axioms.size() == 1) {
+        return axioms.front();
+    }
+    float sum = 0.0F;
+    for (const BytecodeAxiom& axiom : axioms) {
+        sum += axiom.weight;
+    }
+    const float u = unit_interval(draw_block(seed, kStartGeneration, kPosition, 0)[0]);
+    float running = 0.0F;
+    for (const BytecodeAxiom& axiom : axioms) {
+        running += axiom.weight / sum;
+        if (running > u) {
+            return axiom;
+        }
+    }
+    return axioms.back();
+}
+
 std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
                                              std::uint64_t seed,
                                              const std::vector<float>& globals,
                                              std::vector<float>& parameters) {
-    const WordTemplate& axiom = bytecode.axiom;
+    const BytecodeAxiom& chosen = chosen_axiom(bytecode, seed);
+    const WordTemplate& axiom = chosen.word;
     parameters.assign(axiom.parameter_count, 0.0F);
     if (axiom.arguments == kNone) {
         return std::nullopt;
     }
-    RangeDraws draws = RangeDraws::at_start(seed, bytecode.axiom_draw_position);
+    RangeDraws draws = RangeDraws::at_start(seed, chosen.draw_position);
     const EvalFrame frame{nullptr, globals.data(), 0.0F, 0.0F};
     EvalFault fault;
     if (evaluate(bytecode, axiom.arguments, frame, &draws, parameters.data(), fault)) {

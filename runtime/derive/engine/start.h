@@ -13,7 +13,10 @@ namespace lsys {
 [[nodiscard]] std::optional<RuntimeError>
 draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& globals);
 
-/// Evaluates the parameters that the axiom stores. Returns the first error.
+/// The axiom that a derivation with this seed begins with (docs/language.md section 6.3).
+[[nodiscard]] const BytecodeAxiom& chosen_axiom(const Bytecode& bytecode, std::uint64_t seed);
+
+/// Evaluates the parameters that this axiom stores. Returns the first error.
 [[nodiscard]] std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
                                                            std::uint64_t seed,
                                                            const std::vector<float>& globals,
@@ -21,9 +24,9 @@ draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& g
 
 /// Copies the axiom's codes to `out`, at the width of C.
 template <typename C>
-void copy_axiom_codes(const Bytecode& bytecode, C* out) {
-    for (std::uint32_t i = 0; i < bytecode.axiom.codes.count; ++i) {
-        out[i] = static_cast<C>(bytecode.template_codes[bytecode.axiom.codes.first + i]);
+void copy_axiom_codes(const Bytecode& bytecode, const BytecodeAxiom& axiom, C* out) {
+    for (std::uint32_t i = 0; i < axiom.word.codes.count; ++i) {
+        out[i] = static_cast<C>(bytecode.template_codes[axiom.word.codes.first + i]);
     }
 }
 

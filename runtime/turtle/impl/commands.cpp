@@ -3,11 +3,11 @@
 
 namespace lsys {
 
-void Turtle::State::note(TurtleFaultKind kind) {
+void Turtle::State::note_at(TurtleFaultKind kind, std::uint64_t place, Code module) {
     TurtleFault& known = end.faults[static_cast<std::size_t>(kind)];
     if (known.count++ == 0) {
-        known.position = position;
-        known.code = code;
+        known.position = place;
+        known.code = module;
     }
 }
 
@@ -175,10 +175,9 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
     return true;
 }
 
-void Turtle::State::close_polygon() {
+bool Turtle::State::close_polygon() {
     if (!polygons.any()) {
-        note(TurtleFaultKind::EndOutside);
-        return;
+        return fault(TurtleFaultKind::EndOutside);
     }
     const OpenPolygon open = polygons.top();
     polygon_origin = open.origin;
@@ -205,6 +204,7 @@ void Turtle::State::close_polygon() {
         }
     }
     polygons.close();
+    return !end.stop;
 }
 
 void Turtle::State::set_width(float width) {
@@ -384,7 +384,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Restore:
         return restore();
     case TurtleOperation::PolygonBegin:
-        polygons.open(frame_of(now.pose), origin, action.picture);
+        polygons.open({0, 0, frame_of(now.pose), origin, position, code, action.picture});
         return true;
     case TurtleOperation::PolygonVertex:
         if (!polygons.any()) {
@@ -394,8 +394,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         polygons.vertex(now.pose);
         return true;
     case TurtleOperation::PolygonEnd:
-        close_polygon();
-        return !end.stop;
+        return close_polygon();
     case TurtleOperation::Cut:
         cut = 1;
         return true;

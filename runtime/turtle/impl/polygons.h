@@ -1,5 +1,5 @@
-// Open polygons: begun and not yet ended. A polygon may be begun within another; the corners of all
-// open ones are on one stack.
+// Open polygons: begun and not yet ended, along the word and apart from brackets. A polygon may be
+// begun within another; the corners of all open ones are on one stack.
 #pragma once
 
 #include "runtime/derive/origin.h"
@@ -16,7 +16,9 @@ struct OpenPolygon {
     std::size_t first_vertex = 0;  // index in OpenPolygons::vertices_
     std::size_t first_on_path = 0; // index in OpenPolygons::path_
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
-    Origin origin; // origin of its `{`
+    Origin origin;              // of its `{`
+    std::uint64_t position = 0; // of its `{` in the word
+    Code code = 0;              // of its `{`
     std::uint32_t picture = kNoPicture;
 };
 
@@ -25,8 +27,13 @@ public:
     [[nodiscard]] bool any() const { return !open_.empty(); }
     /// Precondition of all below: any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
-    void open(const glm::quat& frame, const Origin& origin, std::uint32_t picture) {
-        open_.push_back({vertices_.size(), path_.size(), frame, origin, picture});
+    /// From the one begun first to the one begun last.
+    [[nodiscard]] std::span<const OpenPolygon> all() const { return open_; }
+    /// Begins a polygon; its vertices and path are set here.
+    void open(OpenPolygon polygon) {
+        polygon.first_vertex = vertices_.size();
+        polygon.first_on_path = path_.size();
+        open_.push_back(polygon);
     }
     /// Adds the vertex of a `.`.
     void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }

@@ -139,7 +139,7 @@ struct Turtle::State {
     [[nodiscard]] TurtlePlace current_place() const;
     [[nodiscard]] DrawnCounts drawn() const;
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
-    void close_polygon();
+    bool close_polygon();
     void set_width(float width);
     void set_sides(float sides);
     void set_colour(double index);
@@ -152,7 +152,9 @@ struct Turtle::State {
     bool secondary_forward(const Action& action, const float* arguments);
     void add_colour(float number, double sign);
 
-    void note(TurtleFaultKind kind);
+    void note(TurtleFaultKind kind) { note_at(kind, position, code); }
+    /// Notes a fault of the module of this code at `place` in the word.
+    void note_at(TurtleFaultKind kind, std::uint64_t place, Code module);
     /// Notes `count` faults at the end of a word, which belong to no module.
     void note_end(TurtleFaultKind kind, std::uint64_t count) {
         end.faults[static_cast<std::size_t>(kind)].count += count;

@@ -73,6 +73,10 @@ public:
             rows.emplace_back();
         }
     }
+    template <typename Row, typename Function>
+    void rare_table(std::vector<Row>& rows, Function row) {
+        table(rows, row);
+    }
     void codes(std::vector<Code>& codes, std::uint32_t /*width*/) {
         table(codes, [](Change& change, Code& code) { change.number(code); });
     }
@@ -132,7 +136,7 @@ TEST_CASE("the digest follows what decides the word and nothing else") {
     CHECK(changed([](Bytecode& b) { b.constants[0] = 0.25F; }));
     CHECK(changed([](Bytecode& b) { b.productions[1].weight = 0.25F; }));
     CHECK(changed([](Bytecode& b) { b.instructions[1] = test::bits(1.5F); }));
-    CHECK(changed([](Bytecode& b) { b.axiom_draw_position = 7; }));
+    CHECK(changed([](Bytecode& b) { b.axioms.front().draw_position = 7; }));
 }
 
 TEST_CASE("settings change the digest where they change the word") {

@@ -177,9 +177,9 @@ TEST_CASE("places of modules are checked") {
     CHECK(said_of([](Bytecode& b) { b.template_places[1].column = kNone - 2; }) ==
           "place run 1 ends beyond every file");
     CHECK(said_of([](Bytecode& b) { b.template_places[0].first = 1; }) ==
-          "the axiom's modules have no places");
-    CHECK(said_of([](Bytecode& b) { b.axiom_site = kNone; }) ==
-          "the axiom's modules have no places");
+          "the modules of an axiom have no places");
+    CHECK(said_of([](Bytecode& b) { b.axioms.front().site = kNone; }) ==
+          "the modules of an axiom have no places");
     CHECK(said_of([](Bytecode& b) { b.template_places.pop_back(); }) ==
           "the modules of production 1 have no places");
     CHECK(said_of([](Bytecode& b) { b.productions[1].name_site = kNone; }) ==

@@ -39,8 +39,8 @@ TEST_CASE("modules of constant arguments become codes of their own and store not
                                "#p : F(x) : * : F(x) F(1) +(22.5) +(x);\n");
     REQUIRE(b.symbols.size() == 2);
     CHECK(b.folded.size() == 3); // F(1) +(22.5) F(2)
-    CHECK(codes_of(b, b.axiom) == std::vector<Code>{2, 3, 2, 4});
-    CHECK(b.axiom.arguments == kNone);
+    CHECK(codes_of(b, b.axioms.front().word) == std::vector<Code>{2, 3, 2, 4});
+    CHECK(b.axioms.front().word.arguments == kNone);
     const WordTemplate& successor = b.productions[0].successor;
     CHECK(codes_of(b, successor) == std::vector<Code>{0, 2, 3, 1});
     CHECK(successor.parameter_count == 2);
@@ -53,8 +53,8 @@ TEST_CASE("folding stops where a wider code would be needed") {
     }
     const Bytecode b = lowered(text + " F(7);\n");
     CHECK(b.code_count() == 256);
-    CHECK(b.axiom.parameter_count == 300 - 255);
-    CHECK(codes_of(b, b.axiom).back() == 8); // F(7) was folded early
+    CHECK(b.axioms.front().word.parameter_count == 300 - 255);
+    CHECK(codes_of(b, b.axioms.front().word).back() == 8); // F(7) was folded early
 }
 
 TEST_CASE("negative zero is another constant than zero") {
@@ -105,7 +105,7 @@ TEST_CASE("every value that can fail knows its place") {
     }
     CHECK(emits == std::vector<std::string>{"3:28", "3:37"});
     CHECK(range == "3:37");
-    CHECK(b.sites[b.axiom_site].line == 2);
+    CHECK(b.sites[b.axioms.front().site].line == 2);
     CHECK(b.sites[b.globals[0].site].line == 1);
     CHECK(b.sites[p.name_site].column == 2);
 }

@@ -37,7 +37,7 @@ TEST_CASE("a walk over the expressions of a production visits each node") {
     REQUIRE(c.outcome.program);
     const Program& program = *c.outcome.program;
     const Production& production = program.productions[0];
-    CHECK(expressions_of(program, production).size() == 3);
+    CHECK(expressions_of(program, production).size() == 4);
     std::vector<int> counts(kOpcodeCount, 0);
     for_each_value(program, expressions_of(program, production),
                    [&](ValueId id, const Value& value) {

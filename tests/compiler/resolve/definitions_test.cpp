@@ -83,7 +83,7 @@ TEST_CASE("a definition of the command line replaces the expression") {
     // The range that was replaced still took a number.
     REQUIRE(program.globals.size() == 1);
     CHECK(program.globals[0].draw_position == 1);
-    CHECK(program.axiom_draw_position == 2);
+    CHECK(program.axioms.front().draw_position == 2);
     CHECK(c.outcome.unknown_definitions.empty());
 }
 
@@ -127,8 +127,8 @@ TEST_CASE("ranges of definitions and axiom are numbered in the order of the text
     CHECK(globals[0].draw_position == 0);
     CHECK(globals[0].draw_count == 2);
     CHECK(globals[1].draw_position == 2);
-    CHECK(c.outcome.program->axiom_draw_position == 3);
-    CHECK(c.outcome.program->axiom.draw_count == 2);
+    CHECK(c.outcome.program->axioms.front().draw_position == 3);
+    CHECK(c.outcome.program->axioms.front().word.draw_count == 2);
     CHECK(globals[2].draw_count == 0);
 }
 

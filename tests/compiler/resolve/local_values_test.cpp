@@ -17,7 +17,7 @@ TEST_CASE("a local value is computed once and may stand anywhere in the successo
     const Bytecode& bytecode = *c.outcome.bytecode;
     CHECK(bytecode.local_count == 2);
     CHECK(bytecode.productions[0].successor.locals != kNone);
-    CHECK(bytecode.axiom.locals == kNone);
+    CHECK(bytecode.axioms.front().word.locals == kNone);
     CHECK(verify(bytecode) == std::nullopt);
 }
 

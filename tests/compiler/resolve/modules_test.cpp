@@ -15,9 +15,9 @@ std::string axiom(const test::Compiled& c) {
     }
     std::string text;
     const Program& program = *c.outcome.program;
-    for (std::uint32_t i = 0; i < program.axiom.module_count; ++i) {
+    for (std::uint32_t i = 0; i < program.axioms.front().word.module_count; ++i) {
         const Symbol& symbol =
-            program.symbol(program.modules[program.axiom.first_module + i].symbol);
+            program.symbol(program.modules[program.axioms.front().word.first_module + i].symbol);
         text += (i == 0 ? "" : " ") + std::string(c.names.text(symbol.name));
         if (symbol.parameter_count != 0) {
             text += "/" + std::to_string(symbol.parameter_count);
@@ -106,7 +106,8 @@ TEST_CASE("modules get their meaning from the profile and from #object") {
         CAPTURE(set, module, c.said());
         REQUIRE(c.outcome.program);
         const Program& program = *c.outcome.program;
-        return program.symbol(program.modules[program.axiom.first_module].symbol).turtle;
+        return program.symbol(program.modules[program.axioms.front().word.first_module].symbol)
+            .turtle;
     };
     using enum TurtleOperation;
     CHECK(operation("", "+(1)") == YawRight);
@@ -132,7 +133,8 @@ TEST_CASE("a picture bound to `{` is one of its polygons") {
     CAPTURE(c.said());
     REQUIRE(c.outcome.program);
     const Program& program = *c.outcome.program;
-    const auto& symbol = program.symbol(program.modules[program.axiom.first_module].symbol);
+    const auto& symbol =
+        program.symbol(program.modules[program.axioms.front().word.first_module].symbol);
     CHECK(symbol.turtle == TurtleOperation::PolygonBegin);
     CHECK(symbol.mesh_file == "a leaf.PNG");
     for (const char* const other :
@@ -177,8 +179,9 @@ TEST_CASE("a turtle command reads so many parameters and no more") {
 }
 
 TEST_CASE("a polygon that rewriting may put into another is a warning only") {
-    const test::Compiled c = compile_text("#w : A;\n#p : A : * : { F A F F };\n");
-    CHECK(c.said() == Said{"nested-polygon 2:14"});
+    const test::Compiled c =
+        compile_text("#set turtle carey;\n#w : A;\n#p : A : * : { F A F F };\n");
+    CHECK(c.said() == Said{"nested-polygon 3:14"});
     CHECK(c.errors().empty());
     CHECK_FALSE(c.diagnostics.has_errors());
     CHECK(c.outcome.bytecode);

@@ -45,7 +45,8 @@ TEST_CASE("a text tells its dialect") {
     const std::vector<Told> texts{
         {"a", "\n LSYSTEM\n1\nA\n", Dialect::Sys},
         {"a", "premise: A\nA=FA\n", Dialect::Houdini},
-        {"a.rules", "A\nA=FA\n", Dialect::Houdini},
+        {"a.txt", "A\nA=FA\n", Dialect::Houdini},
+        {"a.rules", "A\nA=FA\n", Dialect::Carey},
         {"a", "axiom: A\nangle: 30\nA=FA\n", Dialect::Carey},
         {"a.l", "Lsystem: 1\nAxiom: A\n", Dialect::Cpfg},
         {"a.l", "one { axiom A }\n", Dialect::Fractint},

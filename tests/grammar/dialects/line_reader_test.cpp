@@ -87,15 +87,15 @@ TEST_CASE("a piece that does not fit is reported, and its line skipped") {
     CHECK(read.reader.next(word_length).text == "a");
     read.reader.expect(false, read.reader.next(word_length), {"a word", "the end of the line"});
     REQUIRE(read.diagnostics.all().size() == 1);
-    CHECK(read.diagnostics.all()[0].message == "expected a word or the end of the line, saw `=`");
+    CHECK(read.diagnostics.all()[0].message == "expected a word or the end of the line, found `=`");
     CHECK(read.diagnostics.all()[0].span == SourceSpan{read.file, 2, 3});
     CHECK(read.reader.next(word_length).text == "c");
     read.reader.expect(false, read.reader.next(word_length), {"a word"});
-    CHECK(read.diagnostics.all()[1].message == "expected a word, saw the end of the line");
+    CHECK(read.diagnostics.all()[1].message == "expected a word, found the end of the line");
     const LinePiece end = read.reader.next(word_length);
     CHECK(end.kind == LinePieceKind::TextEnd);
     read.reader.expect(false, end, {"a word"});
-    CHECK(read.diagnostics.all()[2].message == "expected a word, saw the end of the file");
+    CHECK(read.diagnostics.all()[2].message == "expected a word, found the end of the file");
 }
 
 TEST_CASE("without ends of lines too, a piece that does not fit ends its line") {

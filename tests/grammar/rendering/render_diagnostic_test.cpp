@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <string_view>
@@ -293,7 +294,8 @@ TEST_CASE("errors are shown before warnings when not all are") {
                  "lsc: 1 more warning, 1 more note\n");
     out.clear();
     lsys::render_all(all, f.sources, {.format = MessageFormat::Json, .max_shown = 0}, out);
-    CHECK(out == "{\"more\":{\"errors\":1,\"warnings\":2,\"notes\":1}}\n");
+    CHECK(std::count(out.begin(), out.end(), '\n') == 4); // all of them, for editors
+    CHECK(out.find("\"more\"") == std::string::npos);
 }
 
 TEST_CASE("colour comes only when asked for, and changes no text") {

@@ -34,8 +34,8 @@ struct EditedText {
         return {{file, begin, end}, std::move(replacement)};
     }
     std::string apply() {
-        const ChosenFixes chosen =
-            choose_fixes(diagnostics, sources, [](const Diagnostic&, const Fix&) { return true; });
+        const ChosenFixes chosen = choose_fixes(diagnostics, sources, FixChoice::Certain,
+                                                [](const Diagnostic&, const Fix&) { return true; });
         fix_count += chosen.fixes.size();
         const auto found = chosen.edits.find("a.lsys");
         return apply_edits(sources.file(file).text(), found == chosen.edits.end()
@@ -94,10 +94,9 @@ TEST_CASE("a fix that is not allowed leaves its place to others") {
     EditedText f("0123");
     f.add({f.edit(0, 2, "A")});
     f.add({f.edit(1, 3, "B")});
-    const ChosenFixes chosen =
-        choose_fixes(f.diagnostics, f.sources, [](const Diagnostic& diagnostic, const Fix&) {
-            return diagnostic.span.begin != 0;
-        });
+    const ChosenFixes chosen = choose_fixes(
+        f.diagnostics, f.sources, FixChoice::Certain,
+        [](const Diagnostic& diagnostic, const Fix&) { return diagnostic.span.begin != 0; });
     REQUIRE(chosen.fixes.size() == 1);
     CHECK(apply_edits("0123", chosen.edits.at("a.lsys")) == "0B3");
 }
@@ -107,10 +106,10 @@ TEST_CASE("only the first fifty fixes are told one by one") {
     for (int i = 0; i < 60; ++i) {
         text.bytes += "p" + std::to_string(i) + " : F(x) : x > " + std::to_string(i) + " : F;\n";
     }
-    const Project project{make_file_host(nullptr), {}, 1, false};
+    const Project project{make_file_host(nullptr), {}, 1, {}};
     const FixScope scope("a.lsys", {});
     FixedGrammar fixed;
-    REQUIRE(fix_text("a.lsys", text, {}, scope, project, fixed));
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, FixChoice::Certain, fixed));
     CHECK(fixed.fix_count == 60);
     CHECK(fixed.lines.size() == kMaxFixLines);
     CHECK(fixed.lines.front() == "a.lsys:3:1: fixed: write `#p0` [missing-hash]");
@@ -120,10 +119,10 @@ TEST_CASE("only the first fifty fixes are told one by one") {
 
 TEST_CASE("no fix of what was repaired is certain") {
     const GrammarText text{"#n = 1;\n#w : F(1))\n#p : F(x) : x = 1 : F(0x1);\n", Dialect::Lsys};
-    const Project project{make_file_host(nullptr), {}, 1, false};
+    const Project project{make_file_host(nullptr), {}, 1, {}};
     const FixScope scope("a.lsys", {});
     FixedGrammar fixed;
-    REQUIRE(fix_text("a.lsys", text, {}, scope, project, fixed));
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, FixChoice::Certain, fixed));
     for (const Diagnostic& diagnostic : fixed.compiled.diagnostics.all()) {
         CHECK(!has_certain_fix(diagnostic));
     }
@@ -134,4 +133,18 @@ TEST_CASE("no fix of what was repaired is certain") {
     const std::vector<Diagnostic>& all = compiled.value().diagnostics.all();
     CHECK(std::count_if(all.begin(), all.end(), has_certain_fix) ==
           static_cast<std::ptrdiff_t>(fixed.fix_count));
+}
+
+TEST_CASE("offered repairs are made on request, each once") {
+    const GrammarText text{"#n = 1;\n#w : A(2);\n#p : A(x) : x > t : F(rand(x));\n", Dialect::Lsys};
+    const Project project{make_file_host(nullptr), {}, 1, {}};
+    const FixScope scope("a.lsys", {});
+    FixedGrammar fixed;
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, FixChoice::Certain, fixed));
+    CHECK(fixed.fix_count == 0);
+    REQUIRE(fix_text("a.lsys", text, {}, scope, project, FixChoice::Offered, fixed));
+    CHECK(fixed.fix_count == 2);
+    CHECK(fixed.changed.at("a.lsys") ==
+          "#n = 1;\n#w : A(2);\n#p : A(x) : x > step() : F({0, 1});\n");
+    CHECK(fixed.records.find("\"applied\":true") != std::string::npos);
 }

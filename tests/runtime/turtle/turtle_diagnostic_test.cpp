@@ -33,7 +33,7 @@ TEST_CASE("a message about the end of a word names no module") {
     CHECK(several.message == "the word ends with 1,234 open branches, which are closed there");
     CHECK(several.notes.empty());
     CHECK(diagnostic_of(TurtleFaultKind::UnclosedPolygon, 1).message ==
-          "the word ends inside a polygon, which is not drawn");
+          "module 0 of the word, a `F`, begins a polygon that nothing ends, which is not drawn");
 }
 
 TEST_CASE("a message about a module names it") {

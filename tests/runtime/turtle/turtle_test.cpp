@@ -161,14 +161,28 @@ TEST_CASE("polygons have the vertices of their dots, or else the ends of their s
     CHECK(nested.skeleton.polygons[1].corner_count == 4);
 }
 
+TEST_CASE("polygons open and close along the word, apart from branches") {
+    // Begun before a branch and ended in it; begun in a branch and ended behind it.
+    const Drawing into = draw("{.f(1).[+(90)f(1).}]f(1).");
+    REQUIRE(into.skeleton.polygons.size() == 1);
+    CHECK(into.skeleton.polygons[0].corner_count == 3);
+    const Drawing out = draw("[f(1){.]f(1)+(90)f(1).f(1).}");
+    REQUIRE(out.skeleton.polygons.size() == 1);
+    CHECK(out.skeleton.corners[0].y == Approx(1.0F));
+    CHECK(out.skeleton.corners.size() == 3);
+}
+
 TEST_CASE("what cannot be drawn is counted with its first place") {
-    const Drawing outside = draw("F.F}F.");
-    CHECK(outside.status == std::nullopt);
+    const Drawing outside = draw("F.F.F}F.");
+    CHECK(outside.status == Stop::Diagnosed);
     CHECK(outside.fault(TurtleFaultKind::VertexOutside).count == 2);
     CHECK(outside.fault(TurtleFaultKind::VertexOutside).position == 1);
     CHECK(outside.fault(TurtleFaultKind::EndOutside).count == 1);
     CHECK(draw("{.f(1).}").fault(TurtleFaultKind::FewCorners).count == 1);
-    CHECK(draw("{.f(1).").fault(TurtleFaultKind::UnclosedPolygon).count == 1);
+    const Drawing unclosed = draw("F{.f(1).{.");
+    CHECK(unclosed.status == std::nullopt);
+    CHECK(unclosed.fault(TurtleFaultKind::UnclosedPolygon).count == 2);
+    CHECK(unclosed.fault(TurtleFaultKind::UnclosedPolygon).position == 1);
     CHECK(draw("F[F").fault(TurtleFaultKind::UnclosedBranch).count == 1);
     CHECK(draw("F[F[F]F[F").fault(TurtleFaultKind::UnclosedBranch).count == 2);
     CHECK(draw("!(-1)F").fault(TurtleFaultKind::NegativeWidth).count == 1);

@@ -1,7 +1,8 @@
-#include "grammar/lsys/impl/confusables.h"
+#include "grammar/base/confusables.h"
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <iterator>
 #include <vector>
 
@@ -15,15 +16,24 @@ constexpr Confusable kTable[] = {
     {0x00A6, "|", "broken bar"},
     {0x00AB, "\"", "angle quotation mark"},
     {0x00AD, "", "soft hyphen"},
+    {0x00B0, "", "degree sign"},
+    {0x00B2, "^2", "superscript"},
+    {0x00B3, "^3", "superscript"},
     {0x00B4, "'", "acute accent"},
     {0x00B7, "*", "middle dot"},
+    {0x00B9, "^1", "superscript"},
+    {0x00BA, "", "degree sign"},
     {0x00BB, "\"", "angle quotation mark"},
+    {0x00BC, ".25", "fraction"},
+    {0x00BD, ".5", "fraction"},
+    {0x00BE, ".75", "fraction"},
     {0x00D7, "*", "multiplication sign"},
     {0x00F7, "/", "division sign"},
     {0x02B9, "'", "modifier prime"},
     {0x02BC, "'", "modifier apostrophe"},
     {0x02C4, "^", "modifier up arrowhead"},
     {0x02C6, "^", "modifier circumflex"},
+    {0x02DA, "", "degree sign"},
     {0x02DC, "~", "small tilde"},
     {0x037E, ";", "Greek question mark"},
     {0x0391, "A", "Greek capital alpha"},
@@ -112,6 +122,39 @@ constexpr Confusable kTable[] = {
     {0x204E, "*", "low asterisk"},
     {0x205F, " ", "mathematical space"},
     {0x2060, "", "word joiner"},
+    {0x2070, "^0", "superscript"},
+    {0x2074, "^4", "superscript"},
+    {0x2075, "^5", "superscript"},
+    {0x2076, "^6", "superscript"},
+    {0x2077, "^7", "superscript"},
+    {0x2078, "^8", "superscript"},
+    {0x2079, "^9", "superscript"},
+    {0x207B, "^-", "superscript"},
+    {0x2080, "0", "subscript"},
+    {0x2081, "1", "subscript"},
+    {0x2082, "2", "subscript"},
+    {0x2083, "3", "subscript"},
+    {0x2084, "4", "subscript"},
+    {0x2085, "5", "subscript"},
+    {0x2086, "6", "subscript"},
+    {0x2087, "7", "subscript"},
+    {0x2088, "8", "subscript"},
+    {0x2089, "9", "subscript"},
+    {0x2150, "(1/7)", "fraction"},
+    {0x2151, "(1/9)", "fraction"},
+    {0x2152, ".1", "fraction"},
+    {0x2153, "(1/3)", "fraction"},
+    {0x2154, "(2/3)", "fraction"},
+    {0x2155, ".2", "fraction"},
+    {0x2156, ".4", "fraction"},
+    {0x2157, ".6", "fraction"},
+    {0x2158, ".8", "fraction"},
+    {0x2159, "(1/6)", "fraction"},
+    {0x215A, "(5/6)", "fraction"},
+    {0x215B, ".125", "fraction"},
+    {0x215C, ".375", "fraction"},
+    {0x215D, ".625", "fraction"},
+    {0x215E, ".875", "fraction"},
     {0x2192, ":", "arrow"},
     {0x21D2, ":", "double arrow"},
     {0x21E8, ":", "arrow"},
@@ -121,6 +164,7 @@ constexpr Confusable kTable[] = {
     {0x2217, "*", "asterisk operator"},
     {0x2219, "*", "bullet operator"},
     {0x2223, "|", "divides sign"},
+    {0x2225, "||", "parallel sign"},
     {0x2227, "^", "wedge"},
     {0x2228, "||", "logical or"},
     {0x2236, ":", "ratio"},
@@ -159,6 +203,8 @@ constexpr Confusable kTable[] = {
     {0xFB02, "fl", "ligature fl"},
     {0xFB03, "ffi", "ligature ffi"},
     {0xFB04, "ffl", "ligature ffl"},
+    {0xFB05, "st", "ligature st"},
+    {0xFB06, "st", "ligature st"},
     {0xFEFF, "", "byte order mark"},
 };
 static_assert(std::is_sorted(std::begin(kTable),
@@ -166,6 +212,37 @@ static_assert(std::is_sorted(std::begin(kTable),
                              [](const auto& a, const auto& b) {
                                  return a.character < b.character;
                              }));
+
+/// The characters of confusables.def, ascending.
+constexpr auto kListed = [] {
+#define LSYS_CONFUSABLES(ascii, ...) +std::size(std::initializer_list<char32_t>{__VA_ARGS__})
+    constexpr std::size_t kCount = 0
+#include "grammar/base/confusables.def"
+        ;
+#undef LSYS_CONFUSABLES
+    std::array<Confusable, kCount> listed{};
+    std::size_t count = 0;
+    const auto add = [&](std::string_view ascii, std::initializer_list<char32_t> characters) {
+        for (const char32_t character : characters) {
+            listed[count++] = {character, ascii, {}};
+        }
+    };
+#define LSYS_CONFUSABLES(ascii, ...) add(ascii, {__VA_ARGS__});
+#include "grammar/base/confusables.def"
+#undef LSYS_CONFUSABLES
+    std::sort(listed.begin(), listed.end(),
+              [](const Confusable& a, const Confusable& b) { return a.character < b.character; });
+    return listed;
+}();
+
+/// The row of a character in a table that ascends; null: none.
+template <typename Table>
+const Confusable* find_row(const Table& table, char32_t character) {
+    const auto found = std::lower_bound(
+        std::begin(table), std::end(table), character,
+        [](const Confusable& row, char32_t wanted) { return row.character < wanted; });
+    return found != std::end(table) && found->character == character ? &*found : nullptr;
+}
 
 constexpr char32_t kFirstFullWidth = 0xFF01; // `!`
 constexpr char32_t kLastFullWidth = 0xFF5E;  // `~`
@@ -192,10 +269,8 @@ const Confusable* find_confusable(char32_t character) {
     if (character >= kFirstFullWidth && character <= kLastFullWidth) {
         return &kFullWidth[character - kFirstFullWidth];
     }
-    const auto* const found = std::lower_bound(
-        std::begin(kTable), std::end(kTable), character,
-        [](const Confusable& row, char32_t wanted) { return row.character < wanted; });
-    return found != std::end(kTable) && found->character == character ? found : nullptr;
+    const Confusable* const named = find_row(kTable, character);
+    return named != nullptr ? named : find_row(kListed, character);
 }
 
 bool is_letter_beyond_ascii(char32_t character) {

@@ -1,0 +1,169 @@
+#include "compiler/resolve/impl/stray_comments.h"
+
+#include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+
+namespace lsys {
+
+namespace {
+
+/// Larger files are not searched for words.
+constexpr std::size_t kMaxSearched = std::size_t{1} << 20;
+
+std::string_view line_at(std::string_view text, std::size_t at) {
+    const std::string_view line = text.substr(at, text.find('\n', at) - at);
+    return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+}
+
+/// `text` without what stands in parentheses, as arguments of modules do, or in `/* ... */`.
+std::string without_arguments(std::string_view text) {
+    std::string kept;
+    std::size_t depth = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text.substr(at, 2) == "/*") {
+            at = std::min(text.find("*/", at + 2), text.size() - 2) + 1;
+            kept += ' ';
+            continue;
+        }
+        depth += text[at] == '(' ? 1U : 0U;
+        kept += depth == 0 ? text[at] : ' ';
+        depth -= text[at] == ')' && depth > 0 ? 1U : 0U;
+    }
+    return kept;
+}
+
+/// Calls visit(word) for each identifier of `text`.
+template <typename Visit>
+void for_each_word(std::string_view text, const Visit& visit) {
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        while (end < text.size() && is_word_character(text[end])) {
+            ++end;
+        }
+        if (end != at && is_letter(text[at])) {
+            visit(text.substr(at, end - at));
+        }
+        at = std::max(end, at + 1);
+    }
+}
+
+/// The words of a file outside of comments and behind no `//`.
+class FileWords {
+public:
+    FileWords(std::string_view text, bool letters) {
+        for (std::size_t at = 0; at < text.size();) {
+            if (text.substr(at, 2) == "//") {
+                at = std::min(text.find('\n', at), text.size());
+            } else if (text.substr(at, 2) == "/*") {
+                at = std::min(text.find("*/", at + 2), text.size() - 2) + 2;
+            } else {
+                const std::size_t end = std::min(text.find('/', at + 1), text.size());
+                for_each_word(text.substr(at, end - at), [&](std::string_view word) {
+                    words_.insert(word);
+                    if (letters) {
+                        letters_.insert(word.begin(), word.end());
+                    }
+                });
+                at = end;
+            }
+        }
+    }
+
+    [[nodiscard]] bool has(std::string_view word) const { return words_.count(word) != 0; }
+    /// Whether the letters of a word are those of a remark: none is a module of the file, or three
+    /// or more are not.
+    [[nodiscard]] bool has_foreign_letters(std::string_view word) const {
+        const auto foreign = std::count_if(
+            word.begin(), word.end(), [&](char letter) { return letters_.count(letter) == 0; });
+        return foreign >= 3 || foreign == static_cast<std::ptrdiff_t>(word.size());
+    }
+
+private:
+    std::unordered_set<std::string_view> words_;
+    std::unordered_set<char> letters_; // of all words
+};
+
+class CommentSearch {
+public:
+    CommentSearch(Resolution& resolution, const std::vector<bool>& known, NameSplitter& splitter)
+        : resolution_(resolution), known_(known), splitter_(splitter) {}
+
+    /// Whether `comment`, the text behind a `//`, has words outside of parentheses that are no modules: one of several
+    /// letters, or two in a row.
+    [[nodiscard]] bool is_comment(std::string_view comment, FileId file) {
+        bool found = false;
+        bool was_foreign = false;
+        const std::string words = without_arguments(comment);
+        for_each_word(words, [&](std::string_view word) {
+            const bool foreign = is_foreign(word, file);
+            const std::size_t enough = is_letters(file) ? 3 : 2;
+            found = found || (foreign && (was_foreign || word.size() >= enough));
+            was_foreign = foreign;
+        });
+        return found;
+    }
+
+private:
+    [[nodiscard]] bool is_letters(FileId file) const {
+        return std::ranges::find(resolution_.letter_files, file) != resolution_.letter_files.end();
+    }
+
+    [[nodiscard]] const FileWords& words_of(FileId file) {
+        const auto found = files_.find(file);
+        return found != files_.end()
+                   ? found->second
+                   : files_
+                         .emplace(file, FileWords(resolution_.sources.file(file).text(),
+                                                  is_letters(file)))
+                         .first->second;
+    }
+
+    [[nodiscard]] bool is_known(std::string_view name) const {
+        const NameId id = resolution_.names.find(name);
+        return id != kNoName && index_of(id) < known_.size() && known_[index_of(id)];
+    }
+
+    [[nodiscard]] bool is_foreign(std::string_view word, FileId file) {
+        const FileWords& words = words_of(file);
+        if (is_letters(file)) {
+            return !words.has(word) && words.has_foreign_letters(word);
+        }
+        if (is_known(word) || words.has(word)) {
+            return false;
+        }
+        const NameId id = resolution_.names.find(word);
+        return id == kNoName || index_of(id) >= known_.size() || !splitter_.may_split(id) ||
+               splitter_.parts(id, 0, file).empty();
+    }
+
+    Resolution& resolution_;
+    const std::vector<bool>& known_;
+    NameSplitter& splitter_;
+    std::map<FileId, FileWords> files_;
+};
+
+} // namespace
+
+void check_stray_comments(Resolution& resolution,
+                          const std::vector<bool>& known,
+                          NameSplitter& splitter) {
+    CommentSearch search(resolution, known, splitter);
+    for (const SourceSpan slashes : resolution.ast.slashes) {
+        const std::string_view text = resolution.sources.file(slashes.file).text();
+        if (text.size() > kMaxSearched) {
+            continue;
+        }
+        const std::string_view line = line_at(text, slashes.begin);
+        if (line.size() > 2 && search.is_comment(line.substr(2), slashes.file)) {
+            report_stray_comment(resolution.diagnostics, line, slashes);
+        }
+    }
+}
+
+} // namespace lsys

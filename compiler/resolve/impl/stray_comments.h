@@ -1,0 +1,16 @@
+// `//` among modules that is meant as a comment (docs/language.md section 1).
+#pragma once
+
+#include "compiler/resolve/impl/resolution.h"
+#include "compiler/resolve/impl/splitting.h"
+
+namespace lsys {
+
+/// Reports each `//` whose line goes on with a word that is no module of the grammar: neither known
+/// nor used outside of such lines, nor split into modules. `known`: by name. Precondition: no
+/// module of the Ast is released yet.
+void check_stray_comments(Resolution& resolution,
+                          const std::vector<bool>& known,
+                          NameSplitter& splitter);
+
+} // namespace lsys

@@ -1,0 +1,47 @@
+// Which diagnostics are errors, warnings or hidden: the options --allow, --warn and --deny, and the comments
+// `/* lsc: allow CODE */` of grammars. Errors stay errors.
+#pragma once
+
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+enum class MessageLevel : std::uint8_t {
+    Allow, // not shown
+    Warn,
+    Deny, // an error
+};
+
+/// Levels by code, and of all warnings and all notes. The level of a code wins over that of its
+/// group.
+class MessageLevels {
+public:
+    /// Sets the level of `what`: a code, `warnings` or `notes`. Returns the mistake: there is no
+    /// such code; the code is an error's; the code has another level already.
+    [[nodiscard]] std::optional<std::string> set(MessageLevel level, std::string_view what);
+
+    /// The level of a diagnostic that is no error; none: its usual severity.
+    [[nodiscard]] std::optional<MessageLevel> of(const Diagnostic& diagnostic) const;
+    [[nodiscard]] bool denies_warnings() const { return warnings_ == MessageLevel::Deny; }
+
+private:
+    std::map<DiagnosticCode, MessageLevel> codes_;
+    std::optional<MessageLevel> warnings_;
+    std::optional<MessageLevel> notes_;
+};
+
+/// Gives diagnostics the severities of their levels and removes those that are allowed, also by
+/// the comments of `sources`.
+void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics);
+
+/// Whether a diagnostic with this code can be allowed; if not, the reason in words: `x` is ...
+[[nodiscard]] std::optional<std::string> reason_against_level(std::string_view code);
+
+} // namespace lsys

@@ -1,0 +1,36 @@
+// Words that authors bring from other languages, and what stands for them here. Messages about
+// unknown words ask this table before they look for similar names. Rows: synonyms.def.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace lsys {
+
+enum class SynonymKind : std::uint8_t { Operator, Name, Function, Statement, Setting };
+
+/// A row of synonyms.def.
+struct Synonym {
+    SynonymKind kind{};
+    std::string_view word;
+    std::string_view source;   // where the word is from; may be empty
+    std::string_view spelling; // here; empty: nothing stands for it
+    std::string_view advice;   // what to do instead, or more about it; may be empty
+};
+
+/// Whether a function of this name exists here.
+using FunctionTest = std::function<bool(std::string_view name)>;
+
+/// The row of a word; null: there is none. The letter case does not count, except for words of one
+/// letter. Rows whose spelling calls a function that `exists` denies are passed over.
+[[nodiscard]] const Synonym*
+find_synonym(SynonymKind kind, std::string_view word, const FunctionTest& exists);
+/// The row of an operator, statement or setting, whose spelling calls no function.
+[[nodiscard]] const Synonym* find_synonym(SynonymKind kind, std::string_view word);
+
+/// A help text: "`and` of Python is `&&` here". `word`: as the author wrote it.
+[[nodiscard]] std::string help_for(const Synonym& synonym, std::string_view word);
+
+} // namespace lsys

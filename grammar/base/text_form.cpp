@@ -1,0 +1,85 @@
+#include "grammar/base/text_form.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace lsys {
+
+namespace {
+
+struct Signature {
+    std::string_view bytes; // at the begin of the file
+    std::string_view what;
+};
+constexpr std::array kSignatures{
+    Signature{"\x89PNG", "a PNG picture"},
+    Signature{"\xFF\xD8\xFF", "a JPEG picture"},
+    Signature{"GIF8", "a GIF picture"},
+    Signature{"%PDF-", "a PDF document"},
+    Signature{"PK\x03\x04", "a ZIP archive"},
+    Signature{"\x1F\x8B", "a file packed by gzip"},
+    Signature{"\x7F"
+              "ELF",
+              "a program"},
+    Signature{"glTF", "a glTF model"},
+    Signature{"BLENDER", "a file of Blender"},
+    Signature{"Kaydara FBX", "an FBX model"},
+};
+
+constexpr std::size_t kSampled = 4096;
+
+bool is_control(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v';
+}
+
+NoText utf16(std::string_view form) {
+    return {std::string(form) + " text", "a grammar is UTF-8 text; save the file in that encoding"};
+}
+
+/// Whether nearly all of every second byte from `first` on is NUL, that one too, and few others
+/// are.
+bool has_alternate_nuls(std::string_view sample, std::size_t first) {
+    if (sample.size() <= first || sample[first] != '\0') {
+        return false;
+    }
+    std::size_t nuls = 0;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (sample[i] == '\0') {
+            ++(i % 2 == first ? nuls : others);
+        }
+    }
+    const std::size_t places = (sample.size() + 1 - first) / 2;
+    return places >= 4 && nuls * 10 >= places * 8 && others * 10 <= places;
+}
+
+} // namespace
+
+std::optional<NoText> recognise_no_text(std::string_view bytes) {
+    if (bytes.starts_with(std::string_view("\xFF\xFE\0\0", 4)) ||
+        bytes.starts_with(std::string_view("\0\0\xFE\xFF", 4))) {
+        return utf16("UTF-32");
+    }
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+        return utf16("UTF-16");
+    }
+    for (const Signature& signature : kSignatures) {
+        if (bytes.starts_with(signature.bytes)) {
+            return NoText{std::string(signature.what), "a grammar is UTF-8 text"};
+        }
+    }
+    const std::string_view sample = bytes.substr(0, kSampled);
+    if (has_alternate_nuls(sample, 1) || has_alternate_nuls(sample, 0)) {
+        return utf16("UTF-16");
+    }
+    constexpr std::ptrdiff_t kFewControls = 16;
+    const std::ptrdiff_t controls = std::count_if(sample.begin(), sample.end(), is_control);
+    if (controls > kFewControls && controls * 20 > static_cast<std::ptrdiff_t>(sample.size())) {
+        return NoText{"no text", "a grammar is UTF-8 text"};
+    }
+    return std::nullopt;
+}
+
+} // namespace lsys

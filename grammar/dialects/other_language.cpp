@@ -1,0 +1,198 @@
+#include "grammar/dialects/other_language.h"
+
+#include "grammar/base/characters.h"
+#include "grammar/dialects/dialect.h"
+#include "grammar/dialects/impl/text.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+struct Line {
+    std::string_view text; // without blanks at its ends
+    std::uint32_t begin = 0;
+};
+
+/// The lines that are not empty, up to a number that tells any language.
+std::vector<Line> lines_of(std::string_view text) {
+    constexpr std::size_t kMaxLines = 2000;
+    std::vector<Line> lines;
+    for (std::size_t at = 0; at < text.size() && lines.size() < kMaxLines;) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = trimmed(text.substr(at, end - at));
+        if (!line.empty()) {
+            lines.push_back({line, static_cast<std::uint32_t>(line.data() - text.data())});
+        }
+        at = end + 1;
+    }
+    return lines;
+}
+
+/// The length of the identifier at the start of `text`.
+std::size_t word_length(std::string_view text) {
+    std::size_t length = 0;
+    while (length < text.size() && is_word_character(text[length])) {
+        ++length;
+    }
+    return length;
+}
+
+/// Whether a line begins a statement of .lsys that other languages do not have: `#n =`, `#name :`,
+/// `#set key`, or a `name :` with the further parts of a production.
+bool is_lsys_statement(std::string_view line) {
+    const bool has_hash = line.starts_with('#');
+    const std::string_view rest = line.substr(has_hash ? 1 : 0);
+    const std::size_t length = word_length(rest);
+    const std::string_view word = rest.substr(0, length);
+    const std::string_view behind = trimmed(rest.substr(length));
+    if (length == 0) {
+        return has_hash && rest.find(':') != std::string_view::npos && line.ends_with(';');
+    }
+    if (!has_hash) {
+        return behind.starts_with(':') && line.ends_with(';') &&
+               std::count(line.begin(), line.end(), ':') >= 2;
+    }
+    return behind.starts_with(':') || behind.starts_with('=') || word == "set" || word == "param" ||
+           word == "object" || word == "decompose" || word == "interpret" || word == "module" ||
+           line.ends_with(';');
+}
+
+/// The first line that satisfies `tells`.
+template <typename Tells>
+const Line* find_line(const std::vector<Line>& lines, const Tells& tells) {
+    const auto found = std::find_if(lines.begin(), lines.end(),
+                                    [&](const Line& line) { return tells(line.text); });
+    return found == lines.end() ? nullptr : &*found;
+}
+
+auto begins_with(std::string_view word) {
+    return [word](std::string_view line) { return lowered(line.substr(0, word.size())) == word; };
+}
+
+std::optional<OtherLanguage> made(const Line* line, std::string name, std::string help) {
+    if (line == nullptr) {
+        return std::nullopt;
+    }
+    return OtherLanguage{std::move(name), std::move(help), line->begin,
+                         line->begin + static_cast<std::uint32_t>(line->text.size())};
+}
+
+bool has_line(const std::vector<Line>& lines, std::string_view word) {
+    return find_line(lines, begins_with(word)) != nullptr;
+}
+
+/// Models of L-Py and lpfg, which are programs with `Axiom:` and `production:`.
+std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
+    const Line* const axiom = find_line(lines, begins_with("axiom:"));
+    if (has_line(lines, "#include <lpfgall.h>") ||
+        (axiom != nullptr &&
+         (has_line(lines, "module ") || has_line(lines, "derivation length:")) &&
+         find_line(lines, [](std::string_view line) {
+             return line.find("produce ") != std::string_view::npos && line.ends_with(';');
+         }) != nullptr)) {
+        return made(axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
+                    "lsc reads no lpfg; its productions are C++, and have to be written anew");
+    }
+    const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
+                        has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||
+                        find_line(lines, [](std::string_view line) {
+                            return line.starts_with("produce ") || line.starts_with("nproduce ");
+                        }) != nullptr;
+    return axiom != nullptr && is_lpy
+               ? made(axiom, "an L-Py model",
+                      "lsc reads no L-Py; its productions are Python, and have to be written anew")
+               : std::nullopt;
+}
+
+/// Files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
+std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
+    std::vector<const Line*> content;
+    for (const Line& line : lines) {
+        if (!line.text.starts_with('#')) {
+            content.push_back(&line);
+        }
+    }
+    const bool begins = content.size() >= 4 && is_number(content[0]->text) &&
+                        is_number(content[1]->text) && is_number(content[2]->text);
+    return begins ? made(content[0], "an Lparser file",
+                         "give it a name that ends with `.l`, or write `--dialect l3d`")
+                  : std::nullopt;
+}
+
+/// Formats that hold no grammar.
+std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
+    const Line& first = lines.front();
+    const std::string_view text = first.text;
+    const char second = text.size() > 1 ? text[1] : lines.size() > 1 ? lines[1].text[0] : '\0';
+    if ((text[0] == '{' && (second == '"' || second == '}')) ||
+        (text[0] == '[' && (second == '{' || second == '"'))) {
+        return made(&first, "JSON", "a grammar is text of its own; see `docs/manual.md`");
+    }
+    if (text.starts_with("<?xml") || text.starts_with("<!DOCTYPE") || text.starts_with("<svg") ||
+        text.starts_with("<html")) {
+        return made(&first, "XML or HTML", "save the grammar alone, as plain text");
+    }
+    if (text.starts_with("[[") || find_line(lines, [](std::string_view line) {
+                                      return line.starts_with("[[") && line.ends_with("]]");
+                                  }) != nullptr) {
+        return made(&first, "TOML",
+                    "a scene has a name that ends with `.toml`: `lsc forest scene.toml`");
+    }
+    const bool has_heading = text.starts_with("# ") || text.starts_with("## ");
+    const Line* const mark = find_line(lines, [](std::string_view line) {
+        return line.starts_with("```") || line.starts_with("## ") || line.starts_with("### ") ||
+               line.starts_with("- ") || line.starts_with("| ");
+    });
+    if (has_heading && mark != nullptr) {
+        return made(&first, "Markdown", "save the grammar alone, as plain text");
+    }
+    const Line* const import = find_line(lines, [](std::string_view line) {
+        return (line.starts_with("import ") || line.starts_with("from ") ||
+                line.starts_with("def ")) &&
+               !line.ends_with(';');
+    });
+    if (import != nullptr) {
+        return made(import, "a Python program", "a grammar has statements such as `#w : F;`");
+    }
+    return made(find_line(lines, begins_with("#include <")), "a C program",
+                "a grammar has statements such as `#w : F;`");
+}
+
+/// The advice for a dialect that lsc reads.
+std::string reading_of(const DialectRow& row) {
+    const std::string_view extensions = row.extensions.empty() ? ".l" : row.extensions;
+    return "give it a name that ends with `" +
+           std::string(extensions.substr(0, extensions.find(' '))) + "`, or write `--dialect " +
+           std::string(row.name) + "`";
+}
+
+} // namespace
+
+std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    if (lines.empty() || find_line(lines, [](std::string_view line) {
+                             return is_lsys_statement(line);
+                         }) != nullptr) {
+        return std::nullopt;
+    }
+    if (const DialectRow& cpfg = row_of(Dialect::Cpfg); !cpfg.recognise(text).empty()) {
+        return made(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
+                    reading_of(cpfg));
+    }
+    for (const auto recognise : {recognise_lpy, recognise_lparser}) {
+        if (std::optional<OtherLanguage> other = recognise(lines)) {
+            return other;
+        }
+    }
+    for (const DialectRow& row : dialects()) {
+        if (row.recognise != nullptr && !row.recognise(text).empty()) {
+            return made(&lines.front(), std::string(row.title), reading_of(row));
+        }
+    }
+    return recognise_format(lines);
+}
+
+} // namespace lsys

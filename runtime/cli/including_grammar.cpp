@@ -1,0 +1,85 @@
+#include "runtime/cli/including_grammar.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace lsys::lsc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFiles = 1000; // of a folder
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
+
+/// The .lsys files of a folder, by name.
+std::vector<fs::path> grammars_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code failed;
+    fs::directory_iterator entries(folder, failed);
+    for (; !failed && entries != fs::directory_iterator() && files.size() < kMaxFiles;
+         entries.increment(failed)) {
+        std::error_code ignored;
+        if (entries->path().extension() == ".lsys" && entries->is_regular_file(ignored) &&
+            entries->file_size(ignored) <= kMaxBytes) {
+            files.push_back(entries->path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// Calls visit(name) for each `#include "name"` of a text.
+template <typename Visit>
+void for_each_include(std::string_view text, const Visit& visit) {
+    constexpr std::string_view kInclude = "#include";
+    for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
+         at = text.find(kInclude, at)) {
+        at += kInclude.size();
+        const std::size_t quote = text.find_first_not_of(" \t\r\n", at);
+        if (quote == std::string_view::npos || text[quote] != '"') {
+            continue;
+        }
+        const std::size_t end = text.find_first_of("\"\n", quote + 1);
+        if (end != std::string_view::npos && text[end] == '"') {
+            visit(text.substr(quote + 1, end - quote - 1));
+        }
+    }
+}
+
+bool includes(const fs::path& grammar, const fs::path& part) {
+    std::ifstream in(grammar, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    bool found = false;
+    for_each_include(text, [&](std::string_view name) {
+        std::error_code ignored;
+        found = found || fs::weakly_canonical(grammar.parent_path() / name, ignored) == part;
+    });
+    return found;
+}
+
+} // namespace
+
+std::optional<std::string> find_including_grammar(const std::string& path) {
+    std::error_code failed;
+    const fs::path part = fs::weakly_canonical(path, failed);
+    if (failed || part.empty()) {
+        return std::nullopt;
+    }
+    for (const fs::path& folder : {part.parent_path(), part.parent_path().parent_path()}) {
+        for (const fs::path& grammar : grammars_in(folder)) {
+            if (grammar != part && includes(grammar, part)) {
+                return grammar.lexically_proximate(fs::current_path(failed)).string();
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,31 @@
+// The decision about one module in one pass, read from docs/language.md sections 5 and 6: every
+// production that has its name, the choice among several, and the successor.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/impl/traced_word.h"
+#include "runtime/derive/trace.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// What a pass reads; `word` is its input.
+struct TracedPass {
+    const Bytecode& bytecode;
+    const TraceInputs& inputs;
+    const TracedWord& word;
+    const DerivationPass& facts;
+};
+
+/// The productions that a pass tries, in file order.
+[[nodiscard]] std::vector<std::uint32_t> productions_of_pass(const Bytecode& bytecode,
+                                                             const DerivationPass& facts);
+
+/// Explains the module at `position`. `fate` is Copied, Rewritten or Failed.
+[[nodiscard]] ModuleTrace explain_module(const TracedPass& pass,
+                                         const std::vector<std::uint32_t>& productions,
+                                         std::uint64_t position);
+
+} // namespace lsys

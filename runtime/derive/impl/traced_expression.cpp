@@ -1,0 +1,357 @@
+#include "runtime/derive/impl/traced_expression.h"
+
+#include "compiler/bytecode/arithmetic.h"
+#include "compiler/bytecode/curve.h"
+#include "compiler/bytecode/distributions.h"
+#include "compiler/bytecode/interpret.h"
+#include "compiler/bytecode/verify.h"
+#include "runtime/derive/word_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// Longer texts of expressions are cut.
+constexpr std::size_t kMaxText = 160;
+
+/// How tightly an operation binds (docs/language.md section 4).
+enum class Binding : std::uint8_t { Or, And, Equal, Less, Add, Multiply, Unary, Power, Leaf };
+
+struct Infix {
+    std::string_view sign;
+    Binding binding = Binding::Leaf;
+};
+
+/// The sign of an operation between two operands; empty for functions.
+Infix infix_of(Opcode opcode) {
+    switch (opcode) {
+    case Opcode::Or:
+        return {"||", Binding::Or};
+    case Opcode::And:
+        return {"&&", Binding::And};
+    case Opcode::Equal:
+        return {"==", Binding::Equal};
+    case Opcode::NotEqual:
+        return {"!=", Binding::Equal};
+    case Opcode::Less:
+        return {"<", Binding::Less};
+    case Opcode::LessEqual:
+        return {"<=", Binding::Less};
+    case Opcode::Greater:
+        return {">", Binding::Less};
+    case Opcode::GreaterEqual:
+        return {">=", Binding::Less};
+    case Opcode::Add:
+        return {"+", Binding::Add};
+    case Opcode::Subtract:
+        return {"-", Binding::Add};
+    case Opcode::Multiply:
+        return {"*", Binding::Multiply};
+    case Opcode::Divide:
+        return {"/", Binding::Multiply};
+    case Opcode::Power:
+        return {"^", Binding::Power};
+    default:
+        return {};
+    }
+}
+
+std::string number_text(float value) {
+    if (std::isnan(value)) {
+        return "not a number";
+    }
+    if (std::isinf(value)) {
+        return value > 0.0F ? "infinity" : "-infinity";
+    }
+    std::string text;
+    append_number(value, text);
+    return text;
+}
+
+/// A value with its text.
+struct Shown {
+    float number = 0.0F;
+    std::string text;
+    Binding binding = Binding::Leaf;
+    bool is_new_slot = true; // of a slot: it has no name yet
+    bool is_truth = false;   // a comparison or a logical operation
+};
+
+std::string cut(std::string text) {
+    if (text.size() > kMaxText) {
+        text.resize(kMaxText - 3);
+        text += "...";
+    }
+    return text;
+}
+
+Shown leaf(float number, std::string text) {
+    return {number, std::move(text), Binding::Leaf};
+}
+
+/// The value of an operand of `&&`, `||` or `!`: a truth if it is one.
+std::string truth_text(const Shown& shown) {
+    if (!shown.is_truth) {
+        return number_text(shown.number);
+    }
+    return shown.number != 0.0F ? "true" : "false";
+}
+
+/// The text of an operand, in parentheses where it binds less tightly than `least`.
+std::string operand(const Shown& shown, Binding least) {
+    return shown.binding < least ? "(" + shown.text + ")" : shown.text;
+}
+
+Binding tighter(Binding binding) {
+    return static_cast<Binding>(static_cast<std::uint8_t>(binding) + 1);
+}
+
+/// The domain of numbers with texts.
+struct ShownNumbers : UnknownDomain<Shown> {
+    static constexpr bool kKnowsChoices = true;
+
+    ShownNumbers(const TracedFrame& given, RangeDraws* from, std::uint64_t first)
+        : frame(given), draws(from), first_draw(first), slots(given.bytecode.local_count) {}
+
+    const TracedFrame& frame;
+    RangeDraws* draws;
+    std::uint64_t first_draw;
+    bool has_locals = false; // the code is that of a successor
+    std::vector<Shown> slots;
+    std::vector<TracedPart> parts;
+    std::vector<TracedRange> ranges;
+    std::map<std::size_t, TracedLocal> locals; // by slot
+    std::vector<Shown> taken;
+    std::string fault;
+
+    /// Gives slots of local values that were just set their names. Others are arguments of
+    /// functions.
+    bool enter() {
+        const std::size_t named =
+            frame.names == nullptr || !has_locals ? 0 : frame.names->locals.size();
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            Shown& slot = slots[i];
+            if (slot.is_new_slot && !slot.text.empty() && i < named) {
+                locals[i] = {frame.names->locals[i].name, slot.text, slot.number};
+                slot.text = frame.names->locals[i].name;
+                slot.binding = Binding::Leaf;
+            }
+            slot.is_new_slot = false;
+        }
+        return true;
+    }
+    static Shown literal(float value) { return leaf(value, number_text(value)); }
+    [[nodiscard]] Shown formal(std::uint32_t index) const {
+        const bool named = frame.names != nullptr && index < frame.names->formals.size();
+        return leaf(frame.values.formals[index],
+                    named ? frame.names->formals[index] : "$" + std::to_string(index));
+    }
+    [[nodiscard]] Shown global(std::uint32_t index) const {
+        return leaf(frame.values.globals[index], frame.bytecode.globals[index].name);
+    }
+    [[nodiscard]] Shown step() const { return leaf(frame.values.step, "step()"); }
+    [[nodiscard]] Shown steps() const { return leaf(frame.values.steps, "steps()"); }
+    [[nodiscard]] Shown branch_draw(std::uint32_t branch) const {
+        return leaf(draws == nullptr ? 0.0F : draws->draw_branch(branch), "branch");
+    }
+
+    Shown add(Shown shown, std::string values, bool is_truth) {
+        shown.text = cut(std::move(shown.text));
+        shown.is_truth = is_truth;
+        parts.push_back({shown.text, std::move(values), shown.number, is_truth});
+        return shown;
+    }
+    Shown call(std::string_view name, std::vector<const Shown*> operands, float number) {
+        std::string text(name);
+        std::string values(name);
+        for (std::size_t i = 0; i < operands.size(); ++i) {
+            text += (i == 0 ? "(" : ", ") + operands[i]->text;
+            values += (i == 0 ? "(" : ", ") + number_text(operands[i]->number);
+        }
+        return add(leaf(number, text + ")"), values + ")", false);
+    }
+    Shown unary(Opcode opcode, const Shown& x) {
+        const float number = arithmetic::apply(opcode, x.number, 0.0F);
+        if (opcode == Opcode::Negate || opcode == Opcode::Not) {
+            const char* const sign = opcode == Opcode::Not ? "!" : "-";
+            Shown result{number, sign + operand(x, Binding::Unary), Binding::Unary};
+            if (opcode == Opcode::Negate && x.binding == Binding::Leaf) {
+                return result; // its value is seen where it is used
+            }
+            return add(std::move(result),
+                       sign + (opcode == Opcode::Not ? truth_text(x) : number_text(x.number)),
+                       opcode == Opcode::Not);
+        }
+        return call(info(opcode).mnemonic, {&x}, number);
+    }
+    Shown binary(Opcode opcode, const Shown& x, const Shown& y) {
+        const float number = arithmetic::apply(opcode, x.number, y.number);
+        const Infix infix = infix_of(opcode);
+        if (infix.sign.empty()) {
+            return call(info(opcode).mnemonic, {&x, &y}, number);
+        }
+        const bool chains =
+            infix.binding != Binding::Equal && infix.binding != Binding::Less; // from left to right
+        const bool to_right = infix.binding == Binding::Power;
+        const Binding next = tighter(infix.binding);
+        const std::string sign = " " + std::string(infix.sign) + " ";
+        Shown result{number,
+                     operand(x, chains && !to_right ? infix.binding : next) + sign +
+                         operand(y, to_right ? infix.binding : next),
+                     infix.binding};
+        const bool joins = opcode == Opcode::And || opcode == Opcode::Or;
+        return add(std::move(result),
+                   joins ? truth_text(x) + sign + truth_text(y)
+                         : number_text(x.number) + sign + number_text(y.number),
+                   infix.binding <= Binding::Less);
+    }
+    Shown curve(std::uint32_t index, const Shown& x) {
+        const BytecodeCurve& curve = frame.bytecode.curves[index];
+        return call(curve.name, {&x}, curve_value(curve.points, x.number));
+    }
+    Shown mix(const Shown& x, const Shown& y, const Shown& t) {
+        return call("mix", {&x, &y, &t}, arithmetic::mix(x.number, y.number, t.number));
+    }
+    bool holds(const Shown& x) {
+        if (!x.is_truth) { // else it is a part of its own
+            parts.push_back({"if(" + x.text + ", ...)", "if(" + number_text(x.number) + ", ...)",
+                             x.number != 0.0F ? 1.0F : 0.0F, true});
+        }
+        return x.number != 0.0F;
+    }
+    bool draw(
+        Opcode opcode, Shown& x, const Shown& y, std::uint32_t index, const std::uint32_t* /*at*/) {
+        TracedRange range;
+        range.opcode = opcode;
+        range.number = first_draw + index;
+        range.arguments = {x.number};
+        std::string inner = x.text;
+        if (opcode != Opcode::Poisson) {
+            range.arguments.push_back(y.number);
+            inner += ", " + y.text;
+        }
+        const bool is_range = opcode == Opcode::Range;
+        range.text = cut(is_range ? "{" + inner + "}"
+                                  : std::string(info(opcode).mnemonic) + "(" + inner + ")");
+        fault = is_range ? range_fault(range) : distribution_fault(range, x.number, y.number);
+        if (!fault.empty() || draws == nullptr) {
+            return false;
+        }
+        range.unit = draws->draw(index);
+        range.value = is_range ? draw_in_range(x.number, y.number, range.unit)
+                               : draw_from(opcode, x.number, y.number, range.unit);
+        x = leaf(range.value, range.text);
+        ranges.push_back(std::move(range));
+        return true;
+    }
+    static std::string range_fault(const TracedRange& range) {
+        const float minimum = range.arguments[0];
+        const float maximum = range.arguments[1];
+        switch (check_range(minimum, maximum)) {
+        case Fault::None:
+            return {};
+        case Fault::RangeReversed:
+            return range.text + " has its minimum " + number_text(minimum) + " above its maximum " +
+                   number_text(maximum);
+        default:
+            return range.text + " reaches from " + number_text(minimum) + " to " +
+                   number_text(maximum);
+        }
+    }
+    static std::string distribution_fault(const TracedRange& range, float x, float y) {
+        if (check_distribution(range.opcode, x, y) == DistributionFault::None) {
+            return {};
+        }
+        return range.text + " cannot be drawn from " + number_text(x) +
+               (range.arguments.size() > 1 ? " and " + number_text(y) : std::string());
+    }
+    bool take(const Shown& x, const std::uint32_t* /*at*/) {
+        if (!std::isfinite(x.number)) {
+            fault = x.text + " is " + number_text(x.number);
+        }
+        taken.push_back(x);
+        return fault.empty();
+    }
+
+    /// The local values that are leaves, which no code computes. Others come before them.
+    void add_leaves() {
+        const std::size_t named = frame.names == nullptr ? 0 : frame.names->locals.size();
+        for (std::size_t i = 0; i < named; ++i) {
+            const ProductionNames::Local& local = frame.names->locals[i];
+            if (const std::optional<Shown> shown = leaf_of(local)) {
+                locals[i] = {local.name, shown->text, shown->number};
+            }
+        }
+    }
+    [[nodiscard]] std::optional<Shown> leaf_of(const ProductionNames::Local& local) const {
+        switch (local.leaf) {
+        case Opcode::Literal:
+            return literal(local.literal);
+        case Opcode::Formal:
+            return formal(local.index);
+        case Opcode::Global:
+            return global(local.index);
+        case Opcode::Step:
+            return step();
+        case Opcode::Steps:
+            return steps();
+        case Opcode::Local:
+            return local.index < slots.size() ? std::optional(slots[local.index]) : std::nullopt;
+        default:
+            return std::nullopt;
+        }
+    }
+
+    /// Runs the code at `first`, if there is any.
+    bool run(std::uint32_t first) {
+        std::vector<Shown> stack(std::max<std::size_t>(frame.bytecode.stack_depth, kUsualStack));
+        return first == kNone || interpret(frame.bytecode.instructions.data() + first, *this,
+                                           stack.data(), slots.data());
+    }
+};
+
+} // namespace
+
+ExpressionTrace trace_condition(const TracedFrame& frame, std::uint32_t first) {
+    ShownNumbers numbers(frame, nullptr, 0);
+    static_cast<void>(numbers.run(first));
+    ExpressionTrace trace;
+    if (!numbers.taken.empty()) {
+        trace.text = std::move(numbers.taken.front().text);
+        trace.value = numbers.taken.front().number;
+    }
+    trace.is_finite = numbers.fault.empty();
+    trace.parts = std::move(numbers.parts);
+    return trace;
+}
+
+SuccessorTrace trace_successor(const TracedFrame& frame,
+                               const WordTemplate& word,
+                               RangeDraws draws,
+                               std::uint64_t first_draw) {
+    ShownNumbers numbers(frame, &draws, first_draw);
+    numbers.has_locals = true;
+    const bool ok = numbers.run(word.locals) && numbers.run(word.arguments);
+    SuccessorTrace trace;
+    numbers.add_leaves();
+    for (auto& [slot, local] : numbers.locals) {
+        trace.locals.push_back(std::move(local));
+    }
+    trace.ranges = std::move(numbers.ranges);
+    for (const Shown& taken : numbers.taken) {
+        trace.arguments.push_back(taken.number);
+    }
+    if (!ok) {
+        trace.fault = std::move(numbers.fault);
+    }
+    return trace;
+}
+
+} // namespace lsys

@@ -1,0 +1,50 @@
+// A word as a trace reads it: modules by position, and the neighbours of a module by walking
+// (docs/language.md section 5). Slow and direct; holds no table but the places of parameters.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/trace.h"
+#include "runtime/derive/word.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+class TracedWord {
+public:
+    /// Bytecode and word outlive the object.
+    TracedWord(const Bytecode& bytecode, const Word& word);
+
+    [[nodiscard]] std::uint64_t count() const { return word_.module_count(); }
+    [[nodiscard]] SymbolId symbol(std::uint64_t position) const {
+        return bytecode_.symbol_of(word_.code(position));
+    }
+    [[nodiscard]] TracedModule module(std::uint64_t position) const;
+
+    /// Searches the left context of `production` from the module at `position`.
+    [[nodiscard]] ContextTrace left(const BytecodeProduction& production,
+                                    std::uint64_t position) const;
+    /// Searches the right context from gap `gap`, the place before module `gap`.
+    [[nodiscard]] ContextTrace right(const BytecodeProduction& production, std::uint64_t gap) const;
+    /// The cut that takes out the module at `position`; the module itself if it cuts.
+    [[nodiscard]] std::optional<std::uint64_t> cut_of(std::uint64_t position) const;
+
+private:
+    [[nodiscard]] SymbolKind kind(std::uint64_t position) const {
+        return bytecode_.symbol(symbol(position)).kind;
+    }
+    [[nodiscard]] bool is_ignored(std::uint64_t position) const;
+    [[nodiscard]] std::optional<std::uint64_t> left_of(std::uint64_t position,
+                                                       ContextTrace& trace) const;
+    [[nodiscard]] std::optional<std::uint64_t> next_from(std::uint64_t gap,
+                                                         ContextTrace& trace) const;
+    [[nodiscard]] std::uint64_t after_branch(std::uint64_t open) const;
+
+    const Bytecode& bytecode_;
+    const Word& word_;
+    std::vector<std::uint64_t> parameters_before_; // of each kStride-th module
+};
+
+} // namespace lsys

@@ -1,0 +1,333 @@
+#include "runtime/derive/trace.h"
+
+#include "grammar/base/contract.h"
+#include "runtime/derive/impl/explain_module.h"
+#include "runtime/derive/impl/traced_word.h"
+#include "runtime/derive/word_text.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// A module as the engine has written it.
+bool equals(const TracedWord& word, std::uint64_t position, const TracedModule& expected) {
+    return same_module(word.module(position), expected);
+}
+
+} // namespace
+
+bool same_module(const TracedModule& first, const TracedModule& second) {
+    return first.symbol == second.symbol &&
+           std::equal(first.values.begin(), first.values.end(), second.values.begin(),
+                      second.values.end(), [](float x, float y) {
+                          return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+                      });
+}
+
+std::string module_text(const Bytecode& bytecode, const TracedModule& module) {
+    return module_text(bytecode, bytecode.symbol(module.symbol).name, module.values);
+}
+
+std::string
+module_text(const Bytecode& bytecode, std::string_view name, const std::vector<float>& values) {
+    std::string text = spelled_name(name, bytecode.settings.print_letters);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        text += i == 0 ? "(" : ", ";
+        append_number(values[i], text);
+    }
+    text += values.empty() ? "" : ")";
+    return text;
+}
+
+std::vector<TracedModule> modules_at(const Bytecode& bytecode,
+                                     const Word& word,
+                                     const std::vector<std::uint64_t>& positions) {
+    const TracedWord traced(bytecode, word);
+    std::vector<TracedModule> modules;
+    for (const std::uint64_t position : positions) {
+        modules.push_back(traced.module(position));
+    }
+    return modules;
+}
+
+struct StepTracer::State {
+    State(const Bytecode& program, TraceInputs given)
+        : bytecode(program), inputs(std::move(given)) {}
+
+    const Bytecode& bytecode;
+    TraceInputs inputs;
+    std::vector<ModuleTrace> traces;
+    std::vector<Place> places;           // tracked in the current word, ascending
+    std::vector<ModuleTrace> unrun;      // of the roots, if the engine makes no pass
+    std::vector<std::uint32_t> of_names; // productions of the current pass
+    bool multiple = false;               // the pass has predecessors of several modules
+    std::size_t first_of_pass = 0;       // in traces
+    /// By place: its trace in the current pass; kNoTrace: it was copied without a trace.
+    std::vector<std::size_t> trace_of_place;
+    bool ok = true;
+
+    /// Whether a production of the pass has the name of the symbol.
+    [[nodiscard]] bool concerns(SymbolId symbol) const {
+        return std::any_of(of_names.begin(), of_names.end(), [&](std::uint32_t index) {
+            const TableRange predecessor = bytecode.productions[index].predecessor;
+            return bytecode.patterns[predecessor.first].symbol == symbol;
+        });
+    }
+
+    std::size_t add(ModuleTrace trace, const Place& place) {
+        trace.root = place.root;
+        trace.parent = place.parent;
+        trace.offset = place.offset;
+        traces.push_back(std::move(trace));
+        return traces.size() - 1;
+    }
+
+    void begin_cuts(const TracedWord& word, const DerivationPass& facts) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const std::optional<std::uint64_t> cut = word.cut_of(places[i].position);
+            if (!cut) {
+                continue;
+            }
+            ModuleTrace trace;
+            trace.kind = facts.kind;
+            trace.generation = facts.generation;
+            trace.position = places[i].position;
+            trace.module = word.module(places[i].position);
+            trace.fate = Fate::Cut;
+            trace.cause = *cut;
+            trace_of_place[i] = add(std::move(trace), places[i]);
+        }
+    }
+
+    /// Explains the tracked modules that productions of the pass concern. A root is always
+    /// explained, except in the passes of a sequential generation for other rules.
+    void begin_productions(const TracedWord& word, const DerivationPass& facts) {
+        const TracedPass pass{bytecode, inputs, word, facts};
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Place& place = places[i];
+            const bool first = facts.kind == DerivationPass::Kind::Rewrite &&
+                               bytecode.settings.rewriting != RewritingMode::Sequential;
+            if (first || concerns(word.symbol(place.position))) {
+                trace_of_place[i] = add(explain_module(pass, of_names, place.position), place);
+            }
+        }
+        if (multiple) {
+            find_used_up(pass);
+        }
+    }
+
+    /// With predecessors of several modules, a match may begin before a tracked module and use it
+    /// up. Reads the word from its start, as the pass does; adds the places of such matches.
+    void find_used_up(const TracedPass& pass) {
+        const std::vector<Place> tracked = places;
+        const std::vector<std::size_t> traced = trace_of_place;
+        places.clear();
+        trace_of_place.clear();
+        std::size_t next = 0;
+        for (std::uint64_t i = 0; i < pass.word.count() && next < tracked.size();) {
+            std::uint32_t used = 1;
+            std::optional<ModuleTrace> match;
+            if (concerns(pass.word.symbol(i))) {
+                match = explain_module(pass, of_names, i);
+                used = match->fate == Fate::Rewritten ? match->replaced : 1;
+            }
+            bool has_place = false;
+            for (; next < tracked.size() && tracked[next].position < i + used; ++next) {
+                Place place = tracked[next];
+                std::size_t trace = traced[next];
+                if (place.position > i) { // used up
+                    ModuleTrace used_up;
+                    if (trace != kNoTrace) {
+                        used_up = std::move(traces[trace]);
+                        used_up.choice.reset();
+                        used_up.locals.clear();
+                        used_up.ranges.clear();
+                        used_up.written.clear();
+                        used_up.fault.clear();
+                        used_up.attempts.clear();
+                        used_up.other_names = 0;
+                    } else {
+                        used_up.kind = pass.facts.kind;
+                        used_up.rule = pass.facts.rule;
+                        used_up.generation = pass.facts.generation;
+                        used_up.position = place.position;
+                        used_up.module = pass.word.module(place.position);
+                    }
+                    used_up.fate = Fate::UsedUp;
+                    used_up.cause = i;
+                    used_up.production = match->production;
+                    if (trace != kNoTrace) {
+                        traces[trace] = std::move(used_up);
+                    } else {
+                        trace = add(std::move(used_up), place);
+                    }
+                    if (has_place) {
+                        continue;
+                    }
+                    place.parent = trace;
+                    place.position = i;
+                    trace = add(*match, place);
+                }
+                has_place = true;
+                places.push_back(place);
+                trace_of_place.push_back(trace);
+            }
+            i += used;
+        }
+    }
+
+    /// Compares the successors with the word written, and goes on with its modules.
+    void end(const Word& out) {
+        const TracedWord word(bytecode, out);
+        const std::span<const Origin> origins = out.origins();
+        LSYS_CHECK(origins.size() == out.module_count(), origins.size());
+        const auto first_from = [&](std::uint64_t position) {
+            return static_cast<std::uint64_t>(std::partition_point(origins.begin(), origins.end(),
+                                                                   [&](const Origin& origin) {
+                                                                       return origin.place <
+                                                                              position;
+                                                                   }) -
+                                              origins.begin());
+        };
+        std::vector<Place> written;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const std::uint64_t begin = first_from(places[i].position);
+            const std::uint64_t end = first_from(places[i].position + 1);
+            const std::size_t index = trace_of_place[i];
+            Place place = places[i];
+            if (index != kNoTrace) {
+                ModuleTrace& trace = traces[index];
+                trace.first_written = begin;
+                trace.is_checked = true;
+                trace.agrees = trace.written.size() == end - begin && trace.fate != Fate::Failed;
+                for (std::uint64_t k = 0; trace.agrees && k < end - begin; ++k) {
+                    trace.agrees = equals(word, begin + k, trace.written[k]);
+                }
+                ok = ok && trace.agrees;
+                if (trace.fate == Fate::Rewritten) {
+                    place.parent = index;
+                    place.offset = 0;
+                }
+            }
+            const bool is_written = place.parent != places[i].parent;
+            for (std::uint64_t k = begin; k < end; ++k) {
+                place.position = k;
+                place.offset = is_written ? k - begin : place.offset;
+                written.push_back(place);
+            }
+        }
+        for (std::size_t i = first_of_pass; i < traces.size(); ++i) {
+            traces[i].is_checked = true;
+            traces[i].agrees = traces[i].agrees || traces[i].fate == Fate::UsedUp;
+        }
+        places = std::move(written);
+    }
+};
+
+StepTracer::StepTracer(const Bytecode& bytecode, TraceInputs inputs)
+    : state_(std::make_unique<State>(bytecode, std::move(inputs))) {}
+StepTracer::~StepTracer() = default;
+StepTracer::StepTracer(StepTracer&&) noexcept = default;
+StepTracer& StepTracer::operator=(StepTracer&&) noexcept = default;
+
+void StepTracer::begin(const std::vector<std::uint64_t>& positions,
+                       const Word& word,
+                       std::uint32_t age,
+                       DerivationPass::Kind kind) {
+    State& state = *state_;
+    state.traces.clear();
+    state.places.clear();
+    state.unrun.clear();
+    state.ok = true;
+    const Bytecode& bytecode = state.bytecode;
+    DerivationPass facts{.kind = kind, .generation = age};
+    if (kind == DerivationPass::Kind::Rewrite &&
+        bytecode.settings.rewriting == RewritingMode::Cyclic && bytecode.rewriting_rules() != 0) {
+        facts.rule = age % bytecode.rewriting_rules();
+    }
+    const std::vector<std::uint32_t> productions = productions_of_pass(bytecode, facts);
+    const TracedWord traced(bytecode, word);
+    const TracedPass pass{bytecode, state.inputs, traced, facts};
+    for (const std::uint64_t position : positions) {
+        const Place place{position, state.places.size(), kNoTrace, 0};
+        state.places.push_back(place);
+        ModuleTrace trace = explain_module(pass, productions, position);
+        trace.root = place.root;
+        trace.was_run = false;
+        state.unrun.push_back(std::move(trace));
+    }
+}
+
+void StepTracer::on_pass(const DerivationPass& facts) {
+    State& state = *state_;
+    if (facts.out != nullptr) {
+        state.end(*facts.out);
+        return;
+    }
+    state.first_of_pass = state.traces.size();
+    state.trace_of_place.assign(state.places.size(), kNoTrace);
+    const TracedWord word(state.bytecode, *facts.in);
+    if (facts.kind == DerivationPass::Kind::Cut) {
+        state.begin_cuts(word, facts);
+        return;
+    }
+    state.of_names = productions_of_pass(state.bytecode, facts);
+    state.multiple =
+        std::any_of(state.of_names.begin(), state.of_names.end(), [&](std::uint32_t index) {
+            return state.bytecode.productions[index].predecessor.count > 1;
+        });
+    state.begin_productions(word, facts);
+}
+
+void StepTracer::finish() {
+    State& state = *state_;
+    std::vector<bool> traced(state.unrun.size(), false);
+    for (const ModuleTrace& trace : state.traces) {
+        traced[trace.root] = traced[trace.root] || trace.kind == DerivationPass::Kind::Cut ||
+                             trace.kind == state.unrun[trace.root].kind;
+    }
+    for (std::size_t root = 0; root < traced.size(); ++root) {
+        if (traced[root]) {
+            continue;
+        }
+        ModuleTrace& trace = state.unrun[root];
+        trace.is_checked = true; // the engine found no module that a pass could change
+        trace.agrees = trace.fate == Fate::Copied;
+        trace.first_written = trace.position;
+        for (const Place& place : state.places) {
+            if (place.root == root && place.parent == kNoTrace) {
+                trace.first_written = place.position; // later passes may have moved it
+            }
+        }
+        state.ok = state.ok && trace.agrees;
+        // A root's own trace comes before those of what it became.
+        for (ModuleTrace& other : state.traces) {
+            if (other.parent != kNoTrace) {
+                ++other.parent;
+            }
+        }
+        for (Place& place : state.places) {
+            if (place.parent != kNoTrace) {
+                ++place.parent;
+            }
+        }
+        state.traces.insert(state.traces.begin(), trace);
+    }
+}
+
+const std::vector<ModuleTrace>& StepTracer::traces() const {
+    return state_->traces;
+}
+const std::vector<StepTracer::Place>& StepTracer::places() const {
+    return state_->places;
+}
+bool StepTracer::agrees() const {
+    return state_->ok;
+}
+
+} // namespace lsys

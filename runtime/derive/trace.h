@@ -1,0 +1,241 @@
+// Trace: why one step of a derivation wrote what it wrote for some modules. A direct evaluator
+// reads docs/language.md sections 5 and 6 sentence by sentence, without the tables of engine/, and
+// compares each successor with the one that the engine wrote in its place.
+//
+//     Derivation ─ DeriveOptions::on_pass ─→ StepTracer ─→ ModuleTrace ...
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "grammar/base/counted_enum.h"
+#include "runtime/derive/derive.h"
+#include "runtime/derive/word.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::size_t kNoTrace = ~std::size_t{0};
+
+/// A module with the values of its parameters.
+struct TracedModule {
+    SymbolId symbol = kNoSymbol;
+    std::vector<float> values;
+};
+/// Whether the symbols are equal and the values have the same bits.
+[[nodiscard]] bool same_module(const TracedModule& first, const TracedModule& second);
+
+/// A module as words show it: `A(3, 0.5)`.
+[[nodiscard]] std::string module_text(const Bytecode& bytecode, const TracedModule& module);
+[[nodiscard]] std::string
+module_text(const Bytecode& bytecode, std::string_view name, const std::vector<float>& values);
+
+/// A module that a context search came to.
+struct MetModule {
+    std::uint64_t position = 0; // in the word read
+    std::uint32_t item = 0;     // of the pattern, that it was compared with
+    TracedModule module;
+};
+
+LSYS_COUNTED_ENUM(ContextEnd,
+                  Fits,
+                  OtherModule, // the last module met is not the one of the pattern
+                  EndOfPath,   // there is no further module
+                  NoBranch,    // there is no branch where the pattern has `[`
+                  NotSearched);
+
+/// The search for a context, in the order in which it goes: from the module outwards.
+struct ContextTrace {
+    ContextEnd end = ContextEnd::NotSearched;
+    std::vector<MetModule> met;
+    std::uint32_t item = 0;     // of the pattern, where the search ended without fitting
+    std::uint64_t ignored = 0;  // modules passed over because of #ignore or #consider
+    std::uint64_t branches = 0; // branches passed over
+};
+
+/// An operation of an expression with its value.
+struct TracedPart {
+    std::string text;   // "x * 2 > y"
+    std::string values; // "3 > 2.5"
+    float value = 0.0F;
+    bool is_truth = false; // a comparison or a logical operation
+};
+
+/// A random range or a distribution, and its draw.
+struct TracedRange {
+    std::string text; // "{0.8, 1.2}", "normal(2, 0.3)"
+    Opcode opcode = Opcode::Range;
+    std::uint64_t number = 0;     // of the draw
+    std::vector<float> arguments; // minimum and maximum, or those of the distribution
+    float unit = 0.0F;            // u of docs/language.md section 6
+    float value = 0.0F;
+};
+
+/// A local value.
+struct TracedLocal {
+    std::string name;
+    std::string text; // of its expression
+    float value = 0.0F;
+};
+
+/// An expression that was evaluated. Long texts end with "...".
+struct ExpressionTrace {
+    std::string text;
+    std::vector<TracedPart> parts; // operands before operations
+    float value = 0.0F;
+    bool is_finite = true;
+};
+
+LSYS_COUNTED_ENUM(Verdict,
+                  Applies,
+                  OtherCount,  // the predecessor has another number of parameters
+                  OtherRule,   // rewriting cyclic: the rule of another generation
+                  Predecessor, // the modules after the first one are others
+                  LeftContext,
+                  RightContext,
+                  Condition, // it is 0
+                  Fault,     // the condition or the weight is not finite, or the weight negative
+                  NoWeight,  // the computed weight is 0
+                  NotDrawn,  // it matches, and chance chose another one
+                  NotTried); // a production before it was taken
+
+/// One production that has a module's name, and why it applies or does not.
+struct Attempt {
+    ProductionId production = kNoProduction;
+    Verdict verdict = Verdict::NotTried;
+    std::vector<MetModule> predecessor; // of several modules: those after the first that were met
+    ContextTrace left;
+    ContextTrace right;
+    std::optional<ExpressionTrace> condition; // if it was evaluated
+    std::optional<ExpressionTrace> weight;    // if it is an expression that was evaluated
+};
+
+/// The choice among productions with probabilities.
+struct ChoiceTrace {
+    struct Alternative {
+        ProductionId production = kNoProduction;
+        float weight = 0.0F;
+        float running = 0.0F; // sum of normalised weights up to this one
+    };
+    std::vector<Alternative> alternatives; // in file order; more than one
+    bool by_generation = false;            // `choice generation`: one draw for all modules
+    bool by_glibc = false;                 // `random glibc`
+    std::uint64_t number = 0;              // of the draw
+    std::uint64_t position = 0;            // at which it is drawn
+    std::uint32_t rule = 0;
+    float unit = 0.0F;
+    std::size_t taken = 0; // index in alternatives
+};
+
+LSYS_COUNTED_ENUM(Fate,
+                  Copied,    // no production matches
+                  Rewritten, //
+                  Cut,       // taken out with the rest of its branch
+                  UsedUp,    // by a match that begins before it
+                  Failed);   // a value is not finite, or a range has no width
+
+/// A module in one pass.
+struct ModuleTrace {
+    DerivationPass::Kind kind = DerivationPass::Kind::Rewrite;
+    std::uint32_t rule = kNone; // the only one of the pass
+    std::uint32_t pass = 0;     // number among those of its kind
+    std::uint32_t generation = 0;
+    bool was_run = true; // false: the engine left the pass out, which could change no module
+
+    std::size_t root = 0;          // of StepTracer::begin()
+    std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
+    std::uint64_t offset = 0;      // in ModuleTrace::written of the parent
+    std::uint64_t position = 0;    // in the word read
+    TracedModule module;
+
+    std::vector<Attempt> attempts; // in file order
+    std::uint64_t other_names = 0; // productions of the pass for modules of other names
+    std::optional<ChoiceTrace> choice;
+    Fate fate = Fate::Copied;
+    ProductionId production = kNoProduction; // if rewritten or used up
+    /// Of the cut, or of the match that used the module up.
+    std::uint64_t cause = 0;
+    std::uint32_t replaced = 1; // modules that the match replaced
+
+    std::vector<TracedLocal> locals;
+    std::vector<TracedRange> ranges;
+    std::string fault;                 // of a successor: what is wrong
+    std::vector<TracedModule> written; // the module itself if it was copied
+    std::uint64_t first_written = 0;   // position in the word written
+    bool is_checked = false;           // compared with what the engine wrote
+    bool agrees = false;               // with it
+};
+
+/// Names of a production's formals and local values, for texts.
+struct ProductionNames {
+    struct Local {
+        std::string name;
+        /// The instruction of a value that is one leaf, which stands in each of its uses, so that
+        /// no code computes it. End: code does.
+        Opcode leaf = Opcode::End;
+        float literal = 0.0F;    // of Literal
+        std::uint32_t index = 0; // of Formal, Global and Local
+    };
+    std::vector<std::string> formals;
+    std::vector<Local> locals; // by slot
+};
+
+/// What a derivation has fixed.
+struct TraceInputs {
+    std::uint64_t seed = 0;
+    float steps = 0.0F; // number of generations of the derivation
+    std::vector<float> globals;
+    std::vector<ProductionNames> names; // by production; none: formals are $0, $1, ...
+};
+
+/// A module of a word; a walk over the word finds its parameters.
+/// Precondition: positions ascend and are less than the number of modules.
+[[nodiscard]] std::vector<TracedModule>
+modules_at(const Bytecode& bytecode, const Word& word, const std::vector<std::uint64_t>& positions);
+
+/// Traces modules through the passes of one step, or of Derivation::interpret(). The derivation's
+/// DeriveOptions::on_pass calls on_pass().
+class StepTracer {
+public:
+    /// `bytecode` outlives the tracer.
+    StepTracer(const Bytecode& bytecode, TraceInputs inputs);
+    ~StepTracer();
+    StepTracer(StepTracer&&) noexcept;
+    StepTracer& operator=(StepTracer&&) noexcept;
+
+    /// Starts with the modules at `positions`, ascending, of the word of age `age`, which is about
+    /// to be rewritten or, with Kind::Interpret, drawn.
+    void begin(const std::vector<std::uint64_t>& positions,
+               const Word& word,
+               std::uint32_t age,
+               DerivationPass::Kind kind);
+    void on_pass(const DerivationPass& pass);
+    /// Ends the step. Modules in passes that the engine left out are traced as it would.
+    void finish();
+
+    /// All traces, each after its parent: of the modules begun with in each pass, and of modules
+    /// written for them for which later passes have productions.
+    [[nodiscard]] const std::vector<ModuleTrace>& traces() const;
+    /// A module of the last word of the step.
+    struct Place {
+        std::uint64_t position = 0;
+        std::size_t root = 0;
+        std::size_t parent = kNoTrace; // the trace that wrote it
+        std::uint64_t offset = 0;      // in what the trace wrote
+    };
+    /// The modules that the last pass has written for those begun with.
+    [[nodiscard]] const std::vector<Place>& places() const;
+    /// Whether every successor equals that of the engine.
+    [[nodiscard]] bool agrees() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys

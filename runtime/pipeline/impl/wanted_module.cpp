@@ -1,0 +1,66 @@
+#include "runtime/pipeline/impl/wanted_module.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    while (!text.empty() && is_blank(text.front())) {
+        text.remove_prefix(1);
+    }
+    while (!text.empty() && is_blank(text.back())) {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+/// A name without its back quotes.
+std::string name_in(std::string_view text) {
+    text = without_blanks(text);
+    const bool quoted = text.size() > 2 && text.front() == '`' && text.back() == '`';
+    return std::string(quoted ? text.substr(1, text.size() - 2) : text);
+}
+
+} // namespace
+
+Result<WantedModule> parse_wanted_module(std::string_view text, bool has_values) {
+    const std::string_view whole = without_blanks(text);
+    WantedModule wanted;
+    // A module may be called `(` in another dialect; its name then stands in back quotes.
+    const std::size_t open = has_values
+                                 ? whole.find('(', whole.starts_with('`') ? whole.find('`', 1) : 0)
+                                 : std::string_view::npos;
+    wanted.name = name_in(whole.substr(0, open));
+    if (wanted.name.empty()) {
+        return Error{fmt::format("`{}` is no module; one is written like `A(3)`", text)};
+    }
+    if (open == std::string_view::npos) {
+        return wanted;
+    }
+    if (!whole.ends_with(')')) {
+        return Error{fmt::format("`{}` has no `)` at its end", text)};
+    }
+    std::string_view rest = without_blanks(whole.substr(open + 1, whole.size() - open - 2));
+    while (!rest.empty()) {
+        const std::size_t comma = rest.find(',');
+        const std::string_view number = without_blanks(rest.substr(0, comma));
+        float value = 0.0F;
+        const auto [end, error] =
+            std::from_chars(number.data(), number.data() + number.size(), value);
+        if (number.empty() || error != std::errc() || end != number.data() + number.size() ||
+            !std::isfinite(value)) {
+            return Error{fmt::format("`{}` in `{}` is no number", number, text)};
+        }
+        wanted.values.push_back(value);
+        rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
+    }
+    return wanted;
+}
+
+} // namespace lsys

@@ -1,0 +1,16 @@
+// Traces as text for people and as JSON for tools: docs/trace.md describes both.
+#pragma once
+
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/trace.h"
+
+#include <string>
+
+namespace lsys {
+
+/// One paragraph a decision, with lines of the grammar; about one screen for each module.
+[[nodiscard]] std::string trace_text(const Trace& trace, const Grammar& grammar, bool colour);
+/// One JSON object and a line end.
+[[nodiscard]] std::string trace_json(const Trace& trace, const Grammar& grammar);
+
+} // namespace lsys

@@ -1,0 +1,684 @@
+#include "grammar/base/counted_text.h"
+#include "grammar/rendering/render_diagnostic.h"
+#include "runtime/derive/word_text.h"
+#include "runtime/program/trace_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Limits that keep a module within a screen.
+constexpr std::size_t kMaxParts = 12;
+constexpr std::size_t kMaxWritten = 60;
+constexpr std::size_t kMaxLater = 8; // modules of later passes that are explained in full
+constexpr std::size_t kMaxMet = 6;   // of a context
+
+std::string value_text(float value) {
+    if (!std::isfinite(value)) {
+        return std::isnan(value) ? "not a number" : value > 0.0F ? "infinity" : "-infinity";
+    }
+    std::string text;
+    append_number(value, text);
+    return text;
+}
+
+/// "3 > 2 is true", "3 * 2 = 6".
+std::string part_text(const TracedPart& part) {
+    return part.is_truth
+               ? fmt::format("{} is {}", part.values, part.value != 0.0F ? "true" : "false")
+               : fmt::format("{} = {}", part.values, value_text(part.value));
+}
+
+std::string number_of(std::uint64_t count, std::string_view one, std::string_view several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
+class Report {
+public:
+    Report(const Trace& trace, const Grammar& grammar, bool colour)
+        : trace_(trace), grammar_(grammar), bytecode_(grammar.bytecode), colour_(colour) {}
+
+    std::string run() {
+        for (const TracedPlace& place : trace_.places) {
+            out_ += out_.empty() ? "" : "\n";
+            head(place);
+            if (!place.back.empty() || is_back()) {
+                back(place);
+            } else {
+                drawing(place);
+                step(place);
+            }
+        }
+        rest();
+        return std::move(out_);
+    }
+
+private:
+    [[nodiscard]] bool is_back() const {
+        return std::all_of(trace_.places.begin(), trace_.places.end(),
+                           [](const TracedPlace& place) { return place.step.empty(); });
+    }
+    [[nodiscard]] const BytecodeProduction& production(ProductionId id) const {
+        return bytecode_.productions[static_cast<std::size_t>(id)];
+    }
+    /// The production of the program, for its places; null for a .lsb file.
+    [[nodiscard]] const Production* source_of(ProductionId id) const {
+        const bool known = grammar_.program &&
+                           grammar_.program->productions.size() == bytecode_.productions.size();
+        return known ? &grammar_.program->productions[static_cast<std::size_t>(id)] : nullptr;
+    }
+    [[nodiscard]] std::string module(const TracedModule& module) const {
+        return module_text(bytecode_, module);
+    }
+    [[nodiscard]] std::string name(ProductionId id) const {
+        return fmt::format("`{}`", production(id).name);
+    }
+    /// "`#decompose leaf`" where the stage needs to be said.
+    [[nodiscard]] std::string full_name(ProductionId id) const {
+        const BytecodeProduction& named = production(id);
+        return named.stage == Stage::Rewrite
+                   ? name(id)
+                   : fmt::format("`{} {}`", keyword_of(named.stage), named.name);
+    }
+    [[nodiscard]] std::string site_text(const Site& site) const {
+        return fmt::format("{}:{}:{}", bytecode_.files[static_cast<std::size_t>(site.span.file)],
+                           site.line, site.column);
+    }
+    [[nodiscard]] std::string place_of(ProductionId id) const {
+        const std::uint32_t site = production(id).name_site;
+        return site == kNone ? std::string() : site_text(bytecode_.sites[site]) + ": ";
+    }
+    template <typename... Arguments>
+    void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
+        out_ += '\n';
+    }
+
+    // --- the module
+
+    [[nodiscard]] std::string origin_text(const TraceOrigin& origin) const {
+        const std::string place = origin.place ? " at " + site_text(*origin.place) : "";
+        if (origin.production == kNoProduction) {
+            return fmt::format("of the axiom{}", place);
+        }
+        return fmt::format("written by {}{} in generation {}", full_name(origin.production), place,
+                           origin.generation);
+    }
+
+    void head(const TracedPlace& place) {
+        line("{} at position {} of generation {}, {}", module(place.module), place.position,
+             trace_.generation,
+             is_back() && trace_.generation > 0 ? std::string("back to the axiom")
+                                                : origin_text(place.origin));
+    }
+
+    // --- productions that were tried
+
+    /// The modules that a context met, as a label.
+    [[nodiscard]] std::string met_text(const ContextTrace& context) const {
+        std::string text;
+        const std::size_t shown = std::min(context.met.size(), kMaxMet);
+        for (std::size_t i = 0; i < shown; ++i) {
+            text += fmt::format("{}{} at {}", i == 0 ? "" : ", then ",
+                                module(context.met[i].module), context.met[i].position);
+        }
+        text += context.met.size() > shown ? ", ..." : "";
+        return text;
+    }
+    [[nodiscard]] static std::string passed_text(const ContextTrace& context) {
+        std::string text;
+        if (context.ignored != 0) {
+            text += fmt::format("; {} ignored", counted(context.ignored, "module"));
+        }
+        if (context.branches != 0) {
+            text +=
+                fmt::format("; {} passed over", number_of(context.branches, "branch", "branches"));
+        }
+        return text;
+    }
+    [[nodiscard]] std::string pattern_text(TableRange pattern, std::uint32_t item) const {
+        const BytecodeSymbol& symbol =
+            bytecode_.symbol(bytecode_.patterns[pattern.first + item].symbol);
+        const std::string spelled = spelled_name(symbol.name, bytecode_.settings.print_letters);
+        return symbol.parameter_count == 0
+                   ? spelled
+                   : fmt::format("{} with {}", spelled,
+                                 counted(symbol.parameter_count, "parameter"));
+    }
+    [[nodiscard]] std::string
+    context_text(const ContextTrace& context, TableRange pattern, bool is_left) const {
+        const std::string passed = passed_text(context);
+        switch (context.end) {
+        case ContextEnd::Fits:
+            return (context.met.empty() ? std::string("a branch") : met_text(context)) + passed;
+        case ContextEnd::OtherModule:
+            return fmt::format("{}, not {}{}", met_text(context),
+                               pattern_text(pattern, context.item), passed);
+        case ContextEnd::EndOfPath: {
+            const std::string met =
+                context.met.empty() ? std::string() : met_text(context) + ", then ";
+            return fmt::format("{}{}, not {}{}", met,
+                               is_left ? "the beginning of the word"
+                                       : "the end of the branch or of the word",
+                               pattern_text(pattern, context.item), passed);
+        }
+        case ContextEnd::NoBranch: {
+            const std::string met =
+                context.met.empty() ? std::string() : met_text(context) + ", then ";
+            return met + "no branch" + passed;
+        }
+        case ContextEnd::NotSearched:
+            break;
+        }
+        return {};
+    }
+
+    /// Marks of a production in its line, or lines of text for a .lsb file.
+    struct Notes {
+        std::vector<Label> labels;
+        std::vector<std::string> texts;
+    };
+    static void add(Notes& notes, const char* what, SourceSpan span, std::string text) {
+        notes.texts.push_back(fmt::format("{}: {}", what, text));
+        notes.labels.push_back({span, std::move(text)});
+    }
+    void print(const Notes& notes, const Production* source) {
+        if (source != nullptr) {
+            render_frame(notes.labels, *grammar_.sources, colour_, out_);
+            return;
+        }
+        for (const std::string& text : notes.texts) {
+            line("    {}", text);
+        }
+    }
+
+    /// The marks of a production; those of the reason why it does not apply come first.
+    void explain(const Attempt& attempt, const TracedModule& own) {
+        const Production* const source = source_of(attempt.production);
+        const BytecodeProduction& tried = production(attempt.production);
+        const auto span = [&](SourceSpan Production::*member) {
+            return source == nullptr ? SourceSpan{} : source->*member;
+        };
+        Notes notes;
+        if (attempt.condition) {
+            add(notes, "condition", span(&Production::condition_span),
+                condition_text(*attempt.condition));
+        }
+        if (attempt.weight) {
+            add(notes, "weight", span(&Production::weight_span),
+                "weight " + condition_text(*attempt.weight));
+        }
+        if (attempt.verdict == Verdict::Predecessor) {
+            std::string text;
+            for (const MetModule& met : attempt.predecessor) {
+                text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(met.module),
+                                    met.position);
+            }
+            add(notes, "predecessor", source == nullptr ? SourceSpan{} : source->predecessor.span,
+                fmt::format("{} is followed by {}", module(own),
+                            text.empty() ? "the end of the word" : text));
+        }
+        if (attempt.right.end != ContextEnd::NotSearched) {
+            add(notes, "right context", source == nullptr ? SourceSpan{} : source->right.span,
+                context_text(attempt.right, tried.right, false));
+        }
+        if (attempt.left.end != ContextEnd::NotSearched) {
+            add(notes, "left context", source == nullptr ? SourceSpan{} : source->left.span,
+                context_text(attempt.left, tried.left, true));
+        }
+        if (notes.labels.empty() && source != nullptr) {
+            notes.labels.push_back({source->predecessor.span, std::string()});
+        }
+        print(notes, source);
+        if (attempt.condition) {
+            parts(*attempt.condition);
+        }
+    }
+
+    static std::string condition_text(const ExpressionTrace& condition) {
+        if (condition.parts.size() == 1) {
+            return part_text(condition.parts[0]);
+        }
+        if (!condition.is_finite) {
+            return "this is " + value_text(condition.value);
+        }
+        const bool is_truth = !condition.parts.empty() && condition.parts.back().is_truth;
+        return is_truth ? (condition.value != 0.0F ? "true" : "false")
+                        : fmt::format("{}", value_text(condition.value));
+    }
+    /// The operations of a condition, if it has several.
+    void parts(const ExpressionTrace& condition) {
+        if (condition.parts.size() < 2) {
+            return;
+        }
+        const std::size_t shown = std::min(condition.parts.size(), kMaxParts);
+        std::size_t width = 0;
+        for (std::size_t i = 0; i < shown; ++i) {
+            const std::size_t size = condition.parts[i].text.size();
+            width = size <= 40 ? std::max(width, size) : width;
+        }
+        for (std::size_t i = 0; i < shown; ++i) {
+            const TracedPart& part = condition.parts[i];
+            line("      {:<{}}   {}", part.text, width, part_text(part));
+        }
+        if (condition.parts.size() > shown) {
+            line("      and {} more", counted(condition.parts.size() - shown, "operation"));
+        }
+    }
+
+    void attempt(const ModuleTrace& trace, const Attempt& attempt) {
+        const std::string who = place_of(attempt.production) + name(attempt.production);
+        const BytecodeProduction& tried = production(attempt.production);
+        switch (attempt.verdict) {
+        case Verdict::Applies:
+            line("{} applies{}", who, trace.choice ? ", chosen by chance" : "");
+            break;
+        case Verdict::OtherCount: {
+            line("{} does not apply: it is for {}, this one has {}", who,
+                 pattern_text(tried.predecessor, 0),
+                 static_cast<std::uint32_t>(trace.module.values.size()));
+            return;
+        }
+        case Verdict::OtherRule:
+            line("{} is not tried: it is of rule {}, and generation {} rewrites by rule {} alone",
+                 who, tried.rule, trace.generation, trace.rule);
+            return;
+        case Verdict::Predecessor:
+            line("{} does not apply: other modules follow", who);
+            break;
+        case Verdict::LeftContext:
+            line("{} does not apply: its left context is not there", who);
+            break;
+        case Verdict::RightContext:
+            line("{} does not apply: its right context is not there", who);
+            break;
+        case Verdict::Condition:
+            line("{} does not apply: its condition is 0", who);
+            break;
+        case Verdict::Fault:
+            line("{} fails: its {}", who,
+                 attempt.weight ? "weight is negative or too large"
+                                : "condition has no finite value");
+            break;
+        case Verdict::NoWeight:
+            line("{} matches, but its weight is 0", who);
+            break;
+        case Verdict::NotDrawn:
+            line("{} matches too, and is not the one chosen by chance", who);
+            break;
+        case Verdict::NotTried:
+            return; // in one line below
+        }
+        explain(attempt, trace.module);
+    }
+
+    void attempts(const ModuleTrace& trace) {
+        for (const Attempt& each : trace.attempts) {
+            attempt(trace, each);
+        }
+        std::string later;
+        for (const Attempt& each : trace.attempts) {
+            if (each.verdict == Verdict::NotTried) {
+                later += (later.empty() ? "" : ", ") + name(each.production);
+            }
+        }
+        if (!later.empty()) {
+            line("not tried, since one before was taken: {}", later);
+        }
+        if (trace.attempts.empty() && trace.fate == Fate::Copied) {
+            line("no production {}is for modules of this name{}",
+                 trace.kind == DerivationPass::Kind::Decompose   ? "of `#decompose` "
+                 : trace.kind == DerivationPass::Kind::Interpret ? "of `#interpret` "
+                                                                 : "",
+                 trace.other_names == 0
+                     ? std::string()
+                     : fmt::format(", {} for others", number_of(trace.other_names, "is", "are")));
+        } else if (trace.other_names != 0) {
+            line("{} for modules of other names",
+                 number_of(trace.other_names, "production is", "productions are"));
+        }
+    }
+
+    void choice(const ModuleTrace& trace, const ChoiceTrace& choice) {
+        const std::string unit = value_text(choice.unit);
+        if (choice.by_glibc) {
+            line("chance, one for all modules: number {} of rand(), as u = {}", choice.number,
+                 unit);
+        } else if (choice.by_generation) {
+            line("chance, one for all modules: draw 0 of rule {} in generation {}, u = {}",
+                 choice.rule, trace.generation, unit);
+        } else {
+            line("chance: draw {} at position {} in generation {}, u = {}", choice.number,
+                 choice.position, trace.generation, unit);
+        }
+        std::size_t width = 0;
+        for (const ChoiceTrace::Alternative& each : choice.alternatives) {
+            width = std::max(width, name(each.production).size());
+        }
+        for (std::size_t i = 0; i < choice.alternatives.size(); ++i) {
+            const ChoiceTrace::Alternative& each = choice.alternatives[i];
+            line("  {} {:<{}}   weight {}, sum {}{}", i == choice.taken ? '>' : ' ',
+                 name(each.production), width, value_text(each.weight), value_text(each.running),
+                 i != choice.taken            ? ""
+                 : each.running > choice.unit ? ", the first above u"
+                                              : ", the last");
+        }
+    }
+
+    // --- what was written
+
+    [[nodiscard]] std::string modules(const std::vector<TracedModule>& list) const {
+        if (list.empty()) {
+            return "nothing";
+        }
+        std::string text;
+        const std::size_t shown = std::min(list.size(), kMaxWritten);
+        std::size_t column = 0;
+        for (std::size_t i = 0; i < shown; ++i) {
+            const std::string each = module(list[i]);
+            if (column != 0 && column + each.size() > 90) {
+                text += "\n      ";
+                column = 0;
+            }
+            text += (column == 0 ? "" : " ") + each;
+            column += each.size() + 1;
+        }
+        if (list.size() > shown) {
+            text += fmt::format(" ... and {} more", list.size() - shown);
+        }
+        return text;
+    }
+    [[nodiscard]] static std::string range_text(std::uint64_t first, std::size_t count) {
+        return count == 1 ? fmt::format("position {}", first)
+                          : fmt::format("positions {} to {}", first, first + count - 1);
+    }
+
+    void values(const ModuleTrace& trace) {
+        for (const TracedLocal& local : trace.locals) {
+            const std::string number = value_text(local.value);
+            line("  let {} = {}", local.name,
+                 local.text == number ? number : fmt::format("{} = {}", local.text, number));
+        }
+        for (const TracedRange& range : trace.ranges) {
+            line("  {} = {}: draw {}, u = {}", range.text, value_text(range.value), range.number,
+                 value_text(range.unit));
+        }
+    }
+
+    /// What became of the module in this pass. `word`: what the positions written are of.
+    void outcome(const ModuleTrace& trace, const std::string& word) {
+        switch (trace.fate) {
+        case Fate::Cut:
+            line("{} the rest of its branch before anything is rewritten: the module is taken out",
+                 trace.cause == trace.position
+                     ? "it cuts off"
+                     : fmt::format("the cut at position {} takes out", trace.cause));
+            return;
+        case Fate::UsedUp:
+            line("used up by the match of {} that begins at position {}", name(trace.production),
+                 trace.cause);
+            return;
+        case Fate::Failed:
+            line("{}", trace.fault.empty() ? std::string("the derivation ends here")
+                                           : fmt::format("fails: {}", trace.fault));
+            return;
+        case Fate::Copied:
+            if (trace.is_checked) {
+                line("copied to position {}{}", trace.first_written, word);
+            } else {
+                line("copied");
+            }
+            break;
+        case Fate::Rewritten:
+            values(trace);
+            if (!trace.is_checked) {
+                line("would write: {}", modules(trace.written));
+            } else if (trace.written.empty()) {
+                line("writes nothing{}: the module is erased", word);
+            } else {
+                line("writes {}{}:", range_text(trace.first_written, trace.written.size()), word);
+                line("      {}", modules(trace.written));
+            }
+            break;
+        }
+        if (trace.is_checked && !trace.agrees) {
+            line("internal error: the engine wrote something else here; please report it");
+        }
+    }
+
+    [[nodiscard]] bool is_last_pass(const std::vector<ModuleTrace>& list,
+                                    const ModuleTrace& trace) const {
+        return std::none_of(list.begin(), list.end(), [&](const ModuleTrace& other) {
+            return other.kind != trace.kind || other.pass != trace.pass || other.rule != trace.rule;
+        });
+    }
+
+    /// "decomposition, pass 2: L(3) at position 5"; empty for the only pass of a generation.
+    [[nodiscard]] std::string pass_head(const ModuleTrace& trace) const {
+        const std::string where =
+            fmt::format("{} at position {}", module(trace.module), trace.position);
+        switch (trace.kind) {
+        case DerivationPass::Kind::Cut:
+            return {};
+        case DerivationPass::Kind::Rewrite:
+            return bytecode_.settings.rewriting == RewritingMode::Sequential && trace.was_run
+                       ? fmt::format("sequential, pass of rule {}: {}", trace.rule, where)
+                       : std::string();
+        case DerivationPass::Kind::Decompose:
+            return fmt::format("decomposition, pass {}: {}", trace.pass, where);
+        case DerivationPass::Kind::Interpret:
+            return fmt::format("interpretation, pass {}: {}", trace.pass, where);
+        }
+        return {};
+    }
+
+    /// `start`: the position of the module that the list is of.
+    void
+    traces(const std::vector<ModuleTrace>& list, std::uint64_t start, std::uint32_t generation) {
+        std::size_t later = 0;
+        std::size_t hidden = 0;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const ModuleTrace& trace = list[i];
+            const bool is_later =
+                trace.parent != kNoTrace && trace.fate != Fate::UsedUp && !is_cause(list, trace);
+            if (is_later && trace.fate == Fate::Copied) {
+                continue;
+            }
+            if (is_later && ++later > kMaxLater) {
+                ++hidden;
+                continue;
+            }
+            const std::string title = pass_head(trace);
+            if (!title.empty()) {
+                out_ += i == 0 ? "" : "\n";
+                line("{}", title);
+            } else if (is_cause(list, trace)) {
+                line("the match begins with {} at position {}", module(trace.module),
+                     trace.position);
+            }
+            if (trace.parent == kNoTrace && trace.position != start && title.empty() &&
+                trace.kind == DerivationPass::Kind::Rewrite) {
+                line("at position {} without what cuts have taken out", trace.position);
+            }
+            attempts(trace);
+            if (trace.choice) {
+                choice(trace, *trace.choice);
+            }
+            const bool plain =
+                trace.kind == DerivationPass::Kind::Rewrite && is_last_pass(list, trace);
+            outcome(trace, plain ? fmt::format(" of generation {}", generation)
+                           : trace.kind == DerivationPass::Kind::Interpret
+                               ? std::string(" of what is drawn")
+                               : std::string(" of the word of this pass"));
+        }
+        if (hidden != 0) {
+            line("and {} in later passes; `--format json` has them all",
+                 number_of(hidden, "more module", "more modules"));
+        }
+    }
+
+    /// Whether the trace is of a match that used up a traced module.
+    [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
+                                       const ModuleTrace& trace) {
+        return trace.parent != kNoTrace && list[trace.parent].fate == Fate::UsedUp;
+    }
+
+    void step(const TracedPlace& place) {
+        out_ += '\n';
+        if (trace_.is_last) {
+            line("what generation {} would make of it:", trace_.generation + 1);
+        }
+        traces(place.step, place.position, trace_.generation + 1);
+        const bool several = place.step.size() > 1;
+        if (several && !trace_.stop) {
+            line("");
+            if (place.next.empty()) {
+                line("nothing of it is in generation {}", trace_.generation + 1);
+            } else {
+                line("in generation {} at {}:", trace_.generation + 1,
+                     range_text(place.first_next, place.next.size()));
+                line("      {}", modules(place.next));
+            }
+        }
+    }
+
+    void drawing(const TracedPlace& place) {
+        if (place.drawing.empty()) {
+            return;
+        }
+        out_ += '\n';
+        traces(place.drawing, place.position, trace_.generation);
+        if (place.drawing.size() > 1) {
+            line("drawn as: {}", modules(place.drawn));
+        }
+    }
+
+    // --- the way back
+
+    /// Prints the generations in which a module was only copied.
+    void copies(std::uint32_t first, std::uint32_t last) {
+        if (first == last) {
+            line("generation {}: copied", first);
+        } else {
+            line("generations {} to {}: copied", first, last);
+        }
+    }
+
+    void back(const TracedPlace& place) {
+        if (place.back.empty()) {
+            return;
+        }
+        out_ += '\n';
+        std::optional<std::uint32_t> copied; // the last generation of the copies being passed
+        std::uint32_t first_copy = 0;
+        for (const TraceBack& each : place.back) {
+            if (each.steps.empty()) {
+                copied = copied.value_or(each.generation + 1);
+                first_copy = each.generation + 1;
+                continue;
+            }
+            if (copied) {
+                copies(first_copy, *copied);
+                copied.reset();
+            }
+            back_step(each);
+        }
+        if (copied) {
+            copies(first_copy, *copied);
+        }
+        const TraceBack& last = place.back.back();
+        line("generation 0: {} at position {}, {}", module(last.module), last.position,
+             origin_text(place.origin));
+        if (place.origin.place && !grammar_.is_module_file) {
+            render_frame({{place.origin.place->span, module(last.module)}}, *grammar_.sources,
+                         colour_, out_);
+        }
+    }
+
+    void back_step(const TraceBack& each) {
+        for (std::size_t i = each.steps.size(); i-- > 0;) {
+            const ModuleTrace& trace = each.steps[i];
+            const bool is_last = i + 1 == each.steps.size();
+            const std::uint64_t offset = is_last ? each.offset : each.steps[i + 1].offset;
+            const std::string pass =
+                trace.kind == DerivationPass::Kind::Decompose
+                    ? fmt::format("the word of decomposition pass {}", trace.pass)
+                : bytecode_.settings.rewriting == RewritingMode::Sequential
+                    ? fmt::format("the word of pass {}", trace.rule)
+                    : fmt::format("generation {}", each.generation);
+            line("generation {}: {}{} from {} at position {} of {}{}", each.generation + 1,
+                 place_of(trace.production), full_name(trace.production), module(trace.module),
+                 trace.position, pass,
+                 trace.choice ? fmt::format(", chosen by u = {}", value_text(trace.choice->unit))
+                              : std::string());
+            back_frame(trace, offset);
+            values(trace);
+        }
+        if (!each.agrees) {
+            line("internal error: the engine wrote something else here; please report it");
+        }
+    }
+
+    /// The line of the production with a mark under the module that it wrote.
+    void back_frame(const ModuleTrace& trace, std::uint64_t offset) {
+        const Production* const source = source_of(trace.production);
+        if (source == nullptr) {
+            return;
+        }
+        const TableRange codes = production(trace.production).successor.codes;
+        Notes notes;
+        if (offset < codes.count) {
+            const std::uint32_t index = codes.first + static_cast<std::uint32_t>(offset);
+            if (const std::optional<Site> place = lsys::place_of(bytecode_, index)) {
+                notes.labels.push_back({place->span, module(trace.written[offset])});
+            }
+        }
+        for (const Attempt& attempt : trace.attempts) {
+            if (attempt.production == trace.production && attempt.condition) {
+                notes.labels.push_back(
+                    {source->condition_span, condition_text(*attempt.condition)});
+            }
+        }
+        if (notes.labels.empty()) {
+            notes.labels.push_back({source->predecessor.span, module(trace.module)});
+        }
+        render_frame(notes.labels, *grammar_.sources, colour_, out_);
+    }
+
+    // --- the end
+
+    void rest() {
+        if (trace_.matches > trace_.places.size()) {
+            out_ += '\n';
+            const std::uint64_t more = trace_.matches - trace_.places.size();
+            line("{} like it in generation {}, the next at position {}",
+                 number_of(more, "more module is", "more modules are"), trace_.generation,
+                 trace_.next_like);
+        }
+    }
+
+    const Trace& trace_;
+    const Grammar& grammar_;
+    const Bytecode& bytecode_;
+    bool colour_;
+    std::string out_;
+};
+
+} // namespace
+
+std::string trace_text(const Trace& trace, const Grammar& grammar, bool colour) {
+    return Report(trace, grammar, colour).run();
+}
+
+} // namespace lsys

@@ -1,0 +1,40 @@
+#include "grammar/base/text_form.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace lsys;
+
+namespace {
+
+std::string as_utf16(std::string_view text, bool big_endian) {
+    std::string out;
+    for (const char c : text) {
+        out += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+    }
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("files that are no text are told from texts") {
+    CHECK(recognise_no_text("\xFF\xFE#")->what == "UTF-16 text");
+    CHECK(recognise_no_text(as_utf16("#n = 1; #w : F;", false))->what == "UTF-16 text");
+    CHECK(recognise_no_text(as_utf16("#n = 1; #w : F;", true))->what == "UTF-16 text");
+    CHECK(recognise_no_text(std::string("\xFF\xFE\0\0#\0\0\0", 8))->what == "UTF-32 text");
+    CHECK(recognise_no_text("%PDF-1.7\n")->what == "a PDF document");
+    CHECK(recognise_no_text("\x89PNG\r\n")->what == "a PNG picture");
+    CHECK(recognise_no_text(std::string(100, '\x02'))->what == "no text");
+    // UTF-16 begins with a byte of NUL; bytes in between do not make it.
+    CHECK(recognise_no_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what == "no text");
+}
+
+TEST_CASE("texts with a few odd bytes are texts") {
+    CHECK(!recognise_no_text(""));
+    CHECK(!recognise_no_text("#n = 1;\r\n\t#w : F;"));
+    CHECK(!recognise_no_text("\xEF\xBB\xBF#n = 1;"));
+    CHECK(!recognise_no_text(std::string("#w : F\0 F\0;", 11)));
+    CHECK(!recognise_no_text(std::string("\0", 1)));
+    CHECK(!recognise_no_text("/* \xE9t\xE9 */ #w : F;"));
+}

@@ -1,0 +1,139 @@
+// Traces of all modules of random grammars: each successor must be the one that the engine wrote.
+#include "runtime/derive/derive.h"
+#include "runtime/derive/trace.h"
+#include "tests/reference/compile_case.h"
+#include "tests/reference/generate.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::reference {
+
+namespace {
+
+lsys::Word copy_of(const lsys::Word& word) {
+    lsys::Word copy(word.code_width());
+    REQUIRE(copy.resize(word.module_count(), word.parameter_count()));
+    std::copy(word.code_bytes().begin(), word.code_bytes().end(), copy.code_bytes().begin());
+    std::copy(word.parameters().begin(), word.parameters().end(), copy.parameters().begin());
+    return copy;
+}
+
+struct Seen {
+    std::array<std::uint64_t, kCountOf<Fate>> fates{};
+    std::array<std::uint64_t, kCountOf<Verdict>> verdicts{};
+    std::array<std::uint64_t, 4> kinds{}; // by DerivationPass::Kind
+    std::uint64_t choices = 0;
+    std::uint64_t ranges = 0;
+    std::uint64_t faults_found = 0;
+};
+
+void count(const StepTracer& tracer, Seen& seen) {
+    for (const ModuleTrace& trace : tracer.traces()) {
+        ++seen.fates[static_cast<std::size_t>(trace.fate)];
+        ++seen.kinds[static_cast<std::size_t>(trace.kind)];
+        seen.choices += trace.choice ? 1U : 0U;
+        seen.ranges += trace.ranges.size();
+        for (const Attempt& attempt : trace.attempts) {
+            ++seen.verdicts[static_cast<std::size_t>(attempt.verdict)];
+        }
+    }
+}
+
+/// Traces all modules of a word through one step or its interpretation. Returns false if the engine
+/// has no next word.
+bool check_step(const Bytecode& bytecode,
+                DeriveOptions options,
+                const lsys::Derivation& from,
+                bool interprets,
+                Seen& seen) {
+    StepTracer tracer(bytecode,
+                      {options.seed, static_cast<float>(options.generations), from.globals(), {}});
+    std::vector<std::uint64_t> all(from.word().module_count());
+    std::iota(all.begin(), all.end(), 0);
+    tracer.begin(all, from.word(), from.age(),
+                 interprets ? DerivationPass::Kind::Interpret : DerivationPass::Kind::Rewrite);
+    options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
+    lsys::Derivation stepping(bytecode, options);
+    REQUIRE(!stepping.resume(copy_of(from.word()), from.age()));
+    const std::optional<Stop> stop = interprets ? stepping.interpret() : stepping.step();
+    tracer.finish();
+    if (stop) {
+        // The engine names the lowest module at fault of a pass, which its trace names too.
+        const bool is_found =
+            std::any_of(tracer.traces().begin(), tracer.traces().end(), [&](const auto& trace) {
+                return trace.fate == Fate::Failed && trace.position == stepping.error().position;
+            });
+        const bool is_value = stepping.error().kind != RuntimeErrorKind::TooDeep;
+        CHECK((!is_value || is_found));
+        seen.faults_found += is_found ? 1U : 0U;
+        return false;
+    }
+    CHECK(tracer.agrees());
+    const auto wrong =
+        std::find_if(tracer.traces().begin(), tracer.traces().end(),
+                     [](const ModuleTrace& trace) { return !trace.is_checked || !trace.agrees; });
+    if (wrong != tracer.traces().end()) {
+        FAIL_CHECK("module " << wrong->position << " of generation " << wrong->generation
+                             << ", pass " << static_cast<int>(wrong->kind) << " " << wrong->pass
+                             << ", rule " << wrong->rule << ", fate "
+                             << static_cast<int>(wrong->fate) << ", run " << wrong->was_run
+                             << ", checked " << wrong->is_checked);
+    }
+    CHECK(tracer.places().size() == stepping.word().module_count());
+    count(tracer, seen);
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("traces of random grammars agree with the engine, module by module") {
+    Seen seen;
+    for (std::uint64_t seed = 5001; seed <= 5120; ++seed) {
+        const Case made = generate(seed);
+        std::string messages;
+        const std::optional<Bytecode> bytecode = compile_case(made, messages);
+        INFO("seed " << seed << "\n" << messages);
+        REQUIRE(bytecode);
+        DeriveOptions options;
+        options.generations = made.request.generations.value_or(bytecode->generations.value_or(0));
+        options.seed = made.request.seed.value_or(bytecode->settings.seed);
+        options.threads = 1;
+        options.origins = true;
+        lsys::Derivation derivation(*bytecode, options);
+        if (derivation.start()) {
+            continue;
+        }
+        while (derivation.word().module_count() < 1000) {
+            if (!check_step(*bytecode, options, derivation, true, seen) ||
+                !check_step(*bytecode, options, derivation, false, seen) ||
+                derivation.age() == options.generations) {
+                break;
+            }
+            REQUIRE(!derivation.step());
+        }
+    }
+    // Everything that a trace can tell has been told often.
+    for (const Fate fate : enumerators_of<Fate>()) {
+        INFO("fate " << static_cast<int>(fate));
+        CHECK((fate == Fate::Failed || seen.fates[static_cast<std::size_t>(fate)] > 20));
+    }
+    for (const Verdict verdict : enumerators_of<Verdict>()) {
+        INFO("verdict " << static_cast<int>(verdict));
+        CHECK((verdict == Verdict::Fault || seen.verdicts[static_cast<std::size_t>(verdict)] > 20));
+    }
+    for (const std::uint64_t kind : seen.kinds) {
+        CHECK(kind > 20);
+    }
+    CHECK(seen.choices > 1000);
+    CHECK(seen.ranges > 1000);
+    CHECK(seen.faults_found > 5);
+}
+
+} // namespace lsys::reference
