@@ -37,23 +37,29 @@ std::string few_generations(const Sample& sample) {
     return std::to_string(n);
 }
 
-/// The text with another axiom; nothing if the axiom is in an included file.
+/// The text with one other axiom in place of all; nothing if the axiom is in an included file.
 std::optional<std::string>
 with_axiom(const std::filesystem::path& path, const std::string& text, const std::string& word) {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
     const FileLoader load =
-        make_loader(Project{make_file_host(nullptr), {}, 0, false}, ~std::uint64_t{0});
+        make_loader(Project{make_file_host(nullptr), {}, 0, {}}, ~std::uint64_t{0});
     const FileId root = sources.add(path.string(), text);
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
-    for (const Statement& statement : ast.statements) {
+    std::string changed = text;
+    std::optional<std::size_t> first;
+    for (std::size_t i = ast.statements.size(); i-- > 0;) { // spans in front of a change still hold
+        const Statement& statement = ast.statements[i];
         if (statement.kind == StatementKind::Axiom && statement.span.file == root) {
-            return text.substr(0, statement.span.begin) + "#w : " + word + ";" +
-                   text.substr(statement.span.end);
+            first = statement.span.begin;
+            changed.erase(*first, statement.span.end - *first);
         }
     }
-    return std::nullopt;
+    if (!first) {
+        return std::nullopt;
+    }
+    return changed.insert(*first, "#w : " + word + ";");
 }
 
 std::string dump(std::vector<std::string> arguments) {
