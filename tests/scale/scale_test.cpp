@@ -143,8 +143,8 @@ std::map<std::string, Case> cases() {
     all["nul-bytes"] = {repeated(head + "#w : F", std::string("\0F", 2), 1000, ";"), check, 1,
                         "this file is no text"};
     all["few-nul-bytes"] = {
-        repeated(head + "#w : F", std::string("\0F", 2) + std::string(38, 'F'), 100'000, ";"), check,
-        1, "unknown-character"};
+        repeated(head + "#w : F", std::string("\0F", 2) + std::string(38, 'F'), 100'000, ";"),
+        check, 1, "unknown-character"};
     all["invalid-utf8"] = {repeated(head + "#w : F", "\xFF\xC0 F", 100'000, ";"), check, 1,
                            "invalid-utf8"};
     all["strays-10mb"] = {repeated(head + "#w : F;\n#p : ", "1 = ", 2'500'000, ": * : F : ;"),
@@ -207,11 +207,13 @@ std::map<std::string, Case> cases() {
     all["format-condition-10mb"] = {
         repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
         unlike};
+    // More than the begin by which texts are told from other files.
+    const std::string text(5000, ' ');
     const std::vector<std::string> carey{"check", "--dialect", "carey", "%"};
     all["carey-line-10mb"] = {repeated("generations: 1\naxiom: F\nF=", "F+[&F]", 1'700'000, "\n"),
                               carey, 0, ""};
-    all["carey-zeros-10mb"] = {repeated("axiom: F", std::string(1, '\0'), 10'000'000, ""), carey, 1,
-                               "foreign-syntax"};
+    all["carey-zeros-10mb"] = {repeated("axiom: F" + text, std::string(1, '\0'), 10'000'000, ""),
+                               carey, 1, "foreign-syntax"};
     all["carey-garbage-10mb"] = {repeated("axiom: F\n", "a=(\xFF(:@\n:", 1'000'000, ""), carey, 1,
                                  "foreign-syntax"};
     const std::vector<std::string> l3d{"check", "--dialect", "l3d", "%"};
@@ -219,8 +221,8 @@ std::map<std::string, Case> cases() {
                             ""};
     all["l3d-blanks-10mb"] = {repeated("1\n30\n20\nFA\nA=F", "     (", 1'700'000, "\n@\n"), l3d, 0,
                               "foreign-quirk"};
-    all["l3d-zeros-10mb"] = {repeated("1\n30\n20\nF", std::string(1, '\0'), 10'000'000, ""), l3d, 1,
-                             "foreign-syntax"};
+    all["l3d-zeros-10mb"] = {repeated("1\n30\n20\nF" + text, std::string(1, '\0'), 10'000'000, ""),
+                             l3d, 1, "foreign-syntax"};
     all["l3d-rules"] = {[](const std::string& path) {
                             write_lines(path, "1\n30\n20\nF\n", 200'000, [](std::uint64_t i) {
                                 return "A" + std::to_string(i) + "=F\n";
@@ -238,8 +240,8 @@ std::map<std::string, Case> cases() {
                                         });
                                     },
                                     fractint, 1, "which-system"};
-    all["fractint-zeros-10mb"] = {repeated("A {", std::string(1, '\0'), 10'000'000, ""), fractint,
-                                  1, "foreign-syntax"};
+    all["fractint-zeros-10mb"] = {repeated("A {" + text, std::string(1, '\0'), 10'000'000, ""),
+                                  fractint, 1, "foreign-syntax"};
     all["fractint-garbage-10mb"] = {repeated("A { axiom f\n", "=x=\xFF(@q\n:", 1'000'000, "}"),
                                     fractint, 1, "foreign-syntax"};
     const std::vector<std::string> houdini{"check", "--dialect", "houdini", "-n", "1", "%"};
@@ -248,8 +250,8 @@ std::map<std::string, Case> cases() {
                                ""};
     all["houdini-parentheses-10mb"] = {repeated("A(1)\nA(x)=F(", "(", 10'000'000, "\n"), houdini, 1,
                                        "foreign-syntax"};
-    all["houdini-zeros-10mb"] = {repeated("F", std::string(1, '\0'), 10'000'000, ""), houdini, 1,
-                                 "foreign-syntax"};
+    all["houdini-zeros-10mb"] = {repeated("F" + text, std::string(1, '\0'), 10'000'000, ""),
+                                 houdini, 1, "foreign-syntax"};
     all["houdini-garbage-10mb"] = {repeated("A\n", "A=(\xFF:@\n:", 1'000'000, ""), houdini, 1,
                                    "foreign-syntax"};
     all["nested-word"] = {
