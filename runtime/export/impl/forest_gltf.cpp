@@ -256,26 +256,37 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Writes the indices of the parts of one material whose slices are wide, or of the others.
-template <typename Index>
-void write_indices(const ForestSurface& surface,
+/// Calls visit(indices) for the parts of one material whose slices are wide, or for the others.
+template <typename Visit>
+void for_each_part(const ForestSurface& surface,
                    std::size_t material,
+                   bool wide,
                    bool ordered,
-                   const GltfBytes& write) {
-    const bool wide = sizeof(Index) == sizeof(std::uint32_t);
+                   const Visit& visit) {
     LargeVector<std::uint32_t> indices;
-    LargeVector<Index> narrowed;
     for (const std::size_t p : surface.sliced.order) {
         const MeshPart& part = surface.mesh->parts[p];
         if (part.material != material || surface.sliced.slices[p].is_wide() != wide) {
             continue;
         }
         read_indices(surface, p, ordered, indices);
-        narrowed.resize(indices.size());
-        std::transform(indices.begin(), indices.end(), narrowed.begin(),
-                       [](std::uint32_t index) { return static_cast<Index>(index); });
-        write(std::as_bytes(std::span<const Index>(narrowed)));
+        visit(std::span<const std::uint32_t>(indices));
     }
+}
+
+template <typename Index>
+void write_indices(const ForestSurface& surface,
+                   std::size_t material,
+                   bool ordered,
+                   const GltfBytes& write) {
+    LargeVector<Index> narrowed;
+    for_each_part(surface, material, sizeof(Index) == sizeof(std::uint32_t), ordered,
+                  [&](std::span<const std::uint32_t> indices) {
+                      narrowed.resize(indices.size());
+                      std::transform(indices.begin(), indices.end(), narrowed.begin(),
+                                     [](std::uint32_t index) { return static_cast<Index>(index); });
+                      write(std::as_bytes(std::span<const Index>(narrowed)));
+                  });
 }
 
 /// Writes the items of a view.
@@ -312,17 +323,21 @@ void ForestDocument::compress_views() {
     });
     Workers workers(info_.threads);
     workers.for_each(tasks.size(), [&](std::uint64_t i) {
-        const Task& task = tasks[i];
-        std::string items;
-        items.reserve(task.view.item_bytes());
-        write_view(task.surface, task.material, task.view, [&](std::span<const std::byte> bytes) {
-            items.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        });
-        const std::uint32_t stride = task.view.type.stride;
-        task.view.compressed =
-            task.view.array == GltfArray::Indices
-                ? compress_indices(items, stride, task.surface.mesh->positions.size())
-                : compress_items(items, stride);
+        const auto& [surface, material, view] = tasks[i];
+        if (view.array != GltfArray::Indices) {
+            const GltfBuffer items = written_items(view.item_bytes(), [&](const GltfBytes& write) {
+                write_view(surface, material, view, write);
+            });
+            view.compressed = compress_items(items, view.type.stride);
+            return;
+        }
+        LargeVector<std::uint32_t> indices;
+        indices.reserve(view.count);
+        for_each_part(surface, material, view.type.component == kGltfInteger, true,
+                      [&indices](std::span<const std::uint32_t> part) {
+                          indices.insert(indices.end(), part.begin(), part.end());
+                      });
+        view.compressed = compress_indices(indices, surface.mesh->positions.size());
     });
 }
 

@@ -102,7 +102,7 @@ PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
                 }
             }
         }
-        view.compressed = compress_items(items, view.type.stride);
+        view.compressed = compress_items(std::as_bytes(std::span(items)), view.type.stride);
     });
     return packed;
 }

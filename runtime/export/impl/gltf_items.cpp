@@ -1,13 +1,10 @@
 #include "runtime/export/impl/gltf_items.h"
 
-#include "runtime/base/large_vector.h"
-
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <meshoptimizer.h>
 
 namespace lsys {
@@ -52,16 +49,29 @@ std::int8_t signed_byte(float value) {
     return static_cast<std::int8_t>(scaled < static_cast<float>(whole) ? whole - 1 : whole);
 }
 
-std::uint16_t quantized_position(float value, float low, float step, float most) {
-    // In double, because floats round both the difference and the quotient.
-    const double item =
-        (static_cast<double>(value) - static_cast<double>(low)) / static_cast<double>(step);
-    return static_cast<std::uint16_t>(std::clamp(item + 0.5, 0.0, static_cast<double>(most)));
-}
-
 unsigned position_bits(ExportCompression compression) {
     return compression == ExportCompression::Meshopt ? kCompressedPositionBits : kPositionBits;
 }
+
+/// Quantises positions. In double, because floats round both the difference and the quotient.
+class PositionSteps {
+public:
+    explicit PositionSteps(const GltfForm& form)
+        : low_(form.low), steps_(1.0 / static_cast<double>(form.step)),
+          most_(static_cast<double>(max_value(position_bits(form.compression)))) {}
+
+    [[nodiscard]] Item<std::uint16_t, 4> operator()(const glm::vec3& position) const {
+        const glm::dvec3 item =
+            glm::clamp((glm::dvec3(position) - low_) * steps_ + 0.5, glm::dvec3(0.0), most_);
+        return {static_cast<std::uint16_t>(item.x), static_cast<std::uint16_t>(item.y),
+                static_cast<std::uint16_t>(item.z), 0};
+    }
+
+private:
+    glm::dvec3 low_;
+    double steps_; // in a unit of length
+    glm::dvec3 most_;
+};
 
 Item<std::uint16_t, 2> texture_item(const GltfTextureForm& form, const glm::vec2& coordinates) {
     if (form.bits == 0) {
@@ -110,8 +120,8 @@ void write_quantized(const Mesh& mesh,
                      const GltfForm& form,
                      const GltfBytes& write) {
     if (array == GltfArray::Positions) {
-        write_each(vertices, write, [&](std::uint32_t vertex) {
-            return position_item(form, mesh.positions[vertex]);
+        write_each(vertices, write, [&mesh, steps = PositionSteps(form)](std::uint32_t vertex) {
+            return steps(mesh.positions[vertex]);
         });
     } else if (array == GltfArray::Normals) {
         write_each(vertices, write, [&](std::uint32_t vertex) {
@@ -225,11 +235,7 @@ std::string_view attribute_name(GltfArray array) {
 }
 
 std::array<std::uint16_t, 4> position_item(const GltfForm& form, const glm::vec3& position) {
-    const float most = max_value(position_bits(form.compression));
-    const auto item = [&](int axis) {
-        return quantized_position(position[axis], form.low[axis], form.step, most);
-    };
-    return {item(0), item(1), item(2), 0};
+    return PositionSteps(form)(position);
 }
 
 std::array<std::uint8_t, 4> colour_item(const glm::vec3& colour) {
@@ -288,32 +294,21 @@ void write_wind_items(const Mesh& mesh,
     }
 }
 
-std::string compress_items(std::string_view items, std::uint32_t stride) {
+GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride) {
     const std::size_t count = items.size() / stride;
     set_versions();
-    LargeVector<unsigned char> bytes(meshopt_encodeVertexBufferBound(count, stride));
-    const std::size_t size =
-        meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), items.data(), count, stride);
-    return {reinterpret_cast<const char*>(bytes.data()), size};
+    GltfBuffer bytes(meshopt_encodeVertexBufferBound(count, stride));
+    bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
+                                            bytes.size(), items.data(), count, stride));
+    return bytes;
 }
 
-std::string compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices) {
-    const std::size_t count = items.size() / stride;
-    LargeVector<unsigned> indices(count);
-    if (stride == sizeof(std::uint16_t)) {
-        for (std::size_t i = 0; i < count; ++i) {
-            std::uint16_t index = 0;
-            std::memcpy(&index, items.data() + sizeof index * i, sizeof index);
-            indices[i] = index;
-        }
-    } else {
-        std::memcpy(indices.data(), items.data(), items.size());
-    }
+GltfBuffer compress_indices(std::span<const std::uint32_t> indices, std::uint64_t vertices) {
     set_versions();
-    LargeVector<unsigned char> bytes(meshopt_encodeIndexBufferBound(count, vertices));
-    const std::size_t size =
-        meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), count);
-    return {reinterpret_cast<const char*>(bytes.data()), size};
+    GltfBuffer bytes(meshopt_encodeIndexBufferBound(indices.size(), vertices));
+    bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
+                                           bytes.size(), indices.data(), indices.size()));
+    return bytes;
 }
 
 } // namespace lsys

@@ -3,6 +3,7 @@
 // vertices by these functions.
 #pragma once
 
+#include "runtime/base/large_vector.h"
 #include "runtime/export/export.h"
 #include "runtime/export/impl/gltf_data.h"
 #include "runtime/export/impl/wind_data.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -118,10 +120,21 @@ void write_each(std::span<const std::uint32_t> vertices,
     }
 }
 
-/// A stream compressed by EXT_meshopt_compression.
-[[nodiscard]] std::string compress_items(std::string_view items, std::uint32_t stride);
-/// Indices of triangles, of `stride` 2 or 4, below `vertices`.
-[[nodiscard]] std::string
-compress_indices(std::string_view items, std::uint32_t stride, std::uint64_t vertices);
+using GltfBuffer = LargeVector<std::byte>;
+/// Writes a stream of `bytes` into memory: calls write(put) with the GltfBytes that does so.
+template <typename Write>
+GltfBuffer written_items(std::uint64_t bytes, const Write& write) {
+    GltfBuffer items;
+    items.reserve(bytes);
+    write([&items](std::span<const std::byte> some) {
+        items.insert(items.end(), some.begin(), some.end());
+    });
+    return items;
+}
+/// A stream compressed by EXT_meshopt_compression. `stride`: bytes of an item.
+[[nodiscard]] GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride);
+/// As compress_items(), of the indices of triangles. All are below `vertices`.
+[[nodiscard]] GltfBuffer compress_indices(std::span<const std::uint32_t> indices,
+                                          std::uint64_t vertices);
 
 } // namespace lsys

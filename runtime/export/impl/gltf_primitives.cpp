@@ -113,9 +113,9 @@ public:
 
     void add(GltfPrimitive& primitive, GltfPart& part) {
         const MeshPart& drawn = mesh_.parts[part.part];
-        LargeVector<std::uint32_t> triangles(drawn.index_count / 3 * 3);
-        mesh_.indices.read(drawn.first_index, triangles);
-        order_triangles(triangles, part.indices);
+        part.indices.resize(drawn.index_count / 3 * 3);
+        mesh_.indices.read(drawn.first_index, part.indices);
+        order_triangles(part.indices);
         const MaterialPictures& shown = use_.pictures.of_materials[drawn.material];
         textured_ = (shown.colour || shown.relief || use_.segments) &&
                     is_complete(mesh_, mesh_.texture_coordinates);
@@ -184,22 +184,22 @@ const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive) {
     return mesh.materials[mesh.parts[primitive.parts.front().part].material];
 }
 
-void order_triangles(std::span<const std::uint32_t> triangles,
-                     LargeVector<std::uint32_t>& ordered) {
-    const std::uint32_t* const corners = triangles.data();
+void order_triangles(std::span<std::uint32_t> triangles) {
+    std::uint32_t* const corners = triangles.data();
     const std::size_t count = triangles.size() / 3;
-    ordered.clear();
-    ordered.reserve(triangles.size());
-    std::vector<std::uint32_t> run; // triangles each of which shares an edge with the one before
+    std::size_t ordered = 0; // triangles that have their places
+    // The triangles from there on, in an order in which each shares an edge with the one before.
+    std::vector<std::uint32_t> run;
+    std::vector<std::uint32_t> moved; // corners of the run
     const auto meet = [corners](std::size_t a, std::size_t b) {
         return share_edge(corners + 3 * a, corners + 3 * b);
     };
     const auto end_run = [&] {
         // The last triangle may have been the first of a quad: looks at the one before, too.
         const auto meets_last = [&](std::uint32_t triangle) {
-            const std::size_t back = std::min<std::size_t>(ordered.size() / 3, 2);
+            const std::size_t back = std::min<std::size_t>(ordered, 2);
             for (std::size_t i = 1; i <= back; ++i) {
-                if (share_edge(ordered.data() + ordered.size() - 3 * i, corners + 3 * triangle)) {
+                if (meet(ordered - i, triangle)) {
                     return true;
                 }
             }
@@ -208,10 +208,13 @@ void order_triangles(std::span<const std::uint32_t> triangles,
         if (!meets_last(run.front()) && meets_last(run.back())) {
             std::reverse(run.begin(), run.end());
         }
+        moved.clear();
         for (const std::uint32_t triangle : run) {
-            ordered.insert(ordered.end(), corners + 3 * std::size_t{triangle},
-                           corners + 3 * std::size_t{triangle} + 3);
+            const std::uint32_t* const from = corners + 3 * std::size_t{triangle};
+            moved.insert(moved.end(), from, from + 3);
         }
+        std::copy(moved.begin(), moved.end(), corners + 3 * ordered);
+        ordered += run.size();
         run.clear();
     };
     const auto add = [&run](std::size_t triangle) {

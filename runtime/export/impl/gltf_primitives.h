@@ -78,7 +78,7 @@ struct GltfVertexUse {
 /// Orders triangles so that most share an edge with the one before, which takes a byte: the two of
 /// a quad change places where that joins them to the last one, and every other ring of a tube is
 /// gone round backwards. Time is linear.
-void order_triangles(std::span<const std::uint32_t> triangles, LargeVector<std::uint32_t>& ordered);
+void order_triangles(std::span<std::uint32_t> triangles);
 
 /// The material of a primitive, which gives all but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);

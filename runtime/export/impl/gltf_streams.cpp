@@ -247,17 +247,25 @@ private:
     }
 
     void compress(GltfStream& stream) {
-        std::string items;
-        items.reserve(stream.decoded_bytes());
-        write_primitive_stream(
-            plant_, streams_, stream, [&items](std::span<const std::byte> bytes) {
-                items.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-            });
-        stream.compressed =
-            stream.array == GltfArray::Indices
-                ? compress_indices(items, stream.type.stride,
-                                   streams_.primitives.list[stream.item].vertex_count)
-                : compress_items(items, stream.type.stride);
+        const GltfPrimitive& primitive = streams_.primitives.list[stream.item];
+        if (stream.array != GltfArray::Indices) {
+            const GltfBuffer items =
+                written_items(stream.decoded_bytes(), [&](const GltfBytes& write) {
+                    write_primitive_stream(plant_, streams_, stream, write);
+                });
+            stream.compressed = compress_items(items, stream.type.stride);
+        } else if (primitive.parts.size() == 1) {
+            stream.compressed =
+                compress_indices(primitive.parts.front().indices, primitive.vertex_count);
+        } else {
+            LargeVector<std::uint32_t> indices;
+            indices.reserve(primitive.index_count);
+            for_each_index(plant_.mesh, streams_.primitives, primitive,
+                           [&indices](std::span<const std::uint32_t> some) {
+                               indices.insert(indices.end(), some.begin(), some.end());
+                           });
+            stream.compressed = compress_indices(indices, primitive.vertex_count);
+        }
     }
 
     GltfStreams& streams_;

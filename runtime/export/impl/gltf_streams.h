@@ -38,7 +38,7 @@ struct GltfStream {
     std::uint64_t offset = 0; // in the buffer, a multiple of 4
     std::uint64_t bytes = 0;  // in the buffer
     /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
-    std::string compressed = {};
+    GltfBuffer compressed = {};
     std::uint64_t decoded_offset = 0;
 
     [[nodiscard]] std::uint64_t decoded_bytes() const { return type.stride * count; }
