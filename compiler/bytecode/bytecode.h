@@ -11,11 +11,11 @@
 // Each table is filled in one order without gaps, so that nothing is shared and a walk over the
 // productions is a walk over the tables:
 //   constants       of folded[0], folded[1], ...
-//   patterns        of each production its left context, predecessor and right context
-//   template_codes  of the axiom, then of each production's successor
-//   instructions    of each global, of the axiom's arguments, then of each production its condition,
-//                   its local values and its successor's arguments
-//   template_places of the modules of template_codes, or empty: the places are unknown
+//   patterns        per production: left context, predecessor, right context
+//   template_codes  the axioms, then the successor of each production
+//   instructions    the globals, the arguments of the axioms, then per production: condition,
+//                   weight, local values, arguments of the successor
+//   template_places places of the modules of template_codes; empty if the places are unknown
 #pragma once
 
 #include "compiler/bytecode/curve.h"
@@ -70,15 +70,16 @@ inline constexpr std::uint32_t kOpcodeCount = kCountOf<Opcode>;
 /// Precondition: opcode < kOpcodeCount.
 [[nodiscard]] const OpcodeInfo& info(Opcode opcode);
 inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
-/// Maximum of random ranges per successor with `rewriting sequential`, where pass k adds 4096 k to
-/// their numbers.
+/// Max number of draws (random ranges and distributions) per successor with `rewriting sequential`,
+/// since the pass of rule k numbers its draws from 4096 k on.
 inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
 [[nodiscard]] constexpr std::uint32_t encode(Opcode opcode, std::uint32_t operand) {
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
 }
 
-/// Parameters of a SaveBranch before the formals that its branch uses: whether to take an instance,
-/// the age of the word that holds it, its id.
+/// Number of parameters of a SaveBranch module that precede the formals and local values used in
+/// its branch: whether to take a recorded instance, the age of the word with this module, the id of
+/// the branch.
 inline constexpr std::uint32_t kBranchArguments = 3;
 
 enum class SymbolId : std::uint32_t {};
@@ -89,7 +90,7 @@ inline constexpr ProductionId kNoProduction{0xFFFFFFFFu};
 using Code = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// Bracket structure is a property of symbols, not of characters.
+/// Brackets and polygons are recognised by the kind of a symbol, not by its name.
 LSYS_COUNTED_ENUM(SymbolKind, Plain, BranchOpen, BranchClose, PolygonOpen, PolygonClose);
 
 struct BytecodeSymbol {
@@ -121,8 +122,8 @@ struct SiteRange {
 };
 
 /// Places of consecutive modules of template_codes that stand at equal distances in one line of
-/// ASCII text, so that a long axiom takes few rows. Their file is the one of the site of the axiom
-/// or production. The first module of each word begins a run.
+/// ASCII text, so that a long axiom takes few rows. The file is that of the axiom's site or of the
+/// production's name_site. The first module of each word begins a run.
 struct PlaceRun {
     std::uint32_t first = 0;  // in template_codes; the run ends where the next begins
     std::uint32_t begin = 0;  // offset of its first module
@@ -155,14 +156,14 @@ struct WordTemplate {
     std::uint32_t locals = kNone;
     std::uint32_t arguments = kNone; // first instruction, or kNone if nothing is stored
     std::uint32_t parameter_count = 0;
-    std::uint32_t draw_count = 0; // random ranges
+    std::uint32_t draw_count = 0; // random ranges and distributions
 };
 
 struct BytecodeProduction {
     std::string name;
     std::uint32_t name_site = kNone;
-    std::uint32_t rule = 0;  // of productions with equal predecessors, by first appearance
-    std::uint32_t group = 0; // of productions with equal predecessors and contexts
+    std::uint32_t rule = 0;  // number of the rule, by first appearance: equal predecessors
+    std::uint32_t group = 0; // number of the group: equal predecessors and contexts
     Stage stage = Stage::Rewrite;
     bool has_left = false;
     bool has_right = false;
@@ -173,7 +174,8 @@ struct BytecodeProduction {
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
     bool stochastic = false;
     float weight = 0.0F; // as written after `~`, if stochastic and a constant
-    /// First instruction of a weight that is no constant, a piece of code like a condition; or kNone.
+    /// First instruction of a weight that is no constant, a piece of code like a condition; or
+    /// kNone.
     std::uint32_t weight_code = kNone;
     WordTemplate successor;
 };
@@ -182,7 +184,7 @@ struct BytecodeProduction {
 struct BytecodeAxiom {
     WordTemplate word;
     std::uint32_t site = kNone;
-    std::uint32_t draw_position = 0; // index of its first range, as BytecodeGlobal::draw_position
+    std::uint32_t draw_position = 0; // index of its first draw, as BytecodeGlobal::draw_position
     float weight = 1.0F;             // as written after `~`
 };
 
@@ -190,7 +192,7 @@ struct BytecodeAxiom {
 struct BytecodeGlobal {
     std::string name;
     std::uint32_t instruction = 0; // computes the value: Emit, End
-    /// Index of its first random range among the ranges of all #define, #param and #w.
+    /// Index of its first draw among the draws of all #define, #param and #w.
     std::uint32_t draw_position = 0;
     std::uint32_t draw_count = 0;
     bool has_bounds = false; // true for a #param
@@ -232,9 +234,9 @@ struct Bytecode {
     /// The productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;
     [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
-    /// Number of rules of Stage::Rewrite, which are the first ones.
+    /// Number of rules of Stage::Rewrite. Rules of later stages have higher numbers.
     [[nodiscard]] std::uint32_t rewriting_rules() const;
-    /// Whether a symbol cuts off its branch.
+    /// Whether some symbol cuts off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
 
     [[nodiscard]] Code code_count() const {

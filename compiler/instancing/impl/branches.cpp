@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-/// Properties of all words that rewriting can make of a symbol.
+/// Properties of the words that a symbol can become by rewriting: true if one of them has it.
 struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;
@@ -92,7 +92,7 @@ private:
     struct Open {
         std::uint32_t index = 0;
         std::uint32_t site = kNone; // in found_
-        std::uint32_t polygons = 0; // open at it
+        std::uint32_t polygons = 0; // number of polygons open at the `[`
         bool valid = false;
         Effects effects;
         std::string key; // of the modules read so far
@@ -182,7 +182,8 @@ private:
         return effects_[static_cast<std::size_t>(symbol)];
     }
 
-    /// The least fixed point: a symbol has the effects of the symbols that its productions write.
+    /// Computes effects_ as a least fixed point: a symbol has the effects of the symbols that its
+    /// productions write.
     void find_effects() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
@@ -414,7 +415,7 @@ private:
     const Program& program_;
     const Names& names_;
     Diagnostics& diagnostics_;
-    std::vector<std::vector<const ProgramPattern*>> rules_of_; // by first symbol
+    std::vector<std::vector<const ProgramPattern*>> rules_of_; // predecessors, by first symbol
     std::vector<Effects> effects_;                             // by symbol
     std::vector<Open> open_;
     std::vector<Found> found_; // branches of the current word, in order of their `[`

@@ -1,6 +1,6 @@
-// The modules that can occur in a word and the productions that can be used, judged by names,
-// counts and contexts. Conditions count as true unless they are the constant 0, so that modules
-// which are not reachable here never occur.
+// The modules that can occur in a word and the productions that can be used, decided from names,
+// numbers of parameters and contexts. Conditions count as true unless they are the constant 0, so
+// modules that are not reachable here never occur.
 #pragma once
 
 #include "compiler/program/program.h"
