@@ -243,8 +243,8 @@ private:
     std::vector<Active> active_;
     std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double>
-        scales_; // first |value|, by id and part
+    // Absolute value that was met first, by id and part of the key.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;
     std::uint32_t part_ = 0;
     std::uint32_t hero_ = 0;

@@ -62,7 +62,8 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         }
     }
     pending.is_set = true;
-    if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
+    if (action.operation ==
+        TurtleOperation::SaveBranch) { // executed at once: it may have many arguments
         pending.action = {};
         code = character;
         return cut != 0 ? skip(action) : execute(action, arguments);
