@@ -125,7 +125,7 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
 /// Distinct materials of a scene, and the numbers of the kinds' and the ground's materials among
 /// them.
 struct ForestMaterials {
-    Mesh samples; // no vertices; a part for each material
+    Mesh samples; // of material_samples.h: a part for each material
     std::vector<std::vector<std::uint32_t>> of_kinds;
     std::vector<std::uint32_t> of_ground;
 };

@@ -61,7 +61,7 @@ struct GltfPrimitives {
 /// vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
-/// What the vertices of a file have beside position and normal.
+/// Attributes of the vertices of a file besides position and normal.
 struct GltfVertexUse {
     const Pictures& pictures; // of materials
     bool segments = false;    // joints or wind data
@@ -75,12 +75,13 @@ struct GltfVertexUse {
 [[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
                                                   const std::optional<GltfVertexUse>& compressed,
                                                   const MeshFilm* film = nullptr);
-/// Orders triangles so that most share an edge with the one before, which takes a byte: the two of
-/// a quad change places where that joins them to the last one, and every other ring of a tube is
-/// gone round backwards. Time is linear.
+/// Orders triangles so that most share an edge with the one before; EXT_meshopt_compression encodes
+/// such a triangle in one byte. The two triangles of a quad are swapped where the first one then
+/// shares an edge with the triangle before, and every other ring of a tube runs backwards. Time is
+/// linear.
 void order_triangles(std::span<const std::uint32_t> triangles, LargeVector<std::uint32_t>& ordered);
 
-/// The material of a primitive, which gives all but the colour.
+/// The material of a primitive: all its properties but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
 
 /// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles

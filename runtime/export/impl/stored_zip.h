@@ -31,7 +31,7 @@ public:
 
     /// Writes the header of an entry; the caller then puts its `size.bytes` bytes.
     void begin_entry(const std::string& name, const EntrySize& size);
-    /// Writes the list of entries, the end of the archive.
+    /// Writes the central directory, which ends the archive.
     void finish();
 
 private:

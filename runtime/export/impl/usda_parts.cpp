@@ -103,7 +103,7 @@ void put_material(const Material& material,
 } // namespace
 
 std::string usda_place(UpAxis up, LengthUnit unit, const glm::vec3& pivot) {
-    // The last operation comes first.
+    // USD applies the last operation of `xformOpOrder` first.
     std::vector<std::string_view> order;
     std::string text;
     if (up == UpAxis::Z) {
