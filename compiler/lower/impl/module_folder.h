@@ -23,7 +23,7 @@ public:
 private:
     const Program& program_;
     Bytecode& bytecode_;
-    std::uint64_t capacity_;                      // codes
+    std::uint64_t capacity_;                      // max number of codes
     std::unordered_map<std::string, Code> codes_; // by the bytes of symbol and constants
     std::string key_;
     std::string last_key_; // of the last module, since long axioms repeat one module

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// A probability or weight that is a constant; NaN after it was reported as none.
+/// Returns `weight`, or NaN after reporting that it is no valid probability or weight.
 [[nodiscard]] float checked_weight(Resolution& resolution, float weight, SourceSpan span);
 
 class ProductionResolver {

@@ -23,7 +23,8 @@ public:
     void ignore_all_but_considered() { others_ignored_ = true; }
     [[nodiscard]] bool is_ignored(NameId name) const;
 
-    /// Precondition: all bind() and ignore() have been called.
+    /// The symbol, made at the first call. Precondition: all calls of bind(), ignore() and
+    /// consider() have been made.
     [[nodiscard]] SymbolId get(NameId name, std::uint32_t parameter_count);
 
 private:
