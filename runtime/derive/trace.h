@@ -49,7 +49,7 @@ LSYS_COUNTED_ENUM(ContextEnd,
                   NoBranch,    // there is no branch where the pattern has `[`
                   NotSearched);
 
-/// The search for a context, in the order in which it goes: from the module outwards.
+/// The search for a context, in its order: from the module outwards.
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
     std::vector<MetModule> met;
@@ -95,14 +95,14 @@ LSYS_COUNTED_ENUM(Verdict,
                   Applies,
                   OtherCount,  // the predecessor has another number of parameters
                   OtherRule,   // rewriting cyclic: the rule of another generation
-                  Predecessor, // the modules after the first one are others
+                  Predecessor, // a module after the first one is not that of the predecessor
                   LeftContext,
                   RightContext,
-                  Condition, // it is 0
+                  Condition, // the condition is 0
                   Fault,     // the condition or the weight is not finite, or the weight negative
                   NoWeight,  // the computed weight is 0
-                  NotDrawn,  // it matches, and chance chose another one
-                  NotTried); // a production before it was taken
+                  NotDrawn,  // it matches, but another production was drawn
+                  NotTried); // an earlier production was taken
 
 /// One production that has a module's name, and why it applies or does not.
 struct Attempt {
@@ -164,7 +164,7 @@ struct ModuleTrace {
 
     std::vector<TracedLocal> locals;
     std::vector<TracedRange> ranges;
-    std::string fault;                 // of a successor: what is wrong
+    std::string fault;                 // what is wrong in the successor; empty: nothing
     std::vector<TracedModule> written; // the module itself if it was copied
     std::uint64_t first_written = 0;   // position in the word written
     bool is_checked = false;           // compared with what the engine wrote

@@ -41,7 +41,7 @@ enum class UpAxis : std::uint8_t { Y, Z };
 
 /// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
 enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
-/// Names by which an importer knows such a node: `UCP_tree_00`, `UCX_tree_00`;
+/// Names by which importers recognise the nodes of collision shapes: `UCP_tree_00`, `UCX_tree_00`;
 /// `tree_00-convcolonly`; `tree_collider_00`.
 enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
 
@@ -114,7 +114,8 @@ struct CoarserMesh {
     double coverage = 0.0;
 };
 
-/// Plants of which a reader shows one: the mesh of the file, its default, and others.
+/// Plants of which a reader shows one: the mesh of the file, which is the default, or one of
+/// `others`.
 struct PlantVariants {
     std::string set;                // name of the variant set
     std::vector<std::string> names; // of the mesh of the file, then of `others`

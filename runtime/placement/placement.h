@@ -69,7 +69,7 @@ struct PlacementSpecies {
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees
     SpeciesGrowth growth;
-    std::uint32_t stages = 1; // of different ages; 1: ages do not matter
+    std::uint32_t stages = 1; // number of stages of growth; 1: ages do not matter
     StageStart start = StageStart::Random;
     float years_of_stage = 0.0F; // Domination: above 0 where there are several stages
 };

@@ -245,7 +245,7 @@ private:
 /// A point of a piece, which the joint of the piece should move to its place in each frame.
 struct FitPoint {
     std::uint32_t segment = 0;
-    bool is_base = false; // of the segment, else its tip
+    bool is_base = false; // the point is the base of the segment, else its tip
     double weight = 1.0;
 };
 

@@ -111,7 +111,7 @@ void ForestDocument::add_collisions() {
             GltfCollision& made = collisions_[kind.first + i];
             made.shapes =
                 make_collision(skeleton_of(*kind.cache, kind.cache->instances[i]), shapes);
-            for (CollisionShape& shape : made.shapes) { // to items of the grid, as positions
+            for (CollisionShape& shape : made.shapes) { // to grid items, like positions
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
                                        static_cast<double>(grid.step));

@@ -22,7 +22,7 @@ void for_each_run(const InstanceCache& cache, const Instance& instance, const Vi
 }
 
 /// For each used instance the innermost used one around it, kNone if there is none. Instances are
-/// numbered as they begin, so the enclosing ones have lower numbers.
+/// numbered in the order in which they begin, so enclosing instances have lower numbers.
 std::vector<std::uint32_t> find_parents(const ForestKind& kind, const ForestPlan& plan) {
     const InstanceCache& cache = *kind.cache;
     const Skeleton& heroes = cache.skeleton;

@@ -30,8 +30,9 @@ void write_film_weights(const MeshFilm& film, const GltfBytes& write);
 [[nodiscard]] std::vector<std::uint32_t> drawn_shapes(const MeshFilm& film);
 /// A node for each mesh. Readers without animations show the last shape.
 void put_film_nodes(JsonWriter& json, const MeshFilm& film);
-/// Accessors: for each shape times and scales, then times and weights, as far as it has them. The
-/// views of times, scales and weights follow each other from `first_view` on, without empty ones.
+/// Accessors: for each shape times and scales, then times and weights, without those that have no
+/// items. The views of times, scales and weights follow each other from `first_view` on, without
+/// empty ones.
 void put_film_accessors(JsonWriter& json, const MeshFilm& film, std::size_t first_view);
 /// The member `animations`. `first_node`: of put_film_nodes(); `accessor`: the first of
 /// put_film_accessors().

@@ -247,7 +247,7 @@ private:
 
     GlbFile file_;
     std::size_t decoded_bytes_ = 0;
-    std::map<std::size_t, std::size_t> views_; // of the file that is being added
+    std::map<std::size_t, std::size_t> views_; // new number of each view of the file being added
 };
 
 } // namespace
@@ -277,7 +277,8 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
             return written;
         }
         ids.push_back(joined.add(parse_glb(bytes), i + 1));
-        // Each level is shown down to where the next one begins, the last one always.
+        // Each level is shown down to the coverage at which the next one begins; the last one is
+        // always shown.
         coverages.push_back(coarser[i].coverage);
     }
     coverages.push_back(0);

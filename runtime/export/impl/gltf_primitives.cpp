@@ -165,7 +165,7 @@ private:
     const GltfVertexUse& use_;
     LargeVector<std::uint32_t>& users_;
     LargeVector<std::uint32_t>& vertices_;
-    LargeVector<std::uint32_t> numbers_; // in the part that used the vertex last
+    LargeVector<std::uint32_t> numbers_; // of each vertex, in the part that used it last
     bool textured_ = false;
     bool tangents_ = false;
     bool coloured_ = false;

@@ -36,7 +36,7 @@ enum class GltfColours : std::uint8_t {
 /// Parts that are drawn with one material.
 struct GltfPrimitive {
     std::vector<GltfPart> parts;
-    std::uint32_t shape = 0; // of the film; 0 without one
+    std::uint32_t shape = 0; // of the film; 0 without a film
     glm::vec3 colour{1.0F};  // of the material, linear
     GltfColours colours = GltfColours::None;
     std::uint64_t first_vertex = 0;
@@ -47,8 +47,8 @@ struct GltfPrimitive {
 
 struct GltfPrimitives {
     std::vector<GltfPrimitive> list;
-    /// The vertex of the mesh for each vertex of the file. A vertex that two parts use is there
-    /// twice, one that no triangle uses is left out.
+    /// The vertex of the mesh for each vertex of the file. A vertex that two parts use is listed
+    /// twice; a vertex that no triangle uses is left out.
     LargeVector<std::uint32_t> vertices;
 
     [[nodiscard]] std::span<const std::uint32_t> vertices_of(const GltfPrimitive& primitive) const {
@@ -57,8 +57,8 @@ struct GltfPrimitives {
     [[nodiscard]] Bounds bounds() const; // of all vertices
 };
 
-/// Min number of materials that become one with colours at its vertices. Colours take 4 bytes a
-/// vertex, and a few materials are easier to change by hand.
+/// Min number of materials that are merged into one with colours at the vertices. Colours take 4
+/// bytes a vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
 /// Attributes of the vertices of a file besides position and normal.
@@ -67,11 +67,11 @@ struct GltfVertexUse {
     bool segments = false;    // joints or wind data
 };
 
-/// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
-/// only become one primitive from kMinMergedMaterials on. With `compressed`, triangles are in an
-/// order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that are near
-/// one another become one. `film`: the parts are those of its shapes, each of which has primitives
-/// of its own; may be null.
+/// Plans a primitive for each part with triangles. At least kMinMergedMaterials parts whose
+/// materials differ only in colour and name become one primitive. With `compressed`, triangles are
+/// in an order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that
+/// are near one another become one. `film`: may be null; else each of its shapes has primitives of
+/// its own.
 [[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
                                                   const std::optional<GltfVertexUse>& compressed,
                                                   const MeshFilm* film = nullptr);

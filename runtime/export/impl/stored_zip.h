@@ -38,12 +38,12 @@ private:
     struct Entry {
         std::string name;
         EntrySize size;
-        std::uint64_t place = 0; // of its header
+        std::uint64_t place = 0; // offset of its header
     };
 
     PieceWriter& out_;
     std::vector<Entry> entries_;
-    std::uint64_t end_ = 0; // of the last entry
+    std::uint64_t end_ = 0; // offset of the end of the last entry
 };
 
 } // namespace lsys

@@ -84,7 +84,7 @@ private:
     CellRange cells_;
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
-    std::vector<std::uint8_t> quarters_; // of the cell: bit 0: upper half in x; bit 1: in z
+    std::vector<std::uint8_t> quarters_; // quarter of the cell; bit 0: upper half in x; bit 1: in z
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
     std::vector<std::uint32_t> previous_order_;
     std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
