@@ -162,7 +162,7 @@ private:
         vertex_ += count;
     }
 
-    /// Writes in the order of a TubeWriter.
+    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes these.
     void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;

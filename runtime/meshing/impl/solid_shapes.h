@@ -13,8 +13,8 @@
 
 namespace lsys {
 
-/// All balls about the axis from a corner to the next, with radii between those of the ends; or all
-/// balls of `base_radius` about a triangle.
+/// The union of all balls about the axis from a corner to the next, with radii between those of the
+/// ends; or of all balls of `base_radius` about a triangle.
 struct SolidShape {
     std::array<glm::dvec3, 3> corners{}; // of a cone: the ends of its axis
     double base_radius = 0.0;
@@ -41,7 +41,8 @@ struct SolidShape {
 };
 
 /// `distance`: from the surface of the shape, negative within; changes by at most 1 per metre.
-/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper.
+/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper per
+/// metre.
 struct ShapeProbe {
     double distance = 0.0;
     double radius = 0.0;

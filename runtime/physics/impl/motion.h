@@ -20,7 +20,7 @@ struct Forces {
     double damping = 0.0;    // N m s/rad
     glm::dvec3 wind{0.0};    // m/s
     double drag = 0.0;       // kg/m^3, half the density of air times the drag coefficient
-    bool windy = false;      // whether wind and drag act
+    bool windy = false;      // whether drag and wind are both above 0
     bool ground = false;     // whether the ground holds tips
     double friction = 0.0;   // coefficient of friction of the ground
     bool own_load = false;   // a joint bears its own body only, not the descendants
