@@ -36,7 +36,8 @@ struct DrawnRange {
     DrawnCounts end;
 };
 
-/// A segment of the heroes at whose tip a branch is left out.
+/// A segment of the heroes at whose tip a branch is not drawn, because a recorded instance replaces
+/// it.
 struct InstanceFork {
     std::uint32_t segment = 0;
     std::uint32_t slot = 0; // of the branch

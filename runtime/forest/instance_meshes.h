@@ -19,7 +19,7 @@ struct InstanceMeshes {
     /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
     /// Parts: those of the first instance by rising material, then of the next one.
     Mesh mesh;
-    std::vector<std::uint32_t> first_part; // of each instance; at its end, the number of parts
+    std::vector<std::uint32_t> first_part; // by instance, then the number of parts
 
     /// Parts with the triangles of an instance; none for an instance that no tree can contain.
     [[nodiscard]] std::span<const MeshPart> parts_of(std::uint32_t instance) const {

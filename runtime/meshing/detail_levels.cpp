@@ -27,7 +27,7 @@ constexpr double kRootFactor = 1.5652; // its square root
 constexpr double kLowFactor = 2.0;
 constexpr double kMaxFactor = 3.0;
 constexpr double kSafeFactor = 1.04; // margin within both bounds, where possible
-// The same bound for boxes: one step of subdivision less leaves a quarter of the triangles.
+// Max ratio for boxes: with one step of subdivision less they have a quarter of the triangles.
 constexpr double kMaxFactorOfBoxes = 4.5;
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths

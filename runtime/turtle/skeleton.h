@@ -33,7 +33,7 @@ struct Segment {
     std::uint16_t colour = 0;          // index into the palette
     std::uint8_t sides = 0;            // corners of its cross-section, set by the author
     bool linked = false;               // begins where its parent ends
-    bool forked = false;               // branches that are drawn elsewhere begin at its end
+    bool forked = false;               // branches that the skeleton leaves out begin at its tip
     bool cut = false;                  // begins within its parent, with a closed surface of its own
 };
 

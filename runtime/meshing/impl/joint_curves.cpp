@@ -118,13 +118,13 @@ Places find_places(const Cubic& curve) {
     return places;
 }
 
-/// An edge in parts; the last joint is the one behind it.
+/// An edge cut into parts; joints[count] is the joint at its end.
 struct Parts {
     std::array<Joint, kMaxCurveParts + 1> joints;
     std::size_t count = 1;
 };
 
-/// Headings beside an edge, unless the run ends there.
+/// Headings of the edges before and after an edge, unless the run ends there.
 struct Neighbours {
     std::optional<glm::vec3> before;
     std::optional<glm::vec3> after;

@@ -22,13 +22,13 @@ struct SolidShape {
     bool is_triangle = false;
     std::uint16_t palette = 0;
     std::uint32_t segment = kNoSegment; // that carries the shape
-    // Of a cone:
+    // Members of a cone:
     glm::dvec3 axis{};       // unit length
     double length = 0.0;     // of the axis; 0: a ball
     double taper = 0.0;      // loss of radius per length
     double foot = 0.0;       // distance from a point to its nearest ball along the axis, per radius
     double min_radius = 0.0; // radius at the thin end
-    /// Of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
+    /// Members of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
     /// counter-clockwise.
     struct Side {
         glm::dvec2 from{};

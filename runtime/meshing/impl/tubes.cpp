@@ -42,7 +42,7 @@ struct LongRun {
     std::size_t first_joint = 0; // in Piece::joints, of the next run
     LargeVector<Joint> joints;
     LargeVector<float> radii;
-    std::uint64_t first_vertex = 0; // of those of the piece
+    std::uint64_t first_vertex = 0; // among the vertices of the piece
     std::uint64_t end_vertex = 0;
     std::vector<TubeWriter::Place> places; // where each part begins
     std::atomic<std::size_t> known{1};     // count of places found so far
