@@ -8,7 +8,8 @@
 
 namespace lsys {
 
-/// One paragraph a decision, with lines of the grammar; about one screen for each module.
+/// The trace as text: one paragraph per decision, with lines of the grammar; about one screen per
+/// module.
 [[nodiscard]] std::string trace_text(const Trace& trace, const Grammar& grammar, bool colour);
 /// One JSON object and a line end.
 [[nodiscard]] std::string trace_json(const Trace& trace, const Grammar& grammar);
