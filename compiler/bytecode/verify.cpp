@@ -35,8 +35,8 @@ std::uint32_t number(SymbolId id) {
 /// Kind of place that code belongs to. It decides which instructions are allowed.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
-/// One walk over the tables in the order that bytecode.h promises. Every function returns false
-/// after it has stored a message in problem_.
+/// Verifies bytecode in one walk over the tables in the order that bytecode.h describes. Every
+/// function returns false after it has stored a message in problem_.
 class Verifier {
 public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
@@ -195,7 +195,7 @@ private:
                 (run.stride < run.length && (count > 1 || run.stride != 0))) {
                 return fail("place run {} is malformed", i);
             }
-            // From the first module of the run to its last.
+            // Bytes from the first module of the run to its last.
             const std::uint64_t distance = (count - 1) * run.stride;
             if (distance + run.begin + run.length > kNone || distance + run.column > kNone) {
                 return fail("place run {} ends beyond every file", i);
@@ -475,7 +475,7 @@ private:
             return fail("the code at {} draws {} times", first, bounds.draws);
         }
         std::uint32_t depth = 0;
-        std::uint32_t taken = 0; // by Emit or Test
+        std::uint32_t taken = 0; // number of values that Emit or Test took
         choices_.clear();
         while (next_instruction_ < instructions.size()) {
             const std::uint64_t at = next_instruction_++;
@@ -629,7 +629,7 @@ private:
     }
 
     const Bytecode& bytecode_;
-    std::vector<std::uint32_t> parameters_; // by symbol
+    std::vector<std::uint32_t> parameters_; // by symbol: number of parameters
     std::string problem_;
     /// A choice whose EndIf has not been read yet.
     struct Choice {

@@ -31,7 +31,7 @@ struct GridSample {
     std::uint32_t cell = 0;
 };
 
-/// One parameter that the conditions depend on.
+/// A parameter that the conditions depend on.
 struct GridAxis {
     std::uint32_t parameter = 0;
     bool compared = false;           // a condition compares it with another one

@@ -59,7 +59,7 @@ struct GrowthPrediction {
     bool has_last = false;
     GenerationSize last_low;
     GenerationSize last_high;
-    /// From this generation on the word never changes, for any seed.
+    /// The generation from which on the word never changes, for any seed; unset if unknown.
     std::optional<std::uint32_t> unchanged_from;
 };
 

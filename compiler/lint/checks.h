@@ -1,6 +1,6 @@
 // The checks of a Program: the rules of docs/language.md that need the whole program, and lints for
 // likely mistakes. Each check is one function in a file of its own; checks.cpp lists them.
-// They run in the order of the list, after lowering, so that they can also read the bytecode.
+// Checks run in the order of that list, after lowering, so that they can also read the bytecode.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -19,7 +19,7 @@ struct Definition {
 /// `--set KEY=VALUES`: replaces the `#set` statements of a key.
 struct SettingText {
     std::string key;
-    std::string values; // as after the key in a `#set`: `30`, `0 -1 0 0.2`, `cpfg`
+    std::string values; // text as in `#set KEY VALUES;`: `30`, `0 -1 0 0.2`, `cpfg`
 
     friend bool operator==(const SettingText&, const SettingText&) = default;
 };

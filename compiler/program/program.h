@@ -70,9 +70,9 @@ struct ProgramModule {
 
 struct ProgramWord {
     FileId file = kNoFile;
-    std::uint32_t first_module = 0; // in Program::modules
+    std::uint32_t first_module = 0; // index in Program::modules
     std::uint32_t module_count = 0;
-    std::uint32_t first_argument = 0; // in Program::arguments
+    std::uint32_t first_argument = 0; // index in Program::arguments
     std::uint32_t draw_count = 0;
     SourceSpan span;
 };
@@ -153,7 +153,7 @@ struct Global {
 struct Curve {
     NameId name = kNoName;
     SourceSpan span;
-    std::vector<CurveKnot> points; // with their slopes
+    std::vector<CurveKnot> points; // set_slopes() has set their slopes
 };
 
 /// A constant of the grammar, for dumps and for the sliders of lsview.
@@ -201,8 +201,8 @@ struct Program {
     Settings settings;
     std::optional<std::uint32_t> generations;
     SourceSpan generations_span;    // of the number in #n
-    SourceSpan height_span;         // of `height` in its #set; kNoFile: none
-    SourceSpan pipe_span;           // of `pipe` in its #set; kNoFile: none
+    SourceSpan height_span;         // of `height` in `#set height`; kNoFile if missing
+    SourceSpan pipe_span;           // of `pipe` in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId
     std::vector<WrittenName> written_names;
 
@@ -280,9 +280,9 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 
-/// Per symbol: the productions with a module of it in their predecessor, each once.
+/// By symbol: the productions whose predecessor contains it, each once.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
-/// Per symbol: the productions whose successor contains it.
+/// By symbol: the productions whose successor contains it, each once.
 [[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

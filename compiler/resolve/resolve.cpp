@@ -25,7 +25,7 @@ namespace lsys {
 
 namespace {
 
-/// Per name: whether it is known (docs/language.md section 3).
+/// By name: whether it is a known module name (docs/language.md section 3).
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {

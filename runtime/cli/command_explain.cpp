@@ -37,7 +37,7 @@ constexpr std::size_t kColumns = 80;
 /// has a line of its own.
 std::string wrapped(std::string_view text) {
     std::string out;
-    std::size_t column = 0; // of the current line
+    std::size_t column = 0; // length of the current line
     std::size_t at = 0;
     while (at < text.size()) {
         const std::size_t begin = std::min(text.find_first_not_of(" \n", at), text.size());

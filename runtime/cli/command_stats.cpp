@@ -194,7 +194,8 @@ std::optional<double> find_height(const StatsCommand& command,
     return height_of(plant.value().skeleton);
 }
 
-/// One JSON object per generation; the last one has the height of the plant, in m.
+/// Makes one JSON object per generation, each in a line. The last object has the height of the
+/// plant, in m.
 std::string
 make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> height) {
     std::string text;
@@ -223,7 +224,8 @@ std::string shortest(float value) {
     return fmt::format("{}", value);
 }
 
-/// One row per #param and #define in source order. A random constant has no value.
+/// Makes a table with one row per #param and #define in source order. A random constant has no
+/// value.
 std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
     std::vector<Row> rows{{"name", "kind", "value", "min", "max"}};
     for (const Constant& constant : grammar.program->constants) {
@@ -238,7 +240,8 @@ std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
     return text;
 }
 
-/// One JSON object: `generations`, `seed`, and `parameters` with name, kind, value, min and max.
+/// Makes a JSON object: `generations`, `seed`, and `parameters` with name, kind, value, min and
+/// max.
 std::string parameter_json(const Grammar& grammar, std::uint32_t generations) {
     // A float written as a double would show digits that the grammar does not have.
     const auto number = [](float value) { return nlohmann::ordered_json::parse(shortest(value)); };

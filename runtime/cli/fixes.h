@@ -46,7 +46,7 @@ struct FixedGrammar {
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
-/// Which repairs are applied: the certain ones, or the first one that each message offers.
+/// The repairs that are applied: certain ones only, or the first one that each message offers.
 enum class FixChoice : std::uint8_t { Certain, Offered };
 
 /// Repairs `text`, the contents of the file `path`, and its included files within `scope`. Keeps

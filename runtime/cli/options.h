@@ -128,7 +128,7 @@ struct ExportCommand {
     bool stats = false;
 };
 
-/// What the instances of a forest file are: shared branches, whole trees, or trees with levels of
+/// The objects that a forest file instances: shared branches, whole trees, or trees with levels of
 /// detail.
 enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
@@ -185,7 +185,7 @@ struct TraceCommand {
     std::string output = "-";
     std::optional<std::uint64_t> position;
     std::string module;
-    std::string name; // of --all
+    std::string name; // module name of --all
     std::uint64_t rows = 10;
     bool back = false;
     std::optional<TraceFormat> format; // default: text; JSON with --message-format json
@@ -196,7 +196,7 @@ struct ImportCommand {
     GrammarOptions grammar;
     RunOptions run;
     std::string file;   // empty: all files of `folder`
-    std::string folder; // for --all
+    std::string folder; // folder of --all
     std::string output; // a file, or with --all a folder
     bool force = false; // replace existing files whose names the program has chosen
 };

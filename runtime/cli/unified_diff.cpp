@@ -129,7 +129,7 @@ std::string unified_diff(std::string_view path, std::string_view before, std::st
             continue;
         }
         const std::size_t begin = std::max(done, at - std::min(at, kContext));
-        std::size_t end = at;     // of the hunk
+        std::size_t end = at;     // end of the hunk
         std::size_t changed = at; // the last line that differs
         while (end < lines.size() && end <= changed + 2 * kContext) {
             changed = lines[end].side == Side::Both ? changed : end;

@@ -1,5 +1,5 @@
-// From a scene to its forest: reads the files of the scene, makes the ground, derives and draws the
-// heroes of each species, places the trees.
+// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
+// the heroes of each species, places the trees.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -12,7 +12,7 @@
 namespace lsys {
 
 struct ItemOrigin {
-    std::string module;           // as words show it: "F(1.5)"
+    std::string module;           // text of the module as in a word: "F(1.5)"
     std::uint64_t number = 0;     // position of the module in the word, from 0
     std::uint64_t modules = 0;    // number of modules in the word
     std::string origin;           // "from p2 at tree.lsys:7:14, generation 3"

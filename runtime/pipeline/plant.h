@@ -28,8 +28,8 @@ struct PlantOptions {
 /// A plant and how long its steps took.
 struct Plant {
     Skeleton skeleton;
-    std::vector<UserMesh> user_meshes; // of skeleton.mesh_files
-    std::uint64_t modules = 0;         // of the derived word
+    std::vector<UserMesh> user_meshes; // the meshes of skeleton.mesh_files, in the same order
+    std::uint64_t modules = 0;         // number of modules of the derived word
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
     double derive_seconds = 0.0; // with PlantOptions::stream includes drawing

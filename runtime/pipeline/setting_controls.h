@@ -21,7 +21,7 @@ enum class SettingKind : std::uint8_t {
 };
 
 struct SettingControl {
-    std::string_view key; // of `#set`
+    std::string_view key; // key in `#set`
     SettingKind kind = SettingKind::Number;
     std::array<float, 4> numbers{};      // the value; kinds other than Vector use only the first
     std::string_view word;               // the value of Word

@@ -16,7 +16,7 @@
 
 namespace lsys {
 
-/// Which modules to trace, and how.
+/// The modules to trace, and how to trace them.
 struct TraceOptions {
     std::optional<std::uint32_t> generation; // of the modules; unset: the value of #n
     /// Number of generations of the whole derivation, which steps() returns. Unset: #n, or

@@ -32,7 +32,7 @@ struct WeightReport {
 weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
 
 [[nodiscard]] std::string weight_text(const WeightReport& report);
-/// One JSON object and a line end.
+/// The report as a JSON object with a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);
 
 /// Max number of segments of a plant that is weighed only for a warning, since each trial settles

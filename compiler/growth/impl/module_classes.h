@@ -26,10 +26,10 @@ struct ClassTerm {
     std::uint32_t count = 0;
 };
 
-/// One possible rewriting of a module of a class.
+/// A possible rewriting of a module of a class.
 struct ClassOutcome {
     ProductionId production = kNoProduction; // kNoProduction: the module is copied
-    TableRange terms;                        // in ModuleClasses::terms
+    TableRange terms;                        // range of ModuleClasses::terms
     double probability = 1.0;
 };
 
@@ -39,8 +39,8 @@ struct ClassExpansion {
     bool decided = false;   // the probabilities of the outcomes are known
     bool copies = false;    // the module may be copied, since possibly no production matches
     bool unchanged = false; // every outcome is the module itself with the same parameters
-    TableRange outcomes;    // in ModuleClasses::outcomes
-    TableRange low;         // in ModuleClasses::terms
+    TableRange outcomes;    // range of ModuleClasses::outcomes
+    TableRange low;         // range of ModuleClasses::terms, as is `high`
     TableRange high;
 };
 
@@ -87,12 +87,12 @@ public:
 private:
     struct Class {
         Code code = 0;
-        std::uint32_t first_value = 0; // in values_: its relevant parameters; kNone without any
+        std::uint32_t first_value = 0; // index in values_ of its relevant parameters, or kNone
     };
     /// A module of a word whose class depends on values.
     struct VariableModule {
         Code code = 0;
-        std::uint32_t first_argument = 0; // in argument_starts_: its relevant arguments
+        std::uint32_t first_argument = 0; // index in argument_starts_ of its relevant arguments
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
@@ -154,7 +154,7 @@ private:
     std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
     std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
-    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol: with unknown values
+    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol, for unknown values
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production

@@ -91,18 +91,18 @@ private:
     /// A `[` that waits for its `]`.
     struct Open {
         std::uint32_t index = 0;
-        std::uint32_t site = kNone; // in found_
+        std::uint32_t site = kNone; // index in found_
         std::uint32_t polygons = 0; // number of polygons open at the `[`
         bool valid = false;
         Effects effects;
-        std::string key; // of the modules read so far
+        std::string key; // made of the modules read so far; equal branches have equal keys
         std::vector<std::uint32_t> formals;
         std::vector<std::uint32_t> locals;
     };
     /// A closed branch, valid or not.
     struct Found {
         BranchSite site;
-        std::uint32_t kind = 0; // in found_kinds_
+        std::uint32_t kind = 0; // index in found_kinds_
         bool valid = false;
     };
     /// A set of equal branches, valid or not.
@@ -422,7 +422,7 @@ private:
     std::vector<FoundKind> found_kinds_;
     std::unordered_map<std::string, std::uint32_t> kind_of_key_;
     std::vector<ValueId> values_;
-    std::uint32_t local_count_ = 0; // of the current production
+    std::uint32_t local_count_ = 0; // number of local values of the current production
     Branches branches_;
     bool instanceable_ = true;
 };

@@ -18,7 +18,7 @@ struct BranchSite {
     std::uint32_t production = 0;
     std::uint32_t number = 0; // within its successor, in text order
     std::uint32_t open = 0;   // index of `[` among the modules of the successor
-    std::uint32_t close = 0;  // of its `]`
+    std::uint32_t close = 0;  // index of `]`, likewise
     std::uint32_t id = 0;
 };
 

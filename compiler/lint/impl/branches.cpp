@@ -55,7 +55,7 @@ void check_word(const CheckInput& input,
             brackets += " ]";
         }
         fix.edits = {{{word.file, word.span.end, word.span.end}, brackets}};
-        // Where the author meant the branch to end is a guess.
+        // The place where the author meant the branch to end is a guess.
         fix.machine_applicable = false;
         if (open.size() <= 16) {
             diagnostic.fixes.push_back(std::move(fix));
@@ -66,7 +66,7 @@ void check_word(const CheckInput& input,
 } // namespace
 
 void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
-    std::vector<SymbolKind> kinds; // by symbol
+    std::vector<SymbolKind> kinds; // by symbol: Symbol::kind
     bool any = false;
     for (const Symbol& symbol : input.program.symbols) {
         kinds.push_back(symbol.kind);

@@ -237,7 +237,7 @@ private:
     std::vector<Level> levels_; // by value
     /// By value: for a Formal its module parameter, for a Local the value in its slot, else kNone.
     std::vector<std::uint32_t> source_;
-    std::vector<std::uint32_t> base_; // by symbol: its first parameter
+    std::vector<std::uint32_t> base_; // by symbol: first index in parameter_levels_
     std::vector<Level> parameter_levels_;
 };
 

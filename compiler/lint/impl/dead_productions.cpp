@@ -179,7 +179,7 @@ private:
     const Program& program_;
     ModuleUse& use_;
     Diagnostics& diagnostics_;
-    std::vector<bool> explained_; // by symbol
+    std::vector<bool> explained_; // by symbol: a reported production explains why it never occurs
     GroupedLists rewriters_;
     std::vector<std::string_view> candidates_;
 };

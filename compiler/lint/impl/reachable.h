@@ -11,10 +11,10 @@
 namespace lsys {
 
 struct Reachable {
-    /// Per symbol: the first generation in which it can occur, or kNone. Always 0 for sequential
-    /// rewriting, where the first generation is not known.
+    /// By symbol: the first generation in which it can occur, or kNone if it never occurs. 0 for
+    /// sequential rewriting, where the first generation is not known.
     std::vector<std::uint32_t> generation;
-    /// Per production: whether it can be used.
+    /// By production: whether it can be used.
     std::vector<bool> usable;
 
     [[nodiscard]] bool occurs(SymbolId symbol) const {

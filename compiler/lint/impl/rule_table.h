@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Row i is production productions[i]; column c is a point of the grid.
+/// The truth of conditions: row i is production productions[i], column c is point c of the grid.
 struct RuleTable {
     std::vector<std::uint32_t> productions; // in file order
     analysis::ConditionGrid grid;

@@ -18,7 +18,7 @@ enum class ConstantState : std::uint8_t {
     Unknown, // no statement defines it
     Later,   // a later statement defines it
     Known,   // constant() returns it
-    Failed,  // its definition is in error, which has been reported
+    Failed,  // an error in its definition has been reported
 };
 
 class ConstantTable {
@@ -46,7 +46,7 @@ private:
     struct Entry {
         SourceSpan span;
         ConstantState state = ConstantState::Later;
-        std::uint32_t constant = kNone; // in Program::constants
+        std::uint32_t constant = kNone; // index in Program::constants
         std::size_t statement = 0;      // index of the definition in Ast::statements
     };
     void declare(NameId name, SourceSpan span, std::size_t statement);

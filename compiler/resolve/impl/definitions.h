@@ -48,7 +48,7 @@ private:
     Resolution& resolution_;
     ConstantTable& constants_;
     ExpressionResolver& expressions_;
-    std::unordered_map<std::string, float> replacements_; // from -D
+    std::unordered_map<std::string, float> replacements_; // values of -D, by name
     std::optional<SourceSpan> first_generations_;
     std::uint32_t draw_position_ = 0;
 };

@@ -101,7 +101,7 @@ private:
         SourceSpan span; // of its name in its first definition
         ConstantState state = ConstantState::Later;
         bool is_curve = false;
-        std::uint32_t curve = 0; // in Program::curves
+        std::uint32_t curve = 0; // index in Program::curves
         /// By formal, numbered as Value::index of Opcode::Formal: number of its uses in the body.
         std::vector<std::uint32_t> uses;
         std::vector<ValueId> nodes; // of the body without literals, operands before users

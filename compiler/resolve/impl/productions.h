@@ -35,8 +35,8 @@ private:
     ConstantTable& constants_;
     HeadResolver heads_;
     ProductionClasses classes_;
-    std::array<std::vector<Production>, 2> later_; // of Decompose, of Interpret
-    std::vector<SourceSpan> first_of_name_;        // by name; kNoFile: none
+    std::array<std::vector<Production>, 2> later_; // productions of Decompose and of Interpret
+    std::vector<SourceSpan> first_of_name_;        // by name: first production, or kNoFile
 };
 
 } // namespace lsys

@@ -56,7 +56,7 @@ private:
     Resolution& resolution_;
     Origin origin_;
     Suggestions suggestions_;
-    std::unordered_map<std::uint64_t, SourceSpan> first_; // by scope_of()
+    std::unordered_map<std::uint64_t, SourceSpan> first_; // first statement, by scope_of()
 };
 
 } // namespace lsys
