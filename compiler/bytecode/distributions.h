@@ -1,5 +1,5 @@
-// Distributions: each random number is computed from one draw in [0, 1) (docs/language.md section
-// 4.8).
+// Distributions (docs/language.md section 4.8). Each random number is computed from one draw in
+// [0, 1).
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -87,8 +87,8 @@ struct UnknownDomain {
 
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
 /// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
-/// Bytecode::local_count or slot_room(). The caller sets the slots that this code reads without
-/// setting them.
+/// Bytecode::local_count or slot_room(). The caller sets the slots that this code reads before
+/// it sets them.
 template <typename Domain>
 [[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
                                              Domain& domain,
