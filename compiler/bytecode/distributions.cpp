@@ -33,7 +33,7 @@ constexpr std::array kMiddleBelow{1.0,
                                   3.9307895800092710610e+4,
                                   2.8729085735721942674e+4,
                                   5.2264952788528545610e+3};
-// Tail: beyond, where r = sqrt(-log(min(p, 1 - p))) is at most 5.
+// Tail: other p with r <= 5, where r = sqrt(-log(min(p, 1 - p))).
 constexpr std::array kTailAbove{1.42343711074968357734e0,  4.63033784615654529590e0,
                                 5.76949722146069140550e0,  3.64784832476320460504e0,
                                 1.27045825245236838258e0,  2.41780725177450611770e-1,

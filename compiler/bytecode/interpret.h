@@ -6,8 +6,8 @@
 //
 // A Domain has a type Value and these functions; UnknownDomain has all of them.
 //   bool enter()                    called before each instruction; false stops the run
-//   Value literal(float)            the leaves of an expression: literal,
-//   Value formal(i), global(i), step(), steps(), branch_draw(i)     and these
+//   Value literal(float)            the value of a literal
+//   Value formal(i), global(i), step(), steps(), branch_draw(i)     the values of other leaves
 //   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
 //   Value binary(opcode, x, y)      every one that takes two
 //   Value curve(i, x)               the value of curve i

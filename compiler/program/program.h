@@ -46,7 +46,7 @@ struct Value {
     ValueId right = kNoValue;
 
     [[nodiscard]] bool has_third() const { return opcode == Opcode::If || opcode == Opcode::Mix; }
-    /// The operands in the order of evaluation of If; kNoValue in place of missing ones.
+    /// The operands, for If the condition first; kNoValue in place of missing ones.
     [[nodiscard]] std::array<ValueId, 3> operands() const {
         return {has_third() ? third : kNoValue, left, right};
     }

@@ -378,7 +378,7 @@ ProductionId GrowthWalk::dominant() {
         }
     }
     for (const SequenceRule& rule : sequences_) {
-        // All matches count for the first production of the rule, since any of its may match.
+        // All matches count for the first production of the rule, since any other may match too.
         double modules = 0.0;
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;

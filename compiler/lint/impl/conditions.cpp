@@ -249,7 +249,7 @@ void check_conditions(const CheckInput& input, Diagnostics& diagnostics) {
             has_conditions = has_conditions || production.condition != kNone;
             has_unconditional = has_unconditional || production.condition == kNone;
         }
-        // An unconditional production leaves no gap; contexts may make a gap intended.
+        // An unconditional production leaves no gap, and with contexts a gap may be intended.
         if (has_contexts || has_unconditional || !has_conditions || productions.size() < 2 ||
             productions.size() > kMaxCompared) {
             continue;
