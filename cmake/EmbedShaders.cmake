@@ -1,4 +1,5 @@
-# Writes the shaders as a source file. Usage: cmake -D OUTPUT=F.cpp -D "SHADERS=A.glsl;B.glsl" -P EmbedShaders.cmake
+# Writes shaders as string literals into a C++ source file, so that lsview needs no shader files.
+# Usage: cmake -D OUTPUT=F.cpp -D "SHADERS=A.glsl;B.glsl" -P EmbedShaders.cmake
 set(text "// Written by EmbedShaders.cmake.\n#include \"viewer/gl/impl/program.h\"\n\nnamespace lsys::view {\n\n")
 string(APPEND text "std::optional<std::string> built_in_shader(std::string_view name) {\n")
 foreach(shader ${SHADERS})

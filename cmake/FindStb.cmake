@@ -1,5 +1,5 @@
-# The headers of https://github.com/nothings/stb, as in Debian's libstb-dev: stb::stb, for
-# `#include <stb/...>`. Nothing is linked.
+# Finds the headers of https://github.com/nothings/stb (Debian: libstb-dev) for `#include <stb/...>`.
+# Target: stb::stb, without a library to link.
 find_path(STB_INCLUDE_DIR stb/stb_perlin.h)
 mark_as_advanced(STB_INCLUDE_DIR)
 include(FindPackageHandleStandardArgs)

@@ -1,5 +1,6 @@
-# The headers of https://github.com/marzer/tomlplusplus, as in Debian's libtomlplusplus-dev: toml::headers, for
-# `#include <toml++/toml.h>`. Nothing is linked: the library beside them throws exceptions.
+# Finds the headers of https://github.com/marzer/tomlplusplus (Debian: libtomlplusplus-dev) for
+# `#include <toml++/toml.h>`. Target: toml::headers, without a library to link, because the compiled library of the
+# package throws exceptions.
 find_path(TOML_INCLUDE_DIR toml++/toml.h)
 mark_as_advanced(TOML_INCLUDE_DIR)
 include(FindPackageHandleStandardArgs)

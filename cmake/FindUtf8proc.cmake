@@ -1,4 +1,4 @@
-# The library of https://github.com/JuliaStrings/utf8proc, as in Debian's libutf8proc-dev: utf8proc::utf8proc.
+# Finds the library https://github.com/JuliaStrings/utf8proc (Debian: libutf8proc-dev). Target: utf8proc::utf8proc.
 find_path(UTF8PROC_INCLUDE_DIR utf8proc.h)
 find_library(UTF8PROC_LIBRARY utf8proc)
 mark_as_advanced(UTF8PROC_INCLUDE_DIR UTF8PROC_LIBRARY)

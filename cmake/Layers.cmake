@@ -1,9 +1,9 @@
-# Every library, its folder, and the folders it may include: the one table that the build links by
-# (LsysTargets.cmake) and that the test of include rules reads (tests/layering/check_includes.cmake).
+# Every library as its folder, and the folders that it may include. The build links libraries by this
+# table (LsysTargets.cmake), and the test of include rules reads it (tests/layering/check_includes.cmake).
 #
-# One folder is one library. Headers directly in it are public; those of its sub-folders (impl/,
-# engine/, a dialect's name) are its own. A line is `folder: folders it may include`; a folder stands
-# below all that it includes, so the table has no cycle.
+# One folder is one library. Headers directly in the folder are public; headers in its sub-folders
+# (impl/, engine/, a dialect's name) are private. A line is `folder: folders it may include`. A folder
+# stands below all folders that it includes, so the table has no cycle.
 set(LSYS_LAYERS
   "grammar/base:"
   "grammar/rendering: grammar/base"
@@ -36,7 +36,7 @@ set(LSYS_LAYERS
   "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
   "viewer/app: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
 
-# lsys_layer(PATH RESULT): the folder of the table that PATH lies in, the longest that fits.
+# lsys_layer(PATH RESULT): sets RESULT to the innermost folder of the table that contains PATH.
 function(lsys_layer path result)
   set(found "")
   set(longest 0)
@@ -52,7 +52,7 @@ function(lsys_layer path result)
   set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
-# lsys_layer_includes(FOLDER RESULT): the folders that FOLDER may include.
+# lsys_layer_includes(FOLDER RESULT): sets RESULT to the list of folders that FOLDER may include.
 function(lsys_layer_includes folder result)
   foreach(line IN LISTS LSYS_LAYERS)
     if(line MATCHES "^${folder}:(.*)$")

@@ -1,7 +1,8 @@
-add_custom_target(generated_sources COMMENT "Scanners and parsers") # what clang-tidy needs to have built
+add_custom_target(generated_sources COMMENT "Scanners and parsers") # clang-tidy needs these files
 
-# lsys_add_grammar(TARGET FOLDER): runs Bison and Flex on parser.yy and scanner.ll of FOLDER and adds the
-# results to TARGET, as `NAME/parser.h` of the last part of FOLDER. Nothing is written beside the sources.
+# lsys_add_grammar(TARGET FOLDER): runs Bison on parser.yy and Flex on scanner.ll of FOLDER, and adds the
+# results to TARGET. Sources include them as `NAME/parser.h`, with NAME the last part of FOLDER. The results
+# are in the build folder, not beside the sources.
 function(lsys_add_grammar target folder)
   get_filename_component(dialect "${folder}" NAME)
   set(source "${PROJECT_SOURCE_DIR}/${folder}")
@@ -19,9 +20,10 @@ function(lsys_add_grammar target folder)
   target_sources(${target} PRIVATE
     ${BISON_${dialect}_parser_OUTPUTS} ${FLEX_${dialect}_scanner_OUTPUTS})
   target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
-  # The scanner Flex 2.6 writes has C casts; the LAC part of the parser Bison 3.8 writes narrows states.
-  # All actions of the scanner are one function: each token made inline would be a variable of it, and
-  # sanitizers set up every variable of a function whenever it is called, which is for every token.
+  # Warnings of generated code are off: scanners of Flex 2.6 have C casts, and the LAC code (lookahead
+  # correction) in parsers of Bison 3.8 narrows states.
+  # -fno-inline: all actions of a scanner are one function, which is called for every token. Inlined token
+  # constructors would each add local variables to it, which sanitizers initialise at every call.
   set_source_files_properties("${out}/scanner.cpp" PROPERTIES
     COMPILE_OPTIONS "-fno-inline;-Wno-old-style-cast;-Wno-null-dereference;$<$<CXX_COMPILER_ID:GNU>:-Wno-useless-cast>"
     SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)

@@ -1,14 +1,16 @@
-# The two interface targets that every target of ours links: how code is compiled, and how strictly.
+# Two interface targets that every target of the project links: lsys_options has the compiler options,
+# lsys_warnings the warnings. Functions below make libraries.
 
-# Numbers are portable: no contraction to fused multiply-add, no value-changing optimisation.
+# Floating-point results are the same on every machine: no contraction to fused multiply-add, no optimisation that
+# changes values.
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>")
-# Header-only parts of both are in precompiled headers.
+# Every target links fmt and glm, because the precompiled headers include them.
 target_link_libraries(lsys_options INTERFACE fmt::fmt glm::glm)
 target_compile_options(lsys_options INTERFACE
   -ffp-contract=off
-  # What users get names no folder of the machine that built it.
+  # Release programs do not contain paths of the machine that built them.
   $<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>
   $<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=>)
 if(LSYS_SANITIZE)
@@ -26,16 +28,16 @@ target_compile_options(lsys_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   -Wdouble-promotion
-  # What g++ 12 warns of after inlining is wrong: overlaps, bounds and unset values in std::string,
-  # std::vector and std::optional that cannot be. clang and the sanitizers watch for those.
+  # These warnings of g++ 12 are false alarms after inlining: overlaps, bounds and unset values in std::string,
+  # std::vector and std::optional. clang and the sanitizers check for real ones.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-stringop-overread>
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wuseless-cast>
   $<$<CXX_COMPILER_ID:Clang>:-Wconditional-uninitialized>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
 
-# Standard headers that most sources include, compiled once for all libraries of ours and once for all
-# tests. A source still includes what it uses: the preset `clang` builds without this.
+# Standard headers that most sources include, compiled once for all libraries and once for all tests. Sources must
+# still include what they use: the preset `clang` builds without precompiled headers and finds missing includes.
 option(LSYS_PRECOMPILED "Precompile common headers" ON)
 add_library(lsys_precompiled STATIC "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
 target_link_libraries(lsys_precompiled PRIVATE lsys_options lsys_warnings)
@@ -49,35 +51,36 @@ function(lsys_precompile target)
   endif()
 endfunction()
 
-# lsys_unity(TARGETS...): batches of six sources per compiler run, because headers and templates take most of the
-# time of a source. Names of unnamed namespaces are unique within such a target. Libraries whose speed the benchmarks
-# measure are no such targets. OFF compiles each source alone, which clang-tidy, coverage and missing includes need.
+# lsys_unity(TARGETS...): compiles the sources of the targets in batches of six (unity build), because headers and
+# templates take most of the time of a source. Names in unnamed namespaces must be unique within such a target.
+# Libraries whose speed the benchmarks measure are not compiled in batches. LSYS_UNITY=OFF compiles each source alone,
+# as clang-tidy, coverage and the search for missing includes need.
 option(LSYS_UNITY "Compile sources of tests and programs in batches" OFF)
 function(lsys_unity)
   set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${LSYS_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   if(LSYS_UNITY)
-    # g++ takes an unnamed namespace of an included source for one of a header.
+    # g++ treats an unnamed namespace in a source of a batch as one in a header, and warns.
     foreach(target ${ARGN})
       target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     endforeach()
   endif()
 endfunction()
 
-# lsys_library(NAME SOURCES... ) : a static library of ours.
+# lsys_library(NAME SOURCES...): adds a static library with the options and warnings of the project.
 function(lsys_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC lsys_options PRIVATE lsys_warnings)
   lsys_precompile(${name})
 endfunction()
 
-# lsys_target_name(FOLDER RESULT): the library of a folder, `lsys_runtime_derive` of runtime/derive.
+# lsys_target_name(FOLDER RESULT): sets RESULT to the library of a folder: `lsys_runtime_derive` for runtime/derive.
 function(lsys_target_name folder result)
   string(REPLACE "/" "_" name "lsys_${folder}")
   set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
-# lsys_folder(FOLDER PACKAGES...): the library of a folder of cmake/Layers.cmake: all sources in it and
-# in its private sub-folders, linked to the libraries that the table names and to PACKAGES.
+# lsys_folder(FOLDER PACKAGES...): adds the library of a folder of cmake/Layers.cmake, from all sources in the folder
+# and its private sub-folders. Links it to the libraries of the folders that the table lists, and to PACKAGES.
 function(lsys_folder folder)
   lsys_target_name(${folder} name)
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
@@ -99,7 +102,7 @@ function(lsys_folder folder)
   target_link_libraries(${name} PRIVATE ${ARGN})
 endfunction()
 
-# lsys_group(NAME FOLDERS...): one name for the libraries of several folders.
+# lsys_group(NAME FOLDERS...): adds a target that links the libraries of several folders.
 function(lsys_group name)
   add_library(${name} INTERFACE)
   foreach(folder ${ARGN})

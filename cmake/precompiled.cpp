@@ -1,1 +1,1 @@
-// The precompiled headers of all libraries belong to this source (LsysTargets.cmake).
+// An empty source for the target whose precompiled headers all libraries reuse (LsysTargets.cmake).

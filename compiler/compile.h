@@ -17,20 +17,21 @@
 namespace lsys {
 
 struct CompileOutcome {
-    std::optional<Program> program;               // if there are no errors
-    std::optional<Bytecode> bytecode;             // if CompileOptions::lower, without errors
+    std::optional<Program> program;   // unset after errors, or for CompileOptions::part
+    std::optional<Bytecode> bytecode; // as `program`; unset without CompileOptions::lower
     std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
 };
 
-/// Checks and compiles; appends diagnostics. Consumes the Ast to keep peak memory low.
+/// Checks and compiles; appends diagnostics. Frees the Ast on the way to keep peak memory low.
 [[nodiscard]] CompileOutcome compile(Ast ast,
                                      Names& names,
                                      const SourceMap& sources,
                                      const CompileOptions& options,
                                      Diagnostics& diagnostics);
 
-/// Applies the `#set` statements of `ast` to the settings of compiled code. Mistakes in them become
-/// diagnostics. Error: a setting does not fit the code. Precondition: `ast` defines no constants.
+/// Applies the `#set` statements of `ast` to the settings of compiled code. Mistakes in the
+/// statements become diagnostics. Error: verify() refuses the code with these settings.
+/// Precondition: `ast` defines no constants.
 [[nodiscard]] Result<void> change_settings(
     Ast& ast, Names& names, const SourceMap& sources, Bytecode& bytecode, Diagnostics& diagnostics);
 

@@ -58,10 +58,10 @@ namespace lsys::arithmetic {
     return std::fmod(x, y);
 }
 
-/// The value of an arithmetic instruction, which is one of opcodes.def from Negate to Mod. Unary
-/// instructions ignore `y`.
+/// The value of an arithmetic instruction: a row of opcodes.def from Negate to Mod. Unary
+/// instructions ignore `y`. Precondition: is_arithmetic(opcode).
 [[nodiscard]] float apply(Opcode opcode, float x, float y);
-/// Whether the opcode is one from Negate to Mod.
+/// Whether the opcode is a row of opcodes.def from Negate to Mod.
 [[nodiscard]] bool is_arithmetic(Opcode opcode);
 
 } // namespace lsys::arithmetic

@@ -21,7 +21,7 @@ constexpr std::array<OpcodeInfo, kOpcodeCount> kOpcodes{{
 }};
 static_assert(kOpcodeCount <= 256, "an opcode is eight bits of an instruction");
 
-/// The hash of an empty sequence, before finish().
+/// Initial value of the hash, to which fields are added before finish().
 constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
 
 /// Combines all fields that the derived word may depend on.
@@ -136,7 +136,8 @@ ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
     if (axiom_with(bytecode, index) != nullptr) {
         return kNoProduction;
     }
-    // If several productions begin there, only the last has a successor with modules.
+    // Productions with empty successors begin at the same index as the next production, so the last
+    // one that begins at or before `index` holds the module.
     const auto after = std::upper_bound(
         bytecode.productions.begin(), bytecode.productions.end(), index,
         [](std::uint32_t at, const BytecodeProduction& p) { return at < p.successor.codes.first; });

@@ -11,11 +11,11 @@
 // Each table is filled in one order without gaps, so that nothing is shared and a walk over the
 // productions is a walk over the tables:
 //   constants       of folded[0], folded[1], ...
-//   patterns        of each production its left context, predecessor and right context
-//   template_codes  of the axiom, then of each production's successor
-//   instructions    of each global, of the axiom's arguments, then of each production its condition,
-//                   its local values and its successor's arguments
-//   template_places of the modules of template_codes, or empty: the places are unknown
+//   patterns        per production: left context, predecessor, right context
+//   template_codes  the axioms, then the successor of each production
+//   instructions    the globals, the arguments of the axioms, then per production: condition,
+//                   weight, local values, arguments of the successor
+//   template_places places of the modules of template_codes; empty if the places are unknown
 #pragma once
 
 #include "compiler/bytecode/curve.h"
@@ -70,15 +70,16 @@ inline constexpr std::uint32_t kOpcodeCount = kCountOf<Opcode>;
 /// Precondition: opcode < kOpcodeCount.
 [[nodiscard]] const OpcodeInfo& info(Opcode opcode);
 inline constexpr std::uint32_t kMaxOperand = (1U << 24) - 1;
-/// Maximum of random ranges per successor with `rewriting sequential`, where pass k adds 4096 k to
-/// their numbers.
+/// Max number of draws (random ranges and distributions) per successor with `rewriting sequential`,
+/// since the pass of rule k numbers its draws from 4096 k on.
 inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
 [[nodiscard]] constexpr std::uint32_t encode(Opcode opcode, std::uint32_t operand) {
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
 }
 
-/// Parameters of a SaveBranch before the formals that its branch uses: whether to take an instance,
-/// the age of the word that holds it, its id.
+/// Number of parameters of a SaveBranch module that precede the formals and local values used in
+/// its branch: whether to take a recorded instance, the age of the word with this module, the id of
+/// the branch.
 inline constexpr std::uint32_t kBranchArguments = 3;
 
 enum class SymbolId : std::uint32_t {};
@@ -89,47 +90,48 @@ inline constexpr ProductionId kNoProduction{0xFFFFFFFFu};
 using Code = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// Bracket structure is a property of symbols, not of characters.
+/// Brackets and polygons are recognised by the kind of a symbol, not by its name.
 LSYS_COUNTED_ENUM(SymbolKind, Plain, BranchOpen, BranchClose, PolygonOpen, PolygonClose);
 
 struct BytecodeSymbol {
     std::string name;
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
-    bool ignored = false; // by #ignore
+    bool ignored = false; // contexts skip it, by #ignore or #consider
     TurtleOperation turtle = TurtleOperation::Nothing;
     std::string mesh_file; // for TurtleOperation::MeshFile
 };
 
-/// A module whose arguments are constants: code = symbols.size() + its index.
+/// A module whose arguments are constants. Its code is symbols.size() plus its index in
+/// Bytecode::folded.
 struct FoldedModule {
     SymbolId symbol = kNoSymbol;
-    std::uint32_t first_constant = 0; // in constants, one per parameter of the symbol
+    std::uint32_t first_constant = 0; // index in constants; one constant per parameter
 };
 
-/// A place in a source file for messages; needs no source text.
+/// A place in a source file for messages. Has line and column, so messages need no source text.
 struct Site {
-    SourceSpan span; // FileId indexes Bytecode::files
+    SourceSpan span; // its FileId is an index in Bytecode::files
     std::uint32_t line = 0;
     std::uint32_t column = 0;
 };
 
-/// Instructions from `instruction` up to the next range come from one site.
+/// The instructions from `instruction` up to the next range belong to one site.
 struct SiteRange {
     std::uint32_t instruction = 0;
-    std::uint32_t site = 0; // in sites
+    std::uint32_t site = 0; // index in sites
 };
 
 /// Places of consecutive modules of template_codes that stand at equal distances in one line of
-/// ASCII text, so that a long axiom takes few rows. Their file is the one of the site of the axiom
-/// or production. The first module of each word begins a run.
+/// ASCII text, so that a long axiom takes few rows. The file is that of the axiom's site or of the
+/// production's name_site. The first module of each word begins a run.
 struct PlaceRun {
-    std::uint32_t first = 0;  // in template_codes; the run ends where the next begins
-    std::uint32_t begin = 0;  // offset of its first module
+    std::uint32_t first = 0;  // index in template_codes; the run ends where the next begins
+    std::uint32_t begin = 0;  // byte offset of the first module in its file
     std::uint32_t length = 0; // bytes of each module, arguments included
     std::uint32_t stride = 0; // bytes from one module to the next; 0 for a single module
     std::uint32_t line = 0;
-    std::uint32_t column = 0; // of its first module
+    std::uint32_t column = 0; // of the first module
 };
 
 LSYS_COUNTED_ENUM(PatternKind, Module, Open, Close);
@@ -155,25 +157,26 @@ struct WordTemplate {
     std::uint32_t locals = kNone;
     std::uint32_t arguments = kNone; // first instruction, or kNone if nothing is stored
     std::uint32_t parameter_count = 0;
-    std::uint32_t draw_count = 0; // random ranges
+    std::uint32_t draw_count = 0; // random ranges and distributions
 };
 
 struct BytecodeProduction {
     std::string name;
     std::uint32_t name_site = kNone;
-    std::uint32_t rule = 0;  // of productions with equal predecessors, by first appearance
-    std::uint32_t group = 0; // of productions with equal predecessors and contexts
+    std::uint32_t rule = 0;  // number of the rule, by first appearance: equal predecessors
+    std::uint32_t group = 0; // number of the group: equal predecessors and contexts
     Stage stage = Stage::Rewrite;
     bool has_left = false;
     bool has_right = false;
-    TableRange left;        // in patterns; modules only, in text order
-    TableRange predecessor; // in patterns; modules only, at least one
-    TableRange right;       // in patterns; Open and Close balance
+    TableRange left;        // range of patterns; only modules, in text order
+    TableRange predecessor; // range of patterns; only modules, at least one
+    TableRange right;       // range of patterns; Open and Close are balanced
     std::uint32_t formal_count = 0;
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
     bool stochastic = false;
-    float weight = 0.0F; // as written after `~`, if stochastic and a constant
-    /// First instruction of a weight that is no constant, a piece of code like a condition; or kNone.
+    float weight = 0.0F; // the number after `~`; 0 if there is none or it is not constant
+    /// First instruction of a weight that is not constant, else kNone. The code ends with Test, as
+    /// that of a condition does.
     std::uint32_t weight_code = kNone;
     WordTemplate successor;
 };
@@ -182,15 +185,15 @@ struct BytecodeProduction {
 struct BytecodeAxiom {
     WordTemplate word;
     std::uint32_t site = kNone;
-    std::uint32_t draw_position = 0; // index of its first range, as BytecodeGlobal::draw_position
-    float weight = 1.0F;             // as written after `~`
+    std::uint32_t draw_position = 0; // index of its first draw, as BytecodeGlobal::draw_position
+    float weight = 1.0F;             // the number after `~`
 };
 
 /// A constant that is drawn when the derivation starts.
 struct BytecodeGlobal {
     std::string name;
-    std::uint32_t instruction = 0; // computes the value: Emit, End
-    /// Index of its first random range among the ranges of all #define, #param and #w.
+    std::uint32_t instruction = 0; // first instruction of its code, which ends with Emit, End
+    /// Index of its first draw among the draws of all #define, #param and #w.
     std::uint32_t draw_position = 0;
     std::uint32_t draw_count = 0;
     bool has_bounds = false; // true for a #param
@@ -199,7 +202,7 @@ struct BytecodeGlobal {
     std::uint32_t site = kNone;
 };
 
-/// `#curve`. The slopes of the points are set.
+/// A `#curve`. set_slopes() has set the slopes of the points.
 struct BytecodeCurve {
     std::string name;
     std::vector<CurveKnot> points;
@@ -207,7 +210,7 @@ struct BytecodeCurve {
 
 struct Bytecode {
     Settings settings;
-    std::optional<std::uint32_t> generations; // from #n
+    std::optional<std::uint32_t> generations; // value of #n
 
     std::vector<std::string> files; // paths; FileId of a Site indexes them
     std::vector<BytecodeSymbol> symbols;
@@ -218,23 +221,23 @@ struct Bytecode {
     std::vector<Code> template_codes;
     std::vector<std::uint32_t> instructions;
     std::vector<Site> sites;
-    std::vector<SiteRange> site_ranges;          // ascending
-    std::vector<PlaceRun> template_places;       // ascending
+    std::vector<SiteRange> site_ranges;          // by ascending instruction
+    std::vector<PlaceRun> template_places;       // by ascending `first`
     std::vector<BytecodeProduction> productions; // by stage, then in file order
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
     std::vector<BytecodeAxiom> axioms; // in file order, at least one
     bool uses_steps = false;           // some expression calls steps()
     std::vector<BytecodeCurve> curves;
-    std::uint32_t stack_depth = 0; // the deepest stack of any code
-    std::uint32_t local_count = 0; // the most slots of any code
+    std::uint32_t stack_depth = 0; // max stack depth of any code
+    std::uint32_t local_count = 0; // max number of slots of any code
 
-    /// The productions of a stage.
+    /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;
     [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
-    /// Number of rules of Stage::Rewrite, which are the first ones.
+    /// Number of rules of Stage::Rewrite. Rules of later stages have higher numbers.
     [[nodiscard]] std::uint32_t rewriting_rules() const;
-    /// Whether a symbol cuts off its branch.
+    /// Whether some symbol cuts off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
 
     [[nodiscard]] Code code_count() const {

@@ -9,15 +9,16 @@ namespace lsys {
 struct CurveKnot {
     float x = 0.0F;
     float y = 0.0F;
-    double slope = 0.0; // of the curve in the point; follows from all points
+    double slope = 0.0; // of the curve at this point; set_slopes() computes it from all points
 };
 
-/// Sets the slopes by Fritsch and Carlson 1980, so that the curve rises or falls between two points
-/// as they do. Precondition: two points or more, x strictly ascending, all finite.
+/// Sets the slopes by the method of Fritsch and Carlson 1980, "Monotone piecewise cubic
+/// interpolation", so that the curve is monotone between neighbouring points. Precondition: two
+/// points or more, x strictly ascending, all finite.
 void set_slopes(std::span<CurveKnot> points);
 
-/// The value of the curve at `x`: y of the first point before it, of the last one behind it, NaN
-/// for NaN; between, the cubic through two points with their slopes, in binary64, rounded once.
+/// The value of the curve at `x`. Between points: the cubic Hermite interpolant in binary64,
+/// rounded once. Left of the first point: its y. Right of the last point: its y. NaN for NaN.
 [[nodiscard]] float curve_value(std::span<const CurveKnot> points, float x);
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// The text listing of verified Bytecode: `lsc dump --stage bytecode`.
+// The text listing of Bytecode: `lsc dump --stage bytecode`. Precondition: verify() accepts it.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// The polynomial with these coefficients, from that of x^0 on.
+/// The polynomial with these coefficients at `x`, lowest power first.
 template <std::size_t Count>
 double polynomial(const std::array<double, Count>& coefficients, double x) {
     double value = 0.0;
@@ -19,7 +19,8 @@ double polynomial(const std::array<double, Count>& coefficients, double x) {
     return value;
 }
 
-// Coefficients of AS 241: numerator and denominator near the middle, ...
+// Coefficients of algorithm AS 241 (normal_quantile()), numerator (Above) and denominator (Below).
+// Middle: |p - 0.5| <= 0.425.
 constexpr std::array kMiddleAbove{3.3871328727963666080e0,  1.3314166789178437745e+2,
                                   1.9715909503065514427e+3, 1.3731693765509461125e+4,
                                   4.5921953931549871457e+4, 6.7265770927008700853e+4,
@@ -32,7 +33,7 @@ constexpr std::array kMiddleBelow{1.0,
                                   3.9307895800092710610e+4,
                                   2.8729085735721942674e+4,
                                   5.2264952788528545610e+3};
-// ... in the tails, ...
+// Tail: other p with r <= 5, where r = sqrt(-log(min(p, 1 - p))).
 constexpr std::array kTailAbove{1.42343711074968357734e0,  4.63033784615654529590e0,
                                 5.76949722146069140550e0,  3.64784832476320460504e0,
                                 1.27045825245236838258e0,  2.41780725177450611770e-1,
@@ -45,7 +46,7 @@ constexpr std::array kTailBelow{1.0,
                                 1.51986665636164571966e-2,
                                 5.47593808499534494600e-4,
                                 1.05075007164441684324e-9};
-// ... and far out.
+// Far: r > 5.
 constexpr std::array kFarAbove{6.65790464350110377720e0,  5.46378491116411436990e0,
                                1.78482653991729133580e0,  2.96560571828504891230e-1,
                                2.65321895265761230930e-2, 1.24266094738807843860e-3,
@@ -59,8 +60,8 @@ constexpr std::array kFarBelow{1.0,
                                1.42151175831644588870e-7,
                                2.04426310338993978564e-15};
 
-/// A number >= 0 with an exponent of its own, since the first terms of a sum may be far below the
-/// least binary64.
+/// A non-negative number `fraction` * 2^`exponent`, since the first terms of a sum may be far below
+/// the smallest binary64.
 struct Term {
     double fraction = 1.0;
     std::int64_t exponent = 0;
@@ -71,7 +72,7 @@ struct Term {
         exponent += shift;
     }
     [[nodiscard]] double value() const {
-        constexpr std::int64_t kLeast = -2000; // 0 in binary64
+        constexpr std::int64_t kLeast = -2000; // any lower exponent also gives 0 in binary64
         return std::ldexp(fraction, static_cast<int>(std::max(exponent, kLeast)));
     }
 };

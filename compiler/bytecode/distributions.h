@@ -1,4 +1,5 @@
-// Distributions: one random number each from one draw (docs/language.md section 4.8).
+// Distributions (docs/language.md section 4.8). Each random number is computed from one draw in
+// [0, 1).
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -15,33 +16,33 @@ inline constexpr float kMaxTrials = 10000.0F;
     return opcode == Opcode::Normal || opcode == Opcode::Poisson || opcode == Opcode::Binomial;
 }
 
-/// Whether the instruction takes a draw of the production: of a range or a distribution.
+/// Whether the instruction uses a random draw: a range or a distribution.
 [[nodiscard]] constexpr bool is_draw(Opcode opcode) {
     return opcode == Opcode::Range || is_distribution(opcode);
 }
 
-/// The argument of a distribution that it cannot be drawn with.
+/// The invalid argument of a distribution.
 enum class DistributionFault : std::uint8_t {
     None,
     Mean,        // of normal: not finite; of poisson: outside 0 to kMaxPoissonMean
     Deviation,   // not finite or below 0
-    Trials,      // no whole number of 0 to kMaxTrials
+    Trials,      // not a whole number from 0 to kMaxTrials
     Probability, // outside 0 to 1
 };
-/// The first argument at fault. Normal(x, y): mean and standard deviation; Poisson(x): mean;
-/// Binomial(x, y): number of trials and probability of each.
+/// The first invalid argument, or None. Arguments of Normal(x, y): mean and standard deviation; of
+/// Poisson(x): mean; of Binomial(x, y): number of trials and probability of success.
 [[nodiscard]] DistributionFault check_distribution(Opcode opcode, float x, float y);
-/// The rule that an argument at fault breaks, as a clause of a message.
+/// The rule that an invalid argument breaks, as a clause of a message.
 [[nodiscard]] const char* describe(Opcode opcode, DistributionFault fault);
 
-/// The number that the draw `u` in [0, 1) yields. Precondition: check_distribution() finds no
-/// fault. A normal number may be infinite, if it overflows.
+/// The random number for the draw `u` in [0, 1). Precondition: check_distribution() returns None. A
+/// normally distributed number is infinite if it overflows.
 [[nodiscard]] float draw_from(Opcode opcode, float x, float y, float u);
 
-/// The number below which a standard normal one lies with probability `p`, 0 < p < 1, to about
-/// 1 part in 10^16: algorithm AS 241, PPND16 (Wichura 1988).
+/// Quantile of the standard normal distribution for 0 < p < 1: the x with P(X < x) = p. Relative
+/// error about 1e-16: algorithm AS 241, PPND16 (Wichura 1988).
 [[nodiscard]] double normal_quantile(double p);
-/// The least k whose cumulative probability exceeds `u`.
+/// Quantiles: the least k with P(X <= k) > u, for u in [0, 1).
 [[nodiscard]] std::uint32_t poisson_quantile(double mean, double u);
 [[nodiscard]] std::uint32_t binomial_quantile(std::uint32_t trials, double probability, double u);
 

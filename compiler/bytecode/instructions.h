@@ -16,7 +16,7 @@ namespace lsys {
 [[nodiscard]] constexpr std::uint32_t operand_of(std::uint32_t instruction) {
     return instruction >> 8;
 }
-/// Words of an instruction: 1, or 2 with a literal.
+/// Length of an instruction in 32-bit words: 2 for Literal, whose value is the second word, else 1.
 [[nodiscard]] constexpr std::uint32_t instruction_length(Opcode opcode) {
     return opcode == Opcode::Literal ? 2 : 1;
 }
@@ -30,7 +30,7 @@ inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
     return kOpcodePops[static_cast<std::size_t>(opcode)];
 }
 
-/// The room that instructions need: the deepest stack, and the number of slots.
+/// Memory that running some code needs: max stack depth and number of slots.
 struct CodeRoom {
     std::uint32_t stack_depth = 0;
     std::uint32_t local_count = 0;
@@ -44,7 +44,8 @@ struct Instruction {
     float literal = 0.0F;
 };
 
-/// The instructions of verified code from word `first` up to `last`, or up to and with its End.
+/// The instructions of verified code from word `first` up to `last`, or up to and including its
+/// End.
 class InstructionRange {
 public:
     InstructionRange(std::span<const std::uint32_t> words,

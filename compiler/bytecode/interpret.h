@@ -5,20 +5,20 @@
 // domains treat its result as unknown unless they have a case for it.
 //
 // A Domain has a type Value and these functions; UnknownDomain has all of them.
-//   bool enter()                    before each instruction: whether to go on
-//   Value literal(float)            the leaves of an expression
-//   Value formal(i), global(i), step(), steps(), branch_draw(i)
+//   bool enter()                    called before each instruction; false stops the run
+//   Value literal(float)            the value of a literal
+//   Value formal(i), global(i), step(), steps(), branch_draw(i)     the values of other leaves
 //   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
 //   Value binary(opcode, x, y)      every one that takes two
 //   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
-//   bool draw(opcode, x, y, i, at)  replace x by draw i of a range [x, y) or a distribution with
-//                                   these arguments: whether to go on
-//   bool take(x, at)                Emit or Test took x: whether to go on
-//   kKnowsChoices, and then         whether it knows each condition of a choice:
-//     bool holds(x)                 it does, and only one side is run
-//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z
-// `at` points to the instruction.
+//   bool draw(opcode, x, y, i, at)  replaces x by draw i of the range [x, y) or of a distribution
+//                                   with arguments x and y; false stops the run
+//   bool take(x, at)                receives the operand x of Emit or Test; false stops the run
+//   kKnowsChoices                   a constant: whether the condition of every choice is known
+//     bool holds(x)                 if true: whether condition x holds; only that side is run
+//     Value choice(x, y, z)         if false: both sides are run; y if x is not 0, else z
+// `at` points to the instruction being run.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
@@ -33,7 +33,7 @@
 
 namespace lsys {
 
-/// The domain in which nothing is known of any value; others derive from it.
+/// The domain in which every value is unknown; other domains derive from it.
 template <typename Unknown>
 struct UnknownDomain {
     using Value = Unknown;
@@ -87,7 +87,8 @@ struct UnknownDomain {
 
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
 /// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
-/// Bytecode::local_count or slot_room(); slots that the code reads before it sets them have values.
+/// Bytecode::local_count or slot_room(). The caller sets the slots that this code reads before
+/// it sets them.
 template <typename Domain>
 [[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
                                              Domain& domain,

@@ -1,8 +1,8 @@
 // The layout of a .lsb file. Numbers are little-endian; f32 is the bits of an IEEE binary32.
 //
 //   offset  size
-//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. A transfer that changes line ends or drops the
-//                 eighth bit damages it.
+//        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. The bytes show whether a transfer changed line
+//                 ends or dropped the eighth bit of bytes.
 //        8     4  version
 //       12     4  0
 //       16     8  size of the whole file

@@ -17,11 +17,11 @@ namespace lsys {
 //   2  Places of the modules in the text (template_places).
 //   3  Stages of productions, depths of #decompose and #interpret, treatment at the max depth.
 //   4  Source of random numbers, names of single characters; profiles l3d_program and
-//      lplus_program; operations TurnByPi, ParameterBegin, ParameterEnd and Text, in the middle of
-//      the others.
+//      lplus_program; operations TurnByPi, ParameterBegin, ParameterEnd and Text, inserted between
+//      older ones.
 //      Rewriting mode Leftmost, profiles Fractint and Sidefx and their operations, HalfTurnSnapped
 //      to DivideAngle, were added without a new version.
-//   5  The contents of version 4, with all of these; traits of the turtle.
+//   5  Version 4 with all of these additions, and traits of the turtle.
 //   6  Height and pipe model of the plant; springs from the elasticity, and the load of a joint.
 //   7  Droop of leaves, and segments that are boxes, among the traits of the turtle.
 //   8  Local values and their slots, choices, the depth of the stack; opcodes Local to EndIf.

@@ -31,7 +31,7 @@ constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) TurtleTraits{__VA_ARGS__},
 #include "compiler/bytecode/turtle_profiles.def"
 }};
-// If a name is missing, the last entry is empty.
+// An array with too few names ends with an empty entry.
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
                   !kRandomSources.back().empty() && !kLoadRules.back().empty(),

@@ -18,15 +18,16 @@ LSYS_COUNTED_ENUM(RewritingMode, Parallel, Sequential, Cyclic, Leftmost);
 LSYS_COUNTED_ENUM(ChoiceScope, Module, Generation);
 /// Source of the draws of `choice generation`: docs/language.md section 6, or rand() of glibc.
 LSYS_COUNTED_ENUM(RandomSource, Philox, Glibc);
-/// Whether unconditional groups must sum to 1.
+/// Whether the probabilities of a group without conditions must sum to 1, or are weights with any
+/// sum.
 LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: the run
 /// ends with an error, or the module stays unchanged.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
-/// Weight that bends a joint: of all that hangs on it, or of its own segment only.
+/// Weight that bends a joint: of everything beyond the joint, or of its own segment only.
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
-/// The table of docs/language.md section 7 that gives modules their meaning for the turtle. The
-/// resolver applies it; later stages may only print its name.
+/// The set of turtle commands by module name (docs/language.md section 7). The resolver applies it;
+/// later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
 #define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
 #include "compiler/bytecode/turtle_profiles.def"
@@ -40,12 +41,12 @@ struct EnumCount<TurtleProfile> {
     };
 };
 
-/// Properties of the turtle of a profile beside its commands; the resolver copies the profile's
-/// row.
+/// Properties of a profile's turtle other than its commands. The resolver copies them from the row
+/// of the profile in turtle_profiles.def.
 struct TurtleTraits {
     bool leaf_moves = true;             // a leaf moves the turtle by its length
     bool object_moves = true;           // other objects move the turtle by their length
-    bool object_has_step_scale = false; // size of an object without a parameter: step_scale, not 1
+    bool object_has_step_scale = false; // an object without a parameter has size step_scale, not 1
     bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
     bool width_is_relative = false;     // the width is radius / length of a segment
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
@@ -53,13 +54,13 @@ struct TurtleTraits {
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // initial heading, degrees to the left of +Y
     std::uint16_t first_colour = 0;      // initial colour, an index of the palette
-    float leaf_droop = 0.0F;             // bending of leaves by gravity, 0 to 1, without an option
+    float leaf_droop = 0.0F;             // default bending of leaves by gravity, 0 to 1
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };
 [[nodiscard]] const TurtleTraits& traits_of(TurtleProfile profile);
 
-/// A direction x y z and the susceptibility e.
+/// Tropism: a direction x, y, z and the susceptibility e (docs/language.md section 7).
 using Tropism = std::array<float, 4>;
 
 /// The pipe model: widths that follow from the tips (docs/language.md section 7.5).
@@ -89,11 +90,11 @@ struct Settings {
 
 /// Whether the derived word depends on a setting.
 enum class SettingUse : std::uint8_t { Word, Beside };
-/// Line of the program dump that shows a setting; None: the dump does not show it by the table.
+/// Line of the program dump that shows a setting. None: no line made from settings.def shows it.
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {
-    std::string_view name; // the field, and its key where it has one
+    std::string_view name; // of the field; also the key in `#set`, if it has one
     SettingUse use;
     SettingGroup group;
 };

@@ -27,19 +27,19 @@ inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>
 /// Element that a module with the operation adds to the skeleton, if it can be drawn.
 enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
 
-/// Actions that the turtle's walk over a word does itself, without a call. Yaw, Pitch and Roll are
-/// the turns by an angle, quick where the angle is a constant.
+/// Frequent actions that the turtle's loop over a word does inline, without calling execute(). Yaw,
+/// Pitch and Roll turn by an angle and are inline if the angle is constant.
 enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
 
 struct TurtleInfo {
     enum Trait : std::uint16_t {
-        Inverse = 1,           // turns against yaw(), pitch() and roll() of the turtle's pose.h
-        ChangesAngle = 2,      // the angle of turns without a parameter is not a constant
+        Inverse = 1,           // turns opposite to yaw(), pitch() and roll() of the turtle's pose.h
+        ChangesAngle = 2,      // changes the angle of turns without a parameter
         SecondHeading = 4,     // moves along the second heading of Fractint, with its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
-        AddsCorners = 32,      // its ends are corners of a polygon without vertices
-        PreparesDrawing = 64,  // has a purpose only beside modules that draw
+        AddsCorners = 32,      // its ends are corners of a polygon that has no `.`
+        PreparesDrawing = 64,  // has an effect only together with modules that draw
         OneIsDefault = 128,    // the program L3D reads a parameter of 1 as no parameter
         HasNoLength = 256,     // an object that does not move the turtle
     };
@@ -48,7 +48,7 @@ struct TurtleInfo {
     Drawn drawn = Drawn::Nothing;
     QuickAction quick = QuickAction::None;
     std::uint16_t traits = 0;
-    std::uint8_t parameter_count = 0; // at most
+    std::uint8_t parameter_count = 0; // max
     std::string_view parameters;      // their meaning: "length, spring constant, mass"
 
     [[nodiscard]] constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
@@ -62,7 +62,7 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
 #include "compiler/bytecode/turtle_operations.def"
 }};
 
-/// Precondition: an enumerator.
+/// Precondition: `operation` is an enumerator.
 [[nodiscard]] constexpr const TurtleInfo& info(TurtleOperation operation) {
     return TurtleInfo::kRows[static_cast<std::size_t>(operation)];
 }

@@ -15,8 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// A stream of describe_settings() that finds values which no enumerator has or which are not
-/// finite.
+/// A stream for describe_settings() that finds invalid enumerators and numbers that are not finite.
 struct RangeCheck : IgnoringStream {
     bool all_enumerators = true;
     bool all_finite = true;
@@ -33,11 +32,11 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// Place of code, which decides the instructions allowed in it.
+/// Kind of place that code belongs to. It decides which instructions are allowed.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
-/// One walk over the tables in the order that bytecode.h promises. Every function returns false
-/// after it has stored a message in problem_.
+/// Verifies bytecode in one walk over the tables in the order that bytecode.h describes. Every
+/// function returns false after it has stored a message in problem_.
 class Verifier {
 public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
@@ -196,7 +195,7 @@ private:
                 (run.stride < run.length && (count > 1 || run.stride != 0))) {
                 return fail("place run {} is malformed", i);
             }
-            // From the first module of the run to its last.
+            // Bytes from the first module of the run to its last.
             const std::uint64_t distance = (count - 1) * run.stride;
             if (distance + run.begin + run.length > kNone || distance + run.column > kNone) {
                 return fail("place run {} ends beyond every file", i);
@@ -413,7 +412,8 @@ private:
         return depth == 0 || fail("production {} has an open bracket in its context", index);
     }
 
-    /// Whether `range` begins at `next` and ends within a table of `size`; moves `next` to its end.
+    /// Whether `range` begins at `next` and ends within a table of `size` rows. Moves `next` to the
+    /// end of the range.
     static bool consecutive(TableRange range, std::uint64_t& next, std::size_t size) {
         if (range.first != next || range.count > size - next) {
             return false;
@@ -461,7 +461,8 @@ private:
         std::uint32_t emits = 1;
     };
 
-    /// Slots that have a value before the code keep it.
+    /// Verifies one piece of code, which may also read the slots that earlier code of the same word
+    /// has set.
     bool code(CodePlace place, std::uint32_t first, const CodeBounds& bounds) {
         const std::vector<std::uint32_t>& instructions = bytecode_.instructions;
         if (first != next_instruction_) {
@@ -474,7 +475,7 @@ private:
             return fail("the code at {} draws {} times", first, bounds.draws);
         }
         std::uint32_t depth = 0;
-        std::uint32_t taken = 0; // by Emit or Test
+        std::uint32_t taken = 0; // number of values that Emit or Test took
         choices_.clear();
         while (next_instruction_ < instructions.size()) {
             const std::uint64_t at = next_instruction_++;
@@ -535,8 +536,8 @@ private:
         return fail("the code at {} has no end", first);
     }
 
-    /// Whether nothing of this word or constant has drawn the number before. One that was folded
-    /// away stays unused.
+    /// Whether `number` is used for the first time in this word or constant. Numbers of draws that
+    /// constant folding removed stay unused.
     bool is_first_draw(std::uint32_t number) {
         drawn_.resize(std::max<std::size_t>(drawn_.size(), std::size_t{number} + 1));
         const bool is_first = !drawn_[number];
@@ -550,7 +551,8 @@ private:
         drawn_.clear();
     }
 
-    /// Whether a slot has a value where it is read. Values of one side of a choice end with it.
+    /// Sets the slot if `opcode` is SetLocal; returns whether the slot has a value. Values set in
+    /// one side of a choice are lost at the end of that side.
     bool slot(Opcode opcode, std::uint32_t index) {
         is_set_.resize(std::max<std::size_t>(is_set_.size(), std::size_t{index} + 1));
         if (opcode == Opcode::SetLocal && !is_set_[index]) {
@@ -560,15 +562,16 @@ private:
         return is_set_[index];
     }
 
-    /// Ends the values of all but the first `count` slots that were set.
+    /// Clears all slots but the `count` that were set first.
     void end_slots(std::size_t count) {
         for (; set_slots_.size() > count; set_slots_.pop_back()) {
             is_set_[set_slots_.back()] = false;
         }
     }
 
-    /// Whether If, Else and EndIf follow each other, lead to each other, and leave one value on
-    /// each side. `depth`: of the stack behind the instruction.
+    /// Whether If, Else and EndIf are in order, skip to each other, and leave one value on each
+    /// side; other instructions must be allowed in a choice. `depth`: stack depth behind the
+    /// instruction.
     bool choice(Opcode opcode, std::uint64_t at, std::uint32_t operand, std::uint32_t depth) {
         if (opcode == Opcode::If) {
             choices_.push_back({at + operand + 1, depth, set_slots_.size(), false});
@@ -626,19 +629,19 @@ private:
     }
 
     const Bytecode& bytecode_;
-    std::vector<std::uint32_t> parameters_; // by symbol
+    std::vector<std::uint32_t> parameters_; // by symbol: number of parameters
     std::string problem_;
-    /// An open choice.
+    /// A choice whose EndIf has not been read yet.
     struct Choice {
-        std::uint64_t next = 0;  // the instruction that its last skip leads to
-        std::uint32_t depth = 0; // of the stack with the condition
-        std::size_t slots = 0;   // set before it
+        std::uint64_t next = 0;  // instruction that the skip of its If or Else leads to
+        std::uint32_t depth = 0; // of the stack, condition included
+        std::size_t slots = 0;   // number of slots set before the choice
         bool has_else = false;
     };
     std::vector<Choice> choices_;
-    std::vector<std::uint32_t> set_slots_; // with a value, in the order in which they get it
+    std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
     std::vector<bool> is_set_;             // by slot
-    std::vector<bool> drawn_;              // numbers of the current word or constant
+    std::vector<bool> drawn_;              // by number of a draw of the current word or constant
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

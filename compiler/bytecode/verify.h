@@ -10,12 +10,12 @@
 
 namespace lsys {
 
-/// Depth of the stack of nearly all code. Code of deep expressions computes the deeper operand
-/// first, which bounds the stack by the logarithm of the size of the expression; only choices
-/// within choices need more (Bytecode::stack_depth).
+/// Max stack depth of code without choices. Deep expressions compute the deeper operand first,
+/// which bounds the stack depth by the logarithm of the expression size. Nested choices may need
+/// more (Bytecode::stack_depth).
 inline constexpr std::uint32_t kUsualStack = 256;
 
-/// The first problem, or nothing.
+/// The first problem, as text for messages, or nothing if the bytecode is valid.
 [[nodiscard]] std::optional<std::string> verify(const Bytecode& bytecode);
 
 } // namespace lsys

@@ -15,16 +15,16 @@ namespace lsys::analysis {
 namespace {
 
 constexpr std::size_t kMaxAxes = 16;
-constexpr std::int32_t kMaxOrderIndex = 0x7F7FFFFF; // of the largest finite number
+constexpr std::int32_t kMaxOrderIndex = 0x7F7FFFFF; // order_index() of the largest finite binary32
 
-/// `x opcode constant`, `constant opcode x`, or `opcode x`.
+/// One operation on the value x of a chain: `x opcode constant`, `constant opcode x`, `opcode x`.
 struct MonotoneStep {
     Opcode opcode = Opcode::Negate;
     float constant = 0.0F;
     bool constant_first = false;
 };
 
-/// A value of the domain.
+/// A value of the domain GridBuilder.
 struct Node {
     enum class Kind : std::uint8_t {
         Constant,
@@ -61,7 +61,7 @@ Node cell_constant() {
     return node;
 }
 
-/// The value of a chain where its parameter is number `index`.
+/// The value of a chain if its parameter is number_at(index).
 float chain_at(const Node& chain, std::int32_t index) {
     float value = number_at(index);
     for (const MonotoneStep& step : chain.steps) {
@@ -71,8 +71,8 @@ float chain_at(const Node& chain, std::int32_t index) {
     return value;
 }
 
-/// The domain of values that are monotone in one parameter or constant in cells; collects the cuts
-/// between cells.
+/// The domain of values that are monotone in one parameter or constant in every cell. Collects the
+/// cuts: the numbers at which a cell begins.
 class GridBuilder : public UnknownDomain<Node> {
 public:
     GridBuilder(std::span<const std::uint32_t> instructions,
@@ -107,10 +107,10 @@ private:
     std::span<const std::uint32_t> instructions_;
     std::span<const KnownValue> parameters_;
     const ExpressionInputs& inputs_;
-    std::uint32_t first_formal_ = 0; // of the condition
+    std::uint32_t first_formal_ = 0; // of the condition being added
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
-        cuts_; // by parameter: first indices of cells
+        cuts_; // by parameter: order_index() of the first number of a cell
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_; // parameters compared
 };
 
@@ -237,7 +237,8 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     if (!left && !right) {
         return {};
     }
-    // Rounding keeps order, so results stay monotone. A factor of 0 fails for infinite values.
+    // Rounding keeps order, so results stay monotone. A factor of 0 is excluded, since 0 times an
+    // infinite value is NaN.
     const float constant = left ? y.value : x.value;
     const bool sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
     const bool product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
@@ -249,8 +250,7 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     return node;
 }
 
-/// A choice by what is constant in every cell, between values that are too, is constant in every
-/// cell.
+/// A choice is constant in every cell if its condition and both its values are.
 Node GridBuilder::choice(const Node& x, const Node& y, const Node& z) {
     if (x.kind == Node::Kind::Constant) {
         return x.value != 0.0F ? y : z;
@@ -270,7 +270,8 @@ bool GridBuilder::add(const ConditionView& condition) {
     return has_grid_;
 }
 
-/// A number of a cell that is easy to read: whole and near zero if possible.
+/// An easily read number of the cell number_at(first) to number_at(last): whole and near zero if
+/// possible.
 float readable_number(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
         return 0.0F;
@@ -293,7 +294,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
         return std::nullopt;
     }
-    // Compared parameters share their cuts, so that every order can be tried within a cell.
+    // Compared parameters get the same cuts, so that samples in equal cells can have every order.
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {
@@ -322,7 +323,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
             if (!axis.compared) {
                 axis.samples.push_back({readable_number(first, last), cell});
             } else {
-                // Three numbers of a cell allow every order of up to three parameters.
+                // Three samples per cell suffice for every order of up to three parameters.
                 const auto middle = static_cast<std::int32_t>((std::int64_t{first} + last) / 2);
                 axis.samples.push_back({number_at(first), cell});
                 if (middle != first && middle != last) {

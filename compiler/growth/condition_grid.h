@@ -20,7 +20,7 @@ struct ConditionView {
     std::uint32_t first_formal = 0;
 };
 
-/// The binary32 numbers from low to high, both included.
+/// A cell of one parameter: the binary32 numbers from low to high, both included.
 struct GridCell {
     float low = 0.0F;
     float high = 0.0F;
@@ -31,7 +31,7 @@ struct GridSample {
     std::uint32_t cell = 0;
 };
 
-/// One parameter that the conditions depend on.
+/// A parameter that the conditions depend on.
 struct GridAxis {
     std::uint32_t parameter = 0;
     bool compared = false;           // a condition compares it with another one
@@ -39,12 +39,13 @@ struct GridAxis {
     std::vector<GridSample> samples; // ascending; one per cell, up to three if compared
 };
 
-/// Points combine one sample of each axis; the last axis varies fastest.
+/// The cells of all parameters. A point combines one sample of each axis; points are numbered with
+/// the last axis varying fastest.
 struct ConditionGrid {
     std::vector<GridAxis> axes;
 
     [[nodiscard]] std::uint64_t point_count() const;
-    /// Sets the parameters of the axes to the values of a point.
+    /// Sets the parameters that have an axis to their values at a point.
     void place(std::uint64_t point, std::span<KnownValue> parameters) const;
     /// The index of the sample of axis `axis` at a point.
     [[nodiscard]] std::size_t sample_of(std::uint64_t point, std::size_t axis) const;
@@ -59,7 +60,8 @@ make_condition_grid(std::span<const std::uint32_t> instructions,
                     const ExpressionInputs& inputs,
                     std::uint64_t max_points);
 
-/// The index of a finite binary32 in ascending order; 0 and -0 have index 0.
+/// The index of a finite binary32 among all in ascending order; 0 and -0 have index 0. number_at()
+/// is the inverse.
 [[nodiscard]] std::int32_t order_index(float value);
 [[nodiscard]] float number_at(std::int32_t index);
 

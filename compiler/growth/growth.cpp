@@ -17,7 +17,7 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, and classes of each generation
+constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, plus the classes of each generation
 
 /// The sizes of generations 0, 1, ... up to the one at which `walk` stands.
 struct Listing {
@@ -50,8 +50,8 @@ Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_mod
     }
 }
 
-/// Narrows the bounds of a listing: where modules have several outcomes, bounds of whole words are
-/// sharper than sums of bounds.
+/// Narrows the bounds of a listing by bound_totals(): if modules have several outcomes, bounds of
+/// whole words are sharper than sums of the bounds of classes.
 void narrow_bounds(Listing& listing, ModuleClasses& classes) {
     bool exact = true;
     for (std::size_t g = 0; g < listing.low.size(); ++g) {

@@ -3,11 +3,11 @@
 // exact if every class has one outcome, else they are bounds. Used by the checks, by `lsc stats`
 // and by the message of a reached limit.
 //
-// The bounds hold for every seed, in derivations without run-time errors. A context may match or
-// not; a stochastic group may take any of its productions; a condition whose values are known
-// before the derivation is decided, others may hold or not. A module is only counted as copied if
-// its conditions leave a gap. A rule of several predecessor modules may match between zero times
-// and as often as the number of its modules allows.
+// The bounds hold for every seed, in derivations without run-time errors. They allow that a context
+// matches or not, that a stochastic group takes any of its productions, and that a condition holds
+// or not, unless the values that it reads are known before the derivation. A module may stay
+// unchanged only if its conditions leave a gap. A rule with several predecessor modules matches
+// between zero times and as often as the number of its modules allows.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -39,7 +39,7 @@ struct GenerationSize {
     Count modules;
     Count parameters; // stored
     Count segments;   // modules that draw
-    Count bytes;      // the width of each code, and 4 per stored parameter
+    Count bytes;      // code width per module, plus 4 per stored parameter
 };
 
 /// Maximum of listed generations; beyond it only the last generation is predicted, if possible.
@@ -51,15 +51,15 @@ struct GrowthPrediction {
     bool exact = false; // low == high for every generation
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
-    /// The expected counts of the listed generations, for stochastic systems without contexts whose
-    /// conditions are decided.
+    /// The expected counts of the listed generations. Known for stochastic systems without contexts
+    /// whose conditions have a truth known before the derivation.
     bool has_expected = false;
     std::vector<double> expected_modules;
     /// The last requested generation, listed or not.
     bool has_last = false;
     GenerationSize last_low;
     GenerationSize last_high;
-    /// From this generation on the word never changes, for any seed.
+    /// The generation from which on the word never changes, for any seed; unset if unknown.
     std::optional<std::uint32_t> unchanged_from;
 };
 
@@ -71,8 +71,8 @@ struct GrowthPrediction {
 /// the size of the program, at most some seconds.
 [[nodiscard]] GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generations);
 
-/// The largest n for which the counts, or lower bounds, of all generations up to n are at most
-/// `max_modules`.
+/// The largest n for which all generations up to n have at most `max_modules` modules, by their
+/// counts or lower bounds.
 struct GrowthLimit {
     std::uint32_t largest_fitting = 0;
     GenerationSize at_largest; // lower bounds
@@ -80,7 +80,7 @@ struct GrowthLimit {
     GenerationSize at_wanted;  // the last requested generation, if has_wanted
     bool has_wanted = false;
     ProductionId dominant =
-        kNoProduction; // writes most modules of the first generation that does not fit
+        kNoProduction; // production that writes most modules of the first unfitting generation
     bool exact = false;
 };
 /// Returns nothing if all requested generations fit or growth is not known. If the axiom is too

@@ -55,8 +55,8 @@ private:
     bool depends_on_age_ = false;
 };
 
-/// Calls visit(code, argument, its instructions) for each stored parameter of a word until it
-/// returns false.
+/// Calls visit(code, argument, instructions of the argument) for each stored parameter of a word
+/// until `visit` returns false.
 template <typename Visit>
 void for_each_argument(const Bytecode& bytecode, const WordTemplate& word, Visit&& visit) {
     std::uint32_t at = word.arguments;

@@ -87,8 +87,8 @@ struct Uint128Division {
     if (value.high == 0) {
         return static_cast<double>(value.low);
     }
-    // The upper 64 significant bits, the lowest of which is also set for any bit that is cut off,
-    // so that the one rounding to 53 bits is correct.
+    // The upper 64 significant bits. The lowest is a sticky bit, set if any lower bit is cut off,
+    // so that the single rounding to 53 bits is correct.
     const int shift = 64 - std::countl_zero(value.high); // 1 ... 64
     const std::uint64_t kept =
         shift == 64 ? value.high : value.high << (64 - shift) | value.low >> shift;

@@ -16,12 +16,12 @@
 
 namespace lsys {
 
-/// Forms of a production that a listing shows unless more are asked for.
+/// Number of forms per production that a listing shows by default.
 inline constexpr std::uint64_t kFormsOfPage = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> depends_on_vertical; // by id: whether its drawing depends on up
+    std::vector<bool> depends_on_vertical; // by id: whether its drawing depends on the vertical
     std::size_t kind_count = 0;            // number of different valid branches
 };
 
@@ -40,11 +40,11 @@ struct FormPage {
     std::uint64_t count = kFormsOfPage;
 };
 
-/// Lists forms of each production with their probabilities; hands the text to `put` in pieces,
-/// until it returns false. If `page` is not set, shows the first page and notes each production
-/// that has more forms. Time and memory follow the forms that are shown. Returns the largest number
-/// of a form, 2^n - 1 or 2^64 - 1; where that is below `page.first`, nothing is listed. Returns
-/// nothing, after a report, if the system cannot be instanced.
+/// Lists forms of each production with their probabilities. Passes the text to `put` in pieces
+/// until `put` returns false. If `page` is not set, lists the first page and notes each production
+/// that has more forms. Time and memory are linear in the forms listed. Returns the largest form
+/// number of all productions, 2^n - 1 or 2^64 - 1; if it is below `page.first`, nothing is listed.
+/// Returns nothing, after reporting the reasons, if the system cannot be instanced.
 [[nodiscard]] std::optional<std::uint64_t>
 list_instanced(const Program& program,
                const Names& names,

@@ -8,10 +8,10 @@ namespace {
 
 struct ListedCheck {
     Check check;
-    bool needs_complete; // skipped for a program with errors
+    bool needs_complete; // true: skipped for a program with errors
 };
 
-// Messages about one place have the order of this list.
+// Diagnostics at the same place appear in the order of this list.
 constexpr ListedCheck kChecks[] = {
     {check_probability_sums, false},
     {check_formal_names, false},

@@ -1,6 +1,6 @@
 // The checks of a Program: the rules of docs/language.md that need the whole program, and lints for
 // likely mistakes. Each check is one function in a file of its own; checks.cpp lists them.
-// They run in the order of the list, after lowering, so that they can also read the bytecode.
+// Checks run in the order of that list, after lowering, so that they can also read the bytecode.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -17,7 +17,7 @@ namespace lsys {
 /// The input of a check.
 struct CheckInput {
     const Program& program;
-    /// Null if the program has errors. Productions have the same index in both.
+    /// Null if the program has errors. A production has the same index as in `program`.
     const Bytecode* bytecode;
     const Names& names;
     const SourceMap& sources;
@@ -32,8 +32,8 @@ struct CheckInput {
 
 using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 
-/// Runs every check of the list. An incomplete program only gets checks of single productions,
-/// words and statements.
+/// Runs all checks. An incomplete program (Program::complete) only gets the checks of single
+/// productions, words and statements.
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 
 // Checks of rules of docs/language.md that need the whole program, each in a file of its own. Lints
@@ -43,8 +43,8 @@ void check_formal_names(const CheckInput& input, Diagnostics& diagnostics);
 void check_ignored_contexts(const CheckInput& input, Diagnostics& diagnostics);
 void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics);
 
-/// The place of the name, with its back quotes if any, of module `index` of Program::modules, which
-/// stands in `word`.
+/// The place of the name, with its back quotes if any, of module `index` of Program::modules.
+/// Precondition: the module belongs to `word`.
 [[nodiscard]] SourceSpan
 module_name_span(const CheckInput& input, const ProgramWord& word, std::size_t index);
 

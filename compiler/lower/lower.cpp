@@ -80,7 +80,8 @@ private:
         }
     }
 
-    /// Whether the local values are needed: for an argument, or for a range that may be at fault.
+    /// Whether code for local values is needed: one is used and not a leaf, or draws a random
+    /// number, which may be a run-time error.
     bool has_needed(std::span<const LocalValue> locals) {
         return std::any_of(locals.begin(), locals.end(), [&](const LocalValue& local) {
             bool draws = false;

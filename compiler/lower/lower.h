@@ -11,8 +11,8 @@
 
 namespace lsys {
 
-/// Returns nothing if the number of a formal, range or global exceeds kMaxOperand. Precondition:
-/// program.complete.
+/// Returns nothing if the number of a formal, draw, slot or global, or the length of a skip,
+/// exceeds kMaxOperand. Precondition: program.complete.
 [[nodiscard]] std::optional<Bytecode>
 lower(const Program& program, const Names& names, const SourceMap& sources);
 

@@ -1,4 +1,4 @@
-// Hash table keys made of the bytes of several values.
+// Builds a hash table key from the bytes of several values.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ struct Definition {
 /// `--set KEY=VALUES`: replaces the `#set` statements of a key.
 struct SettingText {
     std::string key;
-    std::string values; // as after the key in a `#set`: `30`, `0 -1 0 0.2`, `cpfg`
+    std::string values; // text as in `#set KEY VALUES;`: `30`, `0 -1 0 0.2`, `cpfg`
 
     friend bool operator==(const SettingText&, const SettingText&) = default;
 };
@@ -28,14 +28,14 @@ struct Ast;
 
 struct CompileOptions {
     std::vector<Definition> definitions;
-    /// Its `#set` statements replace those of the grammar with the same keys and may use the
-    /// constants of the grammar, whose Names it shares. Null: none.
+    /// Ast whose `#set` statements replace those of the grammar with the same keys. They may use
+    /// the constants of the grammar; both share one Names. Null: no replacements.
     Ast* settings = nullptr;
     std::optional<std::uint32_t> generations; // -n; a missing #n then gets no warning
     std::uint64_t max_modules = std::uint64_t{1}
-                                << 32; // for the warning about words that grow past it
-    /// The text is a part of other grammars: axiom and names may be defined elsewhere. It is
-    /// checked, and no program is made.
+                                << 32; // modules per word; a larger word gets a warning
+    /// The text is a file for `#include`: axiom and names may be defined elsewhere. The text is
+    /// only checked.
     bool part = false;
     bool lower = true; // false: stop after the Program
 };

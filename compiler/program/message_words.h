@@ -10,7 +10,7 @@ namespace lsys {
 /// "no parameters", "1 parameter", "2 parameters"
 [[nodiscard]] std::string parameters_text(std::uint32_t count);
 
-/// A name in back quotes; a name that is a back quote or blank stays readable.
+/// The name in back quotes, for messages. Characters are not escaped.
 [[nodiscard]] std::string quoted(std::string_view name);
 
 /// The shortest text that reads back as the same binary32 number.

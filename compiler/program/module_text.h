@@ -1,4 +1,4 @@
-// The end of a module in its text, which a Program does not keep.
+// Finds the end of a module in the source text, since a Program stores only the begin.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace lsys {
 
-/// Offset of the first byte from `at` on that is no blank and in no comment.
+/// Offset of the first byte at or after `at` that is neither a blank nor in a comment.
 [[nodiscard]] std::size_t skip_blanks(std::string_view text, std::size_t at);
 
-/// One past the `)` of the arguments that follow a name ending at `name_end`; `name_end` without
-/// arguments.
+/// Offset behind the `)` of the arguments of a module whose name ends at offset `name_end`;
+/// `name_end` if the module has no arguments.
 [[nodiscard]] std::size_t end_of_arguments(std::string_view text, std::size_t name_end);
 
 } // namespace lsys

@@ -33,7 +33,7 @@ GroupedLists writers_of(const Program& program) {
         std::uint32_t production;
     };
     std::vector<Writer> writers;
-    std::vector<std::uint32_t> last(program.symbols.size(), kNone); // writer of each symbol
+    std::vector<std::uint32_t> last(program.symbols.size(), kNone); // last writer of each symbol
     for (std::uint32_t p = 0; p < program.productions.size(); ++p) {
         for_each_symbol(program, program.productions[p].successor, [&](std::size_t, SymbolId id) {
             const auto symbol = static_cast<std::size_t>(id);

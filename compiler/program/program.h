@@ -30,23 +30,23 @@ inline constexpr ValueId kNoValue{0xFFFFFFFFu};
 /// literal of a complete program has this id.
 inline constexpr ValueId kPoison{0};
 
-/// A node of an expression: an instruction and the values it takes. Constants are folded: a node
-/// whose children are literals is a literal. Equal literals share a node, whose `span` is the place
-/// of one of them; other nodes have one place. Children come before parents. A choice is a node of
-/// If. SetLocal moves `left` to a slot and has the value of `right`.
+/// A node of an expression: an instruction and its operands. Constants are folded: a node whose
+/// operands are literals is a literal. Equal literals share a node, whose `span` is the place of
+/// one of them; other nodes have one place. Operands come before their users in Program::values. A
+/// choice is a node with Opcode::If. SetLocal moves `left` to a slot and has the value of `right`.
 struct Value {
     Opcode opcode = Opcode::Literal;
     SourceSpan span;
     union {
         float literal;           // Literal
         std::uint32_t index = 0; // Formal, Global, Local, SetLocal, Curve, a draw, BranchDraw
-        ValueId third;           // If: the condition of `left` and `right`; Mix: the part
+        ValueId third;           // If: the condition of `left`, else `right`; Mix: the fraction t
     };
     ValueId left = kNoValue;
     ValueId right = kNoValue;
 
     [[nodiscard]] bool has_third() const { return opcode == Opcode::If || opcode == Opcode::Mix; }
-    /// The values that this one is computed from; kNoValue for those that it lacks.
+    /// The operands, for If the condition first; kNoValue in place of missing ones.
     [[nodiscard]] std::array<ValueId, 3> operands() const {
         return {has_third() ? third : kNoValue, left, right};
     }
@@ -61,23 +61,24 @@ struct Symbol {
     std::string mesh_file;
 };
 
-/// A module of an axiom or successor; its arguments are the next parameter_count values of the
-/// list.
+/// A module of an axiom or successor. Its arguments are the next Symbol::parameter_count entries of
+/// Program::arguments, which follow those of the module before it.
 struct ProgramModule {
     SymbolId symbol = kNoSymbol;
-    std::uint32_t begin = 0; // byte offset in the list's file
+    std::uint32_t begin = 0; // byte offset in ProgramWord::file
 };
 
 struct ProgramWord {
     FileId file = kNoFile;
-    std::uint32_t first_module = 0; // in Program::modules
+    std::uint32_t first_module = 0; // index in Program::modules
     std::uint32_t module_count = 0;
-    std::uint32_t first_argument = 0; // in Program::arguments
+    std::uint32_t first_argument = 0; // index in Program::arguments
     std::uint32_t draw_count = 0;
     SourceSpan span;
 };
 
-/// A PatternItem with the range of its text, arguments included, in the file of the production.
+/// A PatternItem (bytecode.h) with its byte range in the file of the production, arguments
+/// included.
 struct ProgramPatternItem {
     PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
@@ -92,8 +93,8 @@ struct ProgramPattern {
     SourceSpan span;
 };
 
-/// `let name = value`. A value that is a literal or a leaf stands in each of its uses, others are
-/// read by Local from the slot of the same number as the local value.
+/// `let name = value`. A literal or another leaf is substituted for each use of the name. Any other
+/// value number i of a production is stored in slot i, which uses read by Opcode::Local.
 struct LocalValue {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -120,27 +121,28 @@ struct Production {
     Stage stage = Stage::Rewrite;
     bool stochastic = false;
     float weight = 0.0F;             // NaN if the probability is in error or an expression
-    ValueId weight_value = kNoValue; // of a weight that is no constant
+    ValueId weight_value = kNoValue; // the weight, if it is not constant
     SourceSpan weight_span;
     std::vector<LocalValue> locals;
     ProgramWord successor;
 };
 
-/// An axiom: the only one, or one of those among which a derivation chooses by chance.
+/// An axiom: the only one, or one of several among which a derivation chooses at random.
 struct Axiom {
     ProgramWord word;
-    std::uint32_t draw_position = 0; // index of its first draw among those of the start
+    std::uint32_t draw_position = 0; // as Global::draw_position
     bool has_weight = false;
     float weight = 1.0F; // NaN if the probability is in error
     SourceSpan weight_span;
 };
 
-/// A constant drawn when the derivation starts; others are folded into the values that use them.
+/// A constant drawn when the derivation starts. Other constants are folded into the values that use
+/// them.
 struct Global {
     NameId name = kNoName;
     SourceSpan span;
     ValueId value = kNoValue;
-    std::uint32_t draw_position = 0;
+    std::uint32_t draw_position = 0; // index of its first draw among those of #define, #param, #w
     std::uint32_t draw_count = 0;
     bool has_bounds = false;
     float minimum = 0.0F;
@@ -151,15 +153,15 @@ struct Global {
 struct Curve {
     NameId name = kNoName;
     SourceSpan span;
-    std::vector<CurveKnot> points; // with their slopes
+    std::vector<CurveKnot> points; // set_slopes() has set their slopes
 };
 
-/// A constant of the grammar, for dumps and for sliders.
+/// A constant of the grammar, for dumps and for the sliders of lsview.
 struct Constant {
     NameId name = kNoName;
     SourceSpan span;
     bool is_param = false;
-    /// Its value is globals[global], drawn when a derivation starts; otherwise it is `value`.
+    /// True: the value is globals[global], drawn when a derivation starts. False: it is `value`.
     bool is_random = false;
     bool is_used = false;
     float value = 0.0F;
@@ -171,7 +173,7 @@ struct Constant {
 /// `#module NAME(formals);`
 struct ModuleDeclaration {
     SymbolId symbol = kNoSymbol;
-    SourceSpan span; // of the module
+    SourceSpan span; // of the module NAME(formals)
 };
 
 /// `#object NAME OBJECT;`: modules of this name draw the object, whatever their parameter count.
@@ -193,13 +195,14 @@ struct Program {
     /// No error was found while the program was made. Checks that need the whole program require
     /// it.
     bool complete = false;
-    /// No statement was dropped: a statement missing here is missing in the grammar too.
+    /// No statement was dropped after an error. Then a statement missing here is missing in the
+    /// grammar too.
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
-    SourceSpan generations_span;    // of the number
-    SourceSpan height_span;         // of `height` in its #set; kNoFile: none
-    SourceSpan pipe_span;           // of `pipe` in its #set; kNoFile: none
+    SourceSpan generations_span;    // of the number in #n
+    SourceSpan height_span;         // of `height` in `#set height`; kNoFile if missing
+    SourceSpan pipe_span;           // of `pipe` in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId
     std::vector<WrittenName> written_names;
 
@@ -211,10 +214,10 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
-    std::vector<Production> productions; // those of Stage::Rewrite first, of Interpret last
+    std::vector<Production> productions; // by stage: Rewrite, Decompose, Interpret
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
-    std::vector<Axiom> axioms; // at least one, if complete
+    std::vector<Axiom> axioms; // at least one if `complete`
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;
@@ -233,7 +236,7 @@ struct Program {
 };
 
 /// Calls visit(index in Program::modules, symbol) for each module of a word, in order. Words may
-/// have a hundred million modules, so `visit` should read one flat table.
+/// have a hundred million modules, so `visit` should be cheap: at most a look-up in one flat table.
 template <typename Visit>
 void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& visit) {
     std::size_t index = word.first_module;
@@ -272,14 +275,14 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
         }
     }
 }
-/// The condition and the computed weight, or kNoValue, the local values and all arguments of the
-/// successor of a production.
+/// All expressions of a production: the condition, the weight (each kNoValue if it has none), the
+/// local values and the arguments of the successor.
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 
-/// Per symbol: the productions with a module of it in their predecessor, each once.
+/// By symbol: the productions whose predecessor contains it, each once.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
-/// Per symbol: the productions whose successor contains it.
+/// By symbol: the productions whose successor contains it, each once.
 [[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

@@ -84,7 +84,7 @@ private:
         }
     }
 
-    /// Appends the settings of a group as one line: numbers, then modes.
+    /// Appends the settings of a group as one line: numbers first, then words.
     void setting_line(SettingGroup group) {
         std::vector<std::string> numbers;
         std::vector<std::string> modes;
@@ -255,7 +255,7 @@ private:
     void value(ValueId root, const Production* production) {
         struct Step {
             ValueId value;
-            const char* text; // written instead, if not null
+            const char* text; // if not null, written in place of `value`
         };
         std::vector<Step> steps{{root, nullptr}};
         while (!steps.empty()) {
@@ -279,7 +279,7 @@ private:
             }
             out_ += '(';
             steps.push_back({kNoValue, ")"});
-            std::array<ValueId, 3> operands = value.operands(); // as in a call
+            std::array<ValueId, 3> operands = value.operands(); // in the order of a call
             if (value.opcode == Opcode::Mix) {
                 operands = {value.left, value.right, value.third};
             }

@@ -19,7 +19,7 @@ constexpr Commands<size> commands(const TurtleCommand (&rows)[size]) {
     return std::to_array(rows);
 }
 
-/// The rows of tables, one after the other.
+/// Concatenates tables.
 template <std::size_t... sizes>
 constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
     Commands<(sizes + ...)> rows{};
@@ -80,8 +80,8 @@ constexpr auto kThesis = joined(kPaths,
                                 commands({{"!", SetWidth}}),
                                 kPolygonsAndCut);
 
-// Carey 2019: the symbols of Houdini that his forest generator has, then those of the appendix and
-// others of Houdini of the same kind.
+// Carey 2019. kCarey: the symbols of Houdini that his forest generator reads. kHoudini: also those
+// of his appendix, and similar symbols of Houdini.
 constexpr auto kCarey =
     joined(commands({length("F", Forward), length("f", Move)}),
            turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
@@ -115,7 +115,7 @@ constexpr auto kLplusWidths = commands({length("G", Move),
                                         {"=", SetRelativeWidth},
                                         {"%", SetTaper},
                                         {"*", Leaf}});
-// The program L3D turns by pi degrees.
+// For `|` the program L3D turns by pi degrees instead of 180 degrees.
 constexpr auto kTurn = commands({{"|", TurnAround}});
 constexpr auto kBuggyTurn = commands({{"|", TurnByPi}});
 constexpr auto kL3d = joined(kL3dTurtle, kL3dTurns, kTurn);
@@ -151,7 +151,7 @@ constexpr auto kFractint = joined(commands({bare("F", Forward),
                                             {">", SubtractColour}}),
                                   kBranches);
 
-// Houdini's own turtle. All its turns are opposite to those of ABOP.
+// The turtle of SideFX Houdini. All its turns are opposite to those of ABOP.
 constexpr auto kSidefx = joined(
     commands({segment("F", Forward), segment("H", HalfForward), segment("G", MoveWithoutVertex),
               segment("f", Move), segment("h", HalfMove), leaf("J"), leaf("K"), leaf("M")}),
@@ -186,7 +186,8 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CUBE", Cube},
     {"DISK", Disk},
 }};
-/// Whether #object has a name for the operation, if it places an object; mesh files need none.
+/// Whether #object has a name for the operation, if the operation places an object. Mesh files need
+/// no name.
 constexpr bool is_bound(TurtleOperation operation) {
     return info(operation).drawn != Drawn::Object || operation == MeshFile ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();

@@ -16,7 +16,7 @@ namespace lsys {
 /// A module that the turtle of a profile obeys, with up to `max_parameters` parameters.
 struct TurtleCommand {
     constexpr TurtleCommand() = default;
-    /// With the parameters of turtle_operations.def.
+    /// Takes the parameters from the row of the operation in turtle_operations.def.
     constexpr TurtleCommand(std::string_view own_name, TurtleOperation does)
         : TurtleCommand(own_name, does, info(does).parameter_count, info(does).parameters) {}
     constexpr TurtleCommand(std::string_view own_name,
@@ -31,7 +31,7 @@ struct TurtleCommand {
     std::string_view parameters; // their meaning: "length, spring constant, mass"
 };
 
-/// The commands of a profile; of two rows with one name the first counts.
+/// The commands of a profile. The first row with a name counts.
 [[nodiscard]] std::span<const TurtleCommand> turtle_commands(TurtleProfile profile);
 /// The command of that name, or null.
 [[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,
@@ -44,7 +44,7 @@ struct TurtleCommand {
 [[nodiscard]] bool takes_no_parameters(std::string_view name);
 [[nodiscard]] SymbolKind kind_of(TurtleProfile profile, std::string_view name);
 
-/// An object that #object can bind.
+/// An object name that #object can bind to modules.
 struct TurtleObject {
     std::string_view name;
     TurtleOperation operation;

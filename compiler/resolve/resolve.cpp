@@ -25,7 +25,7 @@ namespace lsys {
 
 namespace {
 
-/// Per name: whether it is known (docs/language.md section 3).
+/// By name: whether it is a known module name (docs/language.md section 3).
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {
@@ -85,7 +85,8 @@ public:
                               SplitReport(resolution_),
                               std::vector<SymbolId>(resolution_.names.count(), kNoSymbol)};
         ProductionResolver productions(reading, constants_);
-        // Productions may use functions that stand behind them, so they are read last.
+        // Productions may use functions that are defined after them, so a grammar with functions
+        // has its productions resolved last.
         const bool has_functions = !ast.functions.empty() || !ast.curves.empty();
         expressions_.keep_expressions(has_functions);
         std::vector<std::size_t> later;
@@ -128,7 +129,7 @@ public:
             case StatementKind::Object:
             case StatementKind::Ignore:
             case StatementKind::Include:
-                break; // handled before, or by the front end
+                break; // handled above, or by the front end
             }
         }
         expressions_.keep_expressions(false);
@@ -142,7 +143,8 @@ public:
         check_missing();
     }
 
-    /// Reads the numbers of statements that replace those of the grammar. All constants are known.
+    /// Reads the numbers of `#set` statements that replace those of the grammar, after all
+    /// constants of the grammar are known.
     void replace(SetResolver& settings, Resolution& replacing) {
         ExpressionResolver expressions(replacing, values_, constants_);
         for (const Statement& statement : replacing.ast.statements) {
@@ -269,7 +271,7 @@ ResolveOutcome resolve(Ast ast,
         replacements->read_modes();
         resolution.letter_files = replacing->letter_files;
     }
-    // Tables indexed by NameId have the length of Names, so all names are interned first.
+    // Tables indexed by NameId get the length of Names, so all names are interned before.
     for (const std::string_view function : function_names()) {
         static_cast<void>(names.intern(function));
     }
@@ -308,7 +310,7 @@ void resolve_settings(Ast& ast,
             statements.read_number(ast.sets[statement.index], expressions);
         }
     }
-    program.settings.traits = settings.traits; // the code has been resolved with these traits
+    program.settings.traits = settings.traits; // the profile of compiled code cannot change
     settings = program.settings;
 }
 

@@ -19,7 +19,7 @@ struct ResolveOutcome {
     std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
 };
 
-/// Consumes the Ast and releases its memory on the way.
+/// Resolves the Ast. Releases parts of the Ast as soon as they are resolved, to save memory.
 [[nodiscard]] ResolveOutcome resolve(Ast ast,
                                      Names& names,
                                      const SourceMap& sources,

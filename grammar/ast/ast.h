@@ -97,8 +97,8 @@ public:
     /// Whether a `(` follows the name.
     [[nodiscard]] bool has_call() const { return (name_and_call_ & kCallBit) != 0; }
     void set_call() { name_and_call_ |= kCallBit; }
-    /// The id of the name; beyond all ids for a module with a `(`, so that one comparison finds
-    /// modules without parentheses.
+    /// The id of the name; for a module with a `(`, a number greater than all ids, so that one
+    /// comparison finds modules without parentheses.
     [[nodiscard]] std::uint32_t bare_name() const { return name_and_call_; }
 
     std::uint32_t begin = 0; // first byte of the name, or of its back quote
@@ -122,15 +122,16 @@ struct CallNode {
 struct ModuleList {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    SourceSpan span; // of all modules; of an empty list its place
+    SourceSpan span; // of all modules; for an empty list, the place where modules may stand
 };
 
 /// A module of a list, unpacked.
 struct ModuleView {
     NameId name = kNoName;
-    SourceSpan name_span;        // with the back quotes, if any
-    SourceSpan span;             // with the arguments
-    bool is_indivisible = false; // in back quotes or spelt differently in its file: never split
+    SourceSpan name_span; // with the back quotes, if any
+    SourceSpan span;      // with the arguments
+    // In back quotes or spelt differently in its file: never split into letters.
+    bool is_indivisible = false;
     bool has_parentheses = false;
     ListRange arguments;
 };
@@ -180,7 +181,7 @@ struct ParamNode {
 struct FunctionNode {
     NameId name = kNoName;
     SourceSpan name_span;
-    ListRange formals; // in Ast::expression_lists; names, or what stands in their place
+    ListRange formals; // in Ast::expression_lists: names, or expressions written in place of names
     SourceSpan formals_span;
     ExpressionId body = kNoExpression;
 };
@@ -231,7 +232,8 @@ struct IgnoreNode {
 };
 
 struct AxiomNode {
-    ExpressionId probability = kNoExpression; // of one of several
+    // Set if the grammar has several axioms; else kNoExpression.
+    ExpressionId probability = kNoExpression;
     ModuleList modules;
 };
 
@@ -243,7 +245,7 @@ struct ConditionNode {
     SourceSpan tilde_span; // empty without `~`
 };
 
-/// `name = value` behind `let`.
+/// `name = value` after `let`.
 struct LocalNode {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -317,7 +319,7 @@ struct Ast {
 
     /// Ascending.
     std::vector<WrittenName> written_names;
-    /// The `//` before words among modules, which may be meant as comments.
+    /// Each `//` before a word in a module list; the author may have meant a comment.
     std::vector<SourceSpan> slashes;
 
     /// Statements with syntax errors are missing; later checks do not report missing definitions.

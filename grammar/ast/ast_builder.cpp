@@ -13,7 +13,8 @@ namespace {
 
 constexpr NameId kUnset{0xFFFFFFFFu};
 
-/// The level of a comparison; comparisons of one level do not chain. 0 for other operations.
+/// Precedence level of a comparison, 0 for other operations. Two comparisons of one level cannot be
+/// chained: `a < b < c` is an error.
 int comparison_level(BinaryOperation operation) {
     switch (operation) {
     case BinaryOperation::Less:
@@ -84,7 +85,7 @@ ExpressionId AstBuilder::binary(BinaryOperation operation,
             return inner.kind == ExpressionKind::Binary &&
                    comparison_level(inner.binary()) == level;
         };
-        // One message for a chain, at its second comparison.
+        // A chain of comparisons gets one message, at its second comparison.
         if (chains(left) && !chains(ast_.expression(left).left)) {
             report_chained_comparison(diagnostics_, ast_, left, span);
         }

@@ -75,7 +75,8 @@ public:
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
-    /// Forgets the `//` from `begin` of the scanned text on, which another message explains.
+    /// Removes the recorded `//` at or after `begin` of the scanned text; another message already
+    /// explains them.
     void forget_slashes(std::uint32_t begin);
 
     // --- statements
@@ -126,13 +127,13 @@ public:
     /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
     /// incomplete. Returns whether it was kept.
     bool finish_statement(SourceSpan span, bool keep);
-    /// Assigns all present nodes to finished statements, for example those of an included file.
+    /// Protects all present nodes from rollbacks, for example those of an included file.
     void set_watermark();
 
 private:
     /// State of the last name of the current module list, for parentheses after it.
     enum class LastName : std::uint8_t {
-        None,  // a reported character that is no module
+        None,  // the last character is no module and has been reported
         Empty, // an empty text in back quotes
         Bare,
         Called, // with parameters
@@ -176,7 +177,7 @@ private:
     ModuleNames module_names_ = ModuleNames::Words;
     std::uint32_t text_end_ = 0; // end of the last text in back quotes, in the scanned text
 
-    std::array<NameId, 128> one_character_names_; // interned so far, by character
+    std::array<NameId, 128> one_character_names_; // kUnset until interned; index: the character
     struct CachedWord {
         std::uint64_t key = 0;
         NameId name = kNoName;
@@ -190,7 +191,7 @@ private:
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;
-    ProductionNode production_; // parts so far
+    ProductionNode production_; // the parts parsed so far
     Watermark watermark_;
 };
 

@@ -13,7 +13,7 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kMaxIncludeDepth = 32;
-/// Limit for files that include others twice, which doubles the number of inclusions at each level.
+/// Maximum number of inclusions. Files that include others twice double the number at each level.
 inline constexpr std::uint32_t kMaxInclusions = 65'536;
 
 /// `path` without `.` and `..`, as far as possible without the file system.

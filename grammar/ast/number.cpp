@@ -15,7 +15,7 @@ namespace {
 /// Whether the value of `text` is at least 1, by its order of magnitude. Precondition: the value is
 /// outside the range of binary32.
 bool is_large(std::string_view text) {
-    std::int64_t magnitude = 0; // of the first digit that is not 0
+    std::int64_t magnitude = 0; // power of ten, plus 1, of the first digit that is not 0
     bool seen_point = false;
     bool seen_digit = false;
     std::size_t at = 0;
@@ -33,7 +33,7 @@ bool is_large(std::string_view text) {
         const bool negative = at < text.size() && text[at] == '-';
         at += at < text.size() && (text[at] == '-' || text[at] == '+') ? 1u : 0u;
         constexpr std::int64_t kMaxExponent = std::int64_t{1}
-                                              << 40; // beyond the length of any file
+                                              << 40; // more digits than any file has
         for (; at < text.size() && exponent < kMaxExponent; ++at) {
             exponent = exponent * 10 + (text[at] - '0');
         }

@@ -10,19 +10,20 @@
 
 namespace lsys {
 
-/// `first`: a comparison, the left operand of another one with the span `span`.
+/// Reports a comparison of a comparison, `a < b < c`, with the span `span`; `first` is its left
+/// operand, `a < b`.
 void report_chained_comparison(Diagnostics& diagnostics,
                                const Ast& ast,
                                ExpressionId first,
                                SourceSpan span);
 void report_bad_range(Diagnostics& diagnostics, std::uint32_t count, SourceSpan span);
 void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c);
-/// Reports an overflow or underflow; nothing for a normal literal.
+/// Reports an overflow or underflow of `literal`; does nothing for a normal literal.
 void report_literal_range(Diagnostics& diagnostics,
                           const Literal& literal,
                           std::string_view text,
                           SourceSpan span);
-/// `what`: a plural, for example "parentheses".
+/// Reports nesting beyond kMaxNesting. `what` names the brackets in the plural: "parentheses".
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what);
 
 /// Reports `slashes`, a `//` among modules that is meant as a comment. `line`: from there to the

@@ -43,7 +43,8 @@ private:
     std::string text_;
     std::uint32_t consumed_ = 0; // bytes of source_
     ChunkedVector<Edit> edits_;
-    mutable std::size_t hint_ = 0; // the last result: queries nearly ascend
+    // Last result of edits_ending_by(): the offsets of queries nearly ascend.
+    mutable std::size_t hint_ = 0;
 };
 
 /// The scanned text of a file; the only place where its offsets become places of the file.

@@ -17,7 +17,7 @@ namespace lsys {
 
 class Translation {
 public:
-    /// `file`: the original, and the place of parts without a span.
+    /// `file`: the original; parts without a span get the place of its first byte.
     explicit Translation(FileId file) : Translation(file, kMaxSourceBytes) {}
     /// Limits the text to `max_bytes` instead of kMaxSourceBytes.
     Translation(FileId file, std::uint64_t max_bytes) : file_(file), max_bytes_(max_bytes) {}
@@ -28,7 +28,7 @@ public:
     void copy_as(std::string_view text, SourceSpan span);
     /// Appends `text`, which corresponds to `span` as a whole.
     void put(std::string_view text, SourceSpan span);
-    /// Appends text without original; its place is the end of the last part.
+    /// Appends text that the original does not have; its place is the end of the last part.
     void put(std::string_view text);
 
     /// Makes messages write `original` for modules `name` of the text.
@@ -67,7 +67,7 @@ private:
     std::string text_; // at most max_bytes_
     std::vector<Part> parts_;
     std::map<std::string, std::string> replaced_names_;
-    mutable std::size_t hint_ = 0; // the last result: queries nearly ascend
+    mutable std::size_t hint_ = 0; // last result of part_at(): the offsets of queries nearly ascend
 };
 
 } // namespace lsys

@@ -98,7 +98,7 @@ public:
         }
         return low;
     }
-    /// Appends up to `count` contiguous elements, for the caller to set.
+    /// Appends up to `count` elements that lie in one block; the caller sets the returned elements.
     [[nodiscard]] std::span<T> extend(std::size_t count) {
         if (size_ / kBlock == blocks_.size()) {
             blocks_.push_back(std::make_unique<T[]>(kBlock));

@@ -59,7 +59,7 @@ struct Fix {
     bool machine_applicable = true;
 };
 
-/// A value that a diagnostic speaks of, for programs: `generation`, 3.
+/// A named value of a diagnostic for programs that read JSON: `generation`, 3.
 struct Fact {
     std::string name;
     std::variant<bool, std::uint64_t, double, std::string> value;
@@ -152,7 +152,7 @@ public:
         }
         all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(kept), all_.end());
     }
-    /// Counts the warnings that are not stored as errors.
+    /// Adds the warnings beyond kMaxStored to the count of errors.
     void promote_unstored_warnings();
 
 private:
@@ -161,8 +161,8 @@ private:
     std::array<std::uint64_t, 3> counts_{};
 };
 
-/// The candidate nearest to `wanted` by edit distance, within a limit that grows with its length;
-/// the first one of equals.
+/// The candidate nearest to `wanted` by edit distance, if at most a third of the letters of the
+/// shorter name differ; the first of equally near ones.
 [[nodiscard]] std::optional<std::string_view>
 nearest_name(std::string_view wanted, const std::vector<std::string_view>& candidates);
 

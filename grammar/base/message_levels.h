@@ -23,11 +23,11 @@ enum class MessageLevel : std::uint8_t {
 /// group.
 class MessageLevels {
 public:
-    /// Sets the level of `what`: a code, `warnings` or `notes`. Returns the mistake: there is no
-    /// such code; the code is an error's; the code has another level already.
+    /// Sets the level of `what`: a code, `warnings` or `notes`. Returns a message if the code does
+    /// not exist, is the code of an error, or already has another level.
     [[nodiscard]] std::optional<std::string> set(MessageLevel level, std::string_view what);
 
-    /// The level of a diagnostic that is no error; none: its usual severity.
+    /// The level of a diagnostic; nullopt if it is an error or keeps its usual severity.
     [[nodiscard]] std::optional<MessageLevel> of(const Diagnostic& diagnostic) const;
     [[nodiscard]] bool denies_warnings() const { return warnings_ == MessageLevel::Deny; }
 
@@ -41,7 +41,7 @@ private:
 /// the comments of `sources`.
 void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics);
 
-/// Whether a diagnostic with this code can be allowed; if not, the reason in words: `x` is ...
+/// Why the level of `code` cannot be set, as a sentence about it (`x` is ...); nullopt if it can.
 [[nodiscard]] std::optional<std::string> reason_against_level(std::string_view code);
 
 } // namespace lsys

@@ -18,7 +18,7 @@ inline constexpr NameId kNoName{0x7FFFFFFFu};
 class Names {
 public:
     NameId intern(std::string_view text);
-    /// The id of `text`; kNoName if it is not interned.
+    /// The id of `text`; kNoName if `text` is not interned.
     [[nodiscard]] NameId find(std::string_view text) const;
     [[nodiscard]] std::string_view text(NameId id) const;
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(texts_.size()); }

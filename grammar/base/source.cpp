@@ -16,7 +16,7 @@ SourceSpan join(SourceSpan first, SourceSpan last) {
     if (last.file == kNoFile) {
         return first;
     }
-    if (first.file != last.file) { // a text with an included file
+    if (first.file != last.file) { // the text contains an included file
         return first;
     }
     return {first.file, std::min(first.begin, last.begin), std::max(first.end, last.end)};
@@ -61,7 +61,8 @@ void step_over(std::string_view text, std::uint32_t& offset) {
 } // namespace
 
 void SourceFile::step(std::string_view text, Checkpoint& place) {
-    constexpr std::uint32_t kLengthOfPairs = 4; // UTF-8 bytes of what UTF-16 writes as two units
+    // UTF-8 bytes of a character that UTF-16 writes as a surrogate pair.
+    constexpr std::uint32_t kLengthOfPairs = 4;
     const std::uint32_t begin = place.offset;
     step_over(text, place.offset);
     ++place.column;

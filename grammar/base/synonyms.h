@@ -1,4 +1,4 @@
-// Words that authors bring from other languages, and what stands for them here. Messages about
+// Words that authors bring from other languages, and their equivalents in .lsys. Messages about
 // unknown words ask this table before they look for similar names. Rows: synonyms.def.
 #pragma once
 
@@ -16,18 +16,18 @@ struct Synonym {
     SynonymKind kind{};
     std::string_view word;
     std::string_view source;   // where the word is from; may be empty
-    std::string_view spelling; // here; empty: nothing stands for it
+    std::string_view spelling; // in .lsys; empty: .lsys has no equivalent
     std::string_view advice;   // what to do instead, or more about it; may be empty
 };
 
-/// Whether a function of this name exists here.
+/// Whether .lsys has a function of this name.
 using FunctionTest = std::function<bool(std::string_view name)>;
 
-/// The row of a word; null: there is none. The letter case does not count, except for words of one
-/// letter. Rows whose spelling calls a function that `exists` denies are passed over.
+/// The row of a word; null if there is none. Letter case is ignored, except for words of one
+/// letter. Rows whose spelling calls a function for which `exists` is false are skipped.
 [[nodiscard]] const Synonym*
 find_synonym(SynonymKind kind, std::string_view word, const FunctionTest& exists);
-/// The row of an operator, statement or setting, whose spelling calls no function.
+/// The row of an operator, statement or setting; their spellings call no functions.
 [[nodiscard]] const Synonym* find_synonym(SynonymKind kind, std::string_view word);
 
 /// A help text: "`and` of Python is `&&` here". `word`: as the author wrote it.

@@ -38,8 +38,8 @@ NoText utf16(std::string_view form) {
     return {std::string(form) + " text", "a grammar is UTF-8 text; save the file in that encoding"};
 }
 
-/// Whether nearly all of every second byte from `first` on is NUL, that one too, and few others
-/// are.
+/// Whether `sample` looks like UTF-16: byte `first` and at least 80 % of every second byte from it
+/// are NUL, and few of the other bytes are.
 bool has_alternate_nuls(std::string_view sample, std::size_t first) {
     if (sample.size() <= first || sample[first] != '\0') {
         return false;

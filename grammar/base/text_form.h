@@ -1,5 +1,5 @@
-// Whether the bytes of a file are text: UTF-16 and binary files get one message instead of one for
-// every byte that no grammar has.
+// Whether the bytes of a file are text. UTF-16 and binary files get one message instead of one for
+// each byte that is illegal in a grammar.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct NoText {
     std::string help;
 };
 
-/// What `bytes` are if they are no UTF-8 text; a few control characters or bytes of another
-/// encoding do not count.
+/// The format of `bytes` if they are no UTF-8 text, else nullopt. A few control characters or bytes
+/// of another encoding still pass as text.
 [[nodiscard]] std::optional<NoText> recognise_no_text(std::string_view bytes);
 
 } // namespace lsys

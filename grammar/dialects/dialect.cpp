@@ -64,14 +64,14 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 }
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
-    // An extension decides alone: a mistake may make a text look like another dialect, and so may
-    // comments. Only `.l` is that of several programs.
+    // The extension alone decides, since mistakes and comments may make a text look like another
+    // dialect. Only `.l` is the extension of several programs.
     for (const DialectRow& row : kRows) {
         if (!path.ends_with(".l") && has_extension(path, row.extensions)) {
             return {row.dialect, "its name"};
         }
     }
-    // The extension decides between dialects whose content is the same.
+    // If the text fits several dialects, the extension decides.
     DetectedDialect found;
     for (const DialectRow& row : kRows) {
         if (row.recognise == nullptr || (found.dialect && !has_extension(path, row.extensions))) {

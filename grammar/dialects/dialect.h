@@ -21,7 +21,7 @@ enum class Dialect : std::uint8_t {
 #undef LSYS_DIALECT
 };
 
-/// Everything that the program knows about a dialect; made from dialects.def.
+/// The properties of a dialect; made from dialects.def.
 struct DialectRow {
     Dialect dialect{};
     std::string_view name;       // of the option --dialect

@@ -16,7 +16,7 @@ struct Line {
     std::uint32_t begin = 0;
 };
 
-/// The lines that are not empty, up to a number that tells any language.
+/// The first lines that are not empty, enough to recognise any language.
 std::vector<Line> lines_of(std::string_view text) {
     constexpr std::size_t kMaxLines = 2000;
     std::vector<Line> lines;
@@ -40,8 +40,8 @@ std::size_t word_length(std::string_view text) {
     return length;
 }
 
-/// Whether a line begins a statement of .lsys that other languages do not have: `#n =`, `#name :`,
-/// `#set key`, or a `name :` with the further parts of a production.
+/// Whether a line begins a statement that only .lsys has: `#n =`, `#name :`, `#set key`, or
+/// `name :` and the other parts of a production.
 bool is_lsys_statement(std::string_view line) {
     const bool has_hash = line.starts_with('#');
     const std::string_view rest = line.substr(has_hash ? 1 : 0);
@@ -60,7 +60,7 @@ bool is_lsys_statement(std::string_view line) {
            line.ends_with(';');
 }
 
-/// The first line that satisfies `tells`.
+/// The first line for which `tells` is true; null if there is none.
 template <typename Tells>
 const Line* find_line(const std::vector<Line>& lines, const Tells& tells) {
     const auto found = std::find_if(lines.begin(), lines.end(),
@@ -84,7 +84,7 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
     return find_line(lines, begins_with(word)) != nullptr;
 }
 
-/// Models of L-Py and lpfg, which are programs with `Axiom:` and `production:`.
+/// Recognises models of L-Py and lpfg: programs with `Axiom:` and `production:`.
 std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
     const Line* const axiom = find_line(lines, begins_with("axiom:"));
     if (has_line(lines, "#include <lpfgall.h>") ||
@@ -107,7 +107,7 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
                : std::nullopt;
 }
 
-/// Files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
+/// Recognises files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
 std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
     std::vector<const Line*> content;
     for (const Line& line : lines) {
@@ -122,7 +122,7 @@ std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
                   : std::nullopt;
 }
 
-/// Formats that hold no grammar.
+/// Recognises formats that hold no grammar.
 std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
     const Line& first = lines.front();
     const std::string_view text = first.text;
@@ -161,7 +161,7 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
                 "a grammar has statements such as `#w : F;`");
 }
 
-/// The advice for a dialect that lsc reads.
+/// Help text for a file in a dialect that lsc reads.
 std::string reading_of(const DialectRow& row) {
     const std::string_view extensions = row.extensions.empty() ? ".l" : row.extensions;
     return "give it a name that ends with `" +

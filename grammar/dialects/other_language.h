@@ -13,11 +13,11 @@ namespace lsys {
 struct OtherLanguage {
     std::string name;        // "a cpfg L-system"
     std::string help;        // what to do
-    std::uint32_t begin = 0; // of the line that tells
+    std::uint32_t begin = 0; // first byte of the line that shows the language
     std::uint32_t end = 0;
 };
 
-/// The language of a text without any statement of .lsys; none: nothing tells.
+/// The language of a text without any statement of .lsys; nullopt if no line shows it.
 [[nodiscard]] std::optional<OtherLanguage> recognise_other_language(std::string_view text);
 
 } // namespace lsys

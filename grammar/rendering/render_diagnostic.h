@@ -30,8 +30,8 @@ void render(const Diagnostic& diagnostic,
             const RenderOptions& options,
             std::string& out);
 
-/// Appends the line of the first label with marks under all labels that lie in it, each with its
-/// text, as a message has it below its head.
+/// Appends the frame of a message without its head line: the line of the first label, with marks
+/// and texts under all labels that lie in it.
 void render_frame(const std::vector<Label>& labels,
                   const SourceMap& sources,
                   bool colour,

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
 /// Min bytes in use for which a huge page pays off: zeroing it takes as long as zeroing a third of
 /// it in small pages.
 constexpr std::size_t kMinHugePageUse = kHugePage / 3;
-/// Addresses reserved at once for a large arena; only written pages become memory.
+/// Min bytes of address space of a large arena; only pages that are written take memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) {

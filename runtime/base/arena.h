@@ -1,5 +1,5 @@
 // Arena: anonymous memory, mapped from the system, that grows without keeping its contents and is
-// never initialised. Holds the words of a derivation and the tables beside them.
+// never initialised. Holds the words of a derivation and tables by module.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace lsys {
 
-/// Move only. Reserves more addresses than requested, so that a word that grows a little per
-/// generation stays in place; pages that are never written cost nothing.
+/// Move only. Reserves more address space than requested, so that a word that grows a little per
+/// generation stays in place; pages that are never written take no memory.
 class Arena {
 public:
     Arena() = default;
@@ -19,7 +19,7 @@ public:
     Arena& operator=(const Arena&) = delete;
 
     /// Makes room for at least `bytes`; the contents are lost if the arena grows. Returns false if
-    /// the system has no memory.
+    /// the system has no memory; the arena is then empty or unchanged.
     [[nodiscard]] bool reserve(std::size_t bytes);
     void release();
     /// The memory as an array of T, an implicit-lifetime type: the bytes were written as T, or are

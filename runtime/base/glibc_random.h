@@ -1,7 +1,8 @@
-// GlibcRandom: the numbers of glibc's rand(), an additive feedback generator of 31 words,
-// r[i] = r[i - 31] + r[i - 3] modulo 2^32, of which the upper 31 bits are returned. Its first words
-// come from the multiplicative generator 16807 modulo 2^31 - 1, and the first 310 sums are
-// discarded. Used to reproduce words of programs that draw with this library (`random glibc`).
+// GlibcRandom: the numbers of glibc's rand(), an additive feedback generator of 31 words, r[i] =
+// r[i - 31] + r[i - 3] modulo 2^32, of which the upper 31 bits are returned. Its first words come
+// from the multiplicative generator 16807 modulo 2^31 - 1, and the first 310 sums are discarded.
+// Used to reproduce words of programs that draw with glibc (`#set random glibc`, docs/language.md
+// section 6).
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Max pixels of a map: 11,585 by 11,585.
+/// Max pixels of a map, such as 11,585 by 11,585.
 inline constexpr std::uint64_t kMaxMapPixels = std::uint64_t{1} << 27;
 
 struct GreyMap {
@@ -25,12 +25,13 @@ struct GreyMap {
 };
 
 /// Reads a PNG file of 1 to 16 bits per sample; a sample b of 8 bits becomes 257 b. Gamma and
-/// opacity are ignored. Errors: a pixel with a colour, a damaged file, more than `max_bytes` of
-/// memory needed in addition to `bytes`.
+/// opacity are ignored. Errors: a pixel with a colour, a damaged file, more than kMaxMapPixels,
+/// more than `max_bytes` of memory needed in addition to `bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes);
 
-/// Reads raw samples of 16 bits, little-endian, by rows, without a header. Errors: `bytes` is not
-/// of `columns` by `rows` samples, or the map needs more than `max_bytes`.
+/// Reads raw samples of 16 bits, little-endian, by rows, without a header. Errors: `bytes` does not
+/// hold exactly `columns` by `rows` samples, more than kMaxMapPixels, or the map needs more than
+/// `max_bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_raw(std::string_view bytes,
                                             std::uint32_t columns,
                                             std::uint32_t rows,

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kLarge = 2 * kHugePage; // smaller blocks come from the heap
+constexpr std::size_t kLarge = 2 * kHugePage; // bytes; smaller blocks get no huge pages
 
 } // namespace
 

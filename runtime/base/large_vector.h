@@ -1,6 +1,6 @@
-// LargeVector: a std::vector for millions of items. Large blocks are on huge pages, which makes
-// fresh memory two to five times as fast. resize() leaves items of trivial types uninitialised, so
-// that they are written once.
+// LargeVector: a std::vector for millions of items. Large blocks are on huge pages, on which fresh
+// memory is two to five times as fast to write. resize() leaves items of trivial types
+// uninitialised, so that they are written once.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,8 @@
 
 namespace lsys {
 
-/// Allocates `bytes`, aligned for any type. Throws std::bad_alloc. Freed by release_large().
+/// Allocates `bytes`, aligned for any type. Throws std::bad_alloc. Freed by release_large() with
+/// the same `bytes`.
 [[nodiscard]] void* allocate_large(std::size_t bytes);
 void release_large(void* address, std::size_t bytes) noexcept;
 

@@ -20,7 +20,7 @@ struct LimitReport {
     std::uint64_t predicted_modules = 0; // of the word that did not fit
     std::uint64_t predicted_bytes = 0;   // memory in use with the word that did not fit
     bool exact = true;                   // false: predictions are lower bounds
-    bool streamed = false;               // `generation` is the age of the streamed word
+    bool streamed = false;               // `generation` is the age of a streamed, incomplete word
     /// Index of the production that adds most modules to the word that did not fit, or none.
     std::uint32_t production = 0xFFFFFFFFu;
 };

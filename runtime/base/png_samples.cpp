@@ -128,10 +128,10 @@ void append(png_structp png, png_bytep bytes, png_size_t count) {
 
 void ignore_flush(png_structp /*png*/) {}
 
-/// Writes all rows as differences to the row above, into one IDAT: much faster than the best filter
-/// per row, and nearly as small for small pictures of noise. Returns false on failure.
+/// Writes all rows as differences to the row above, into one IDAT: much faster than choosing the
+/// best filter per row, and nearly as small for small noisy pictures. Returns false on failure.
 bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_bytep rgba) {
-    constexpr int kLevel = 2; // higher levels save less than 5 %
+    constexpr int kLevel = 2; // higher levels save less than 5 % of the size
     const std::size_t row_bytes = std::size_t{4} * size.columns;
     const bool opaque = size.channels == 3;
     if (setjmp(png_jmpbuf(png)) != 0) {
@@ -143,7 +143,7 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, kLevel);
     png_set_compression_strategy(png, 0); // the default of zlib
-    // At least the size of zlib's output for incompressible bytes.
+    // Room for zlib's output even for incompressible bytes, so that it is written as one IDAT.
     png_set_compression_buffer_size(png, row_bytes * size.rows / 1000 * 1001 + 1024);
     png_write_info(png, info);
     if (opaque) {

@@ -22,7 +22,7 @@ struct PngSamples {
 };
 
 enum class PngForm : std::uint8_t {
-    SixteenBits, // big-endian, as stored: grey or colours, no opacity
+    SixteenBits, // two bytes per channel, big-endian as in the file: grey or colours, no opacity
     Rgba,        // four bytes per pixel
 };
 
@@ -32,13 +32,15 @@ struct PngRequest {
     std::uint64_t max_pixels = 0;
     std::uint64_t max_bytes = 0;  // of the samples and the caller's copy of them
     std::uint32_t copy_bytes = 0; // per pixel of the caller's copy
-    std::string_view noun;        // of the picture in errors: "map"
+    std::string_view noun;        // names the picture in errors: "map"
 };
+/// Errors: a damaged file, more than `max_pixels`, more than `max_bytes` (ErrorKind::Limit).
 [[nodiscard]] Result<PngSamples> read_png_samples(std::string_view bytes,
                                                   const PngRequest& request);
 
 /// The bytes of a PNG file of RGBA pixels, four bytes each; an opaque picture is written as RGB.
-/// Empty if memory runs out. A version of libpng and zlib always writes the same bytes.
+/// Empty if memory runs out. The bytes depend only on the pixels and the versions of libpng and
+/// zlib.
 [[nodiscard]] std::string
 write_png(std::uint32_t columns, std::uint32_t rows, std::span<const std::uint8_t> rgba);
 

@@ -41,7 +41,7 @@ inline constexpr std::uint32_t kStartGeneration = 0xFFFFFFFFu;
     return static_cast<float>(word >> 8) * 0x1p-24F;
 }
 
-/// Block `block` of the draws at one position.
+/// The four words of block `block` of the draws at one position.
 [[nodiscard]] constexpr PhiloxBlock draw_block(std::uint64_t seed,
                                                std::uint32_t generation,
                                                std::uint64_t position,
@@ -95,8 +95,9 @@ private:
     PhiloxBlock words_{};
 };
 
-/// The value of `{minimum, maximum}` at u (docs/language.md section 4). Precondition: minimum <=
-/// maximum, finite width.
+/// The value of the language's `{minimum, maximum}` for a draw u in [0, 1): at least minimum, below
+/// maximum unless both are equal (docs/language.md section 4). Precondition: minimum <= maximum,
+/// finite width.
 [[nodiscard]] float draw_in_range(float minimum, float maximum, float u);
 
 } // namespace lsys

@@ -21,8 +21,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMaxThreads = 1024;
-// Polls for the next task before a helper sleeps: some tens of microseconds, as long as the serial
-// work between two passes over a word.
+// Number of polls for the next task before a helper sleeps. They take some tens of microseconds, as
+// long as the serial work between two passes over a word.
 constexpr int kPolls = 2000;
 
 void pause_a_moment() {
@@ -111,7 +111,7 @@ struct Workers::Team {
     std::condition_variable task_begun;
     std::condition_variable all_left;          // signalled when no helper is within the task
     std::atomic<std::uint64_t> tasks_begun{0}; // number of tasks so far
-    const Task* task = nullptr;                // null once its pieces are all taken
+    const Task* task = nullptr;                // null between tasks
     std::uint32_t busy = 0;                    // helpers within the task
     bool stops = false;
     std::vector<std::thread> helpers; // last: they use all of the above

@@ -1,4 +1,4 @@
-// Workers: a team of threads. Work is a number of numbered pieces; results never depend on which
+// Workers: a team of threads. Work is divided into numbered pieces; results never depend on which
 // thread takes which piece.
 #pragma once
 
@@ -23,9 +23,9 @@ public:
     /// Starts the threads now, so that the first for_each() need not.
     void start();
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
-    /// one worker or one piece, on the calling thread. Uses fewer threads where the system gives
-    /// fewer than asked for. A piece may wait for a piece of a lower number, which has been begun,
-    /// and for no other. A piece that no other waits for may throw std::bad_alloc or
+    /// one worker or one piece, the work runs on the calling thread; if the system starts fewer
+    /// threads than requested, on those. A piece may wait for a piece of a lower number, which has
+    /// been begun, and for no other. A piece that no other waits for may throw std::bad_alloc or
     /// std::length_error; for_each() then throws one of the two when all threads have left their
     /// pieces, and some pieces may not have run.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);

@@ -13,13 +13,13 @@ namespace lsys::lsc {
 
 namespace {
 
-/// A statement that parses.
+/// The result of parsing a statement without errors.
 struct ParsedStatement {
-    std::string tree; // dump of the syntax tree, without parentheses
+    std::string tree; // dump of the syntax tree, which leaves out redundant parentheses
     std::size_t redundant_groups = 0;
 };
 
-/// The statement `#set names` of a file; empty if there is none.
+/// The text of the statement `#set names` of a file; empty if there is none.
 std::string find_names_setting(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
     for (std::size_t at = text.find("#set"); at != std::string_view::npos;
@@ -34,7 +34,7 @@ std::string find_names_setting(std::string_view text) {
     return {};
 }
 
-/// Count of parentheses around a single value; they make a repair less plausible.
+/// Number of pairs of parentheses around a single value. They make a repair less plausible.
 std::size_t count_redundant_groups(const Ast& ast) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < ast.expressions.size(); ++i) {
@@ -71,7 +71,7 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether a text may parse: false for unbalanced parentheses and for `)(`. Saves a parse.
+/// Quick test before parsing: false for unbalanced parentheses and for `)(`, which never parse.
 bool may_parse(std::string_view text) {
     std::int64_t open = 0;
     char before = '\0';
@@ -88,13 +88,13 @@ bool may_parse(std::string_view text) {
     return open == 0;
 }
 
-/// Whether the brackets of branches and polygons are balanced in number.
+/// Whether a text has as many `[` as `]`, and as many `{` as `}`.
 bool has_balanced_modules(std::string_view text) {
     return std::count(text.begin(), text.end(), '[') == std::count(text.begin(), text.end(), ']') &&
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether a number follows the comma added at `place`, which rules out a missing `*`.
+/// Whether a number follows `place`, where a comma was added. Then no `*` can be missing there.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&
@@ -113,7 +113,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         }
     };
     for (std::size_t at = 0; at <= broken.size(); ++at) {
-        // A `(` may be missing inside a word: `Fsin(x))` for `F(sin(x))`.
+        // Unlike other brackets, `(` is also tried inside a word: `Fsin(x))` for `F(sin(x))`.
         add(at, 0, "(");
         const bool is_in_word =
             at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
@@ -125,7 +125,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         if (at == broken.size()) {
             break;
         }
-        // An opening bracket is superfluous only after an equal one.
+        // Removing an opening bracket is tried only after an equal one.
         const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
         if (broken[at] == ')' || broken[at] == '}' ||
             ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
@@ -158,7 +158,7 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     const std::optional<ParsedStatement> proposed = parse_statement(setting, repair.repaired);
     std::vector<std::string> texts;
     if (repair.code == DiagnosticCode::MissingComma) {
-        // The alternative to a missing comma is a missing `*`.
+        // The mistake may also be a missing `*` in place of the comma.
         if (!is_before_number(repair.broken, repair.place)) {
             texts.emplace_back(repair.broken);
             texts.back().insert(repair.place, " * ");

@@ -1,5 +1,5 @@
 // Alternative repairs of a statement with a missing, doubled or mistyped bracket or comma. The
-// proposed repair is certain only if no alternative is as plausible.
+// repair that the parser proposes is certain only if no alternative is as plausible.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -15,16 +15,16 @@ struct StatementRepair {
     DiagnosticCode code{};   // of the mistake
     std::string_view broken; // the statement before the repair
     std::string_view repaired;
-    std::uint32_t place = 0;    // of the first edit, in bytes of `broken`
+    std::uint32_t place = 0;    // byte offset of the first edit in `broken`
     std::string_view file_text; // whole file; its `#set names` applies to the statement
 };
 
 /// Whether the repair of a mistake may have alternatives: true for brackets and commas.
 [[nodiscard]] bool may_have_alternatives(DiagnosticCode code);
 
-/// The statement after each alternative repair by one character that parses. The syntax trees of
-/// the results differ from that of `repaired` and from each other. None for statements of more than
-/// kMaxComparedStatement bytes.
+/// The texts of the statement after each alternative repair by one character that parses. Their
+/// syntax trees differ from that of `repaired` and from each other. Empty for statements of more
+/// than kMaxComparedStatement bytes.
 inline constexpr std::size_t kMaxComparedStatement = 2000;
 [[nodiscard]] std::vector<std::string> alternative_repairs(const StatementRepair& repair);
 

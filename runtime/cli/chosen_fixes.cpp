@@ -9,10 +9,10 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The end of each edited place of a file, by its begin.
+/// The edited places of a file: begin to end, as byte offsets.
 using TakenPlaces = std::map<std::uint32_t, std::uint32_t>;
 
-/// Whether an edit of `span` overlaps an edited place or touches an insertion.
+/// Whether an edit of `span` overlaps an edited place or begins at the same offset as one.
 bool is_taken(const TakenPlaces& taken, SourceSpan span) {
     const auto after = taken.lower_bound(span.begin);
     if (after != taken.end() && (after->first < span.end || after->first == span.begin)) {
@@ -38,7 +38,7 @@ ChosenFixes choose_fixes(const Diagnostics& diagnostics,
         if (fix == diagnostic.fixes.end() || !is_allowed(diagnostic, *fix)) {
             continue;
         }
-        // Keyed by path, not by id: a file included twice is one text.
+        // Keyed by path, since a file that is included twice has two ids and one text.
         const bool conflict = std::any_of(fix->edits.begin(), fix->edits.end(), [&](const Edit& e) {
             return is_taken(taken[sources.file(e.span.file).path()], e.span);
         });

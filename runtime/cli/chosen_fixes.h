@@ -1,4 +1,4 @@
-// The choice of fixes for one round of `lsc check --fix`, and their application.
+// Chooses the fixes for one round of `lsc check --fix`, and applies them to texts.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -14,22 +14,22 @@
 namespace lsys::lsc {
 
 using FileEdits = std::map<std::string, std::vector<const Edit*>>;
-/// Fixes that can be applied together, with their edits by path and place.
+/// Fixes that can be applied together, with their edits by path, sorted by place.
 struct ChosenFixes {
-    std::vector<const Diagnostic*> diagnostics; // one per fix
+    std::vector<const Diagnostic*> diagnostics; // the diagnostic of each of `fixes`
     std::vector<const Fix*> fixes;
     FileEdits edits;
 };
 using FixFilter = std::function<bool(const Diagnostic&, const Fix&)>;
-/// Chooses the first certain fix of each diagnostic, or with FixChoice::Offered the first one, if
-/// `is_allowed` accepts the fix and its edits touch no edit chosen before.
+/// Chooses the first certain fix of each diagnostic, or with FixChoice::Offered its first fix.
+/// Skips a fix that `is_allowed` refuses or whose edits overlap edits chosen before.
 [[nodiscard]] ChosenFixes choose_fixes(const Diagnostics& diagnostics,
                                        const SourceMap& sources,
                                        FixChoice choice,
                                        const FixFilter& is_allowed);
 
-/// `text` after `edits`, which are sorted by place and do not overlap. Line feeds of replacements
-/// become CRLF if the text has CRLF.
+/// `text` after `edits`. Line feeds of replacements become CRLF if the text has CRLF. Precondition:
+/// `edits` are sorted by place and do not overlap.
 [[nodiscard]] std::string apply_edits(std::string_view text, const std::vector<const Edit*>& edits);
 
 } // namespace lsys::lsc

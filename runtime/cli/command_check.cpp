@@ -17,7 +17,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// The options of a file: those of the command, and those of a part if it lacks an axiom and
+/// The options of the command for a file. Sets GrammarOptions::part if the file has no axiom and
 /// another grammar includes it.
 GrammarOptions options_of(const std::string& path,
                           const GrammarText& text,
@@ -49,7 +49,8 @@ ExitStatus check_text(const std::string& path,
         return report_error(compiled.error(), console);
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
-        // Editors apply machine-applicable fixes without asking, so doubtful ones become offers.
+        // Readers of JSON apply machine-applicable fixes without asking, so doubtful fixes must not
+        // be marked as such.
         const Result<void> offered = offer_doubtful_fixes(
             path, text, options, FixScope(path, command.files), project, compiled.value());
         if (!offered) {
@@ -67,7 +68,8 @@ ExitStatus check_text(const std::string& path,
     return status;
 }
 
-/// Writes all changed files in place, or none; a fixed standard input goes to standard output.
+/// Writes all changed files in place, or none. The repaired text of standard input goes to standard
+/// output.
 Result<void> write_fixed(const std::string& path,
                          const std::string& bytes,
                          const FixedGrammar& fixed,
@@ -112,7 +114,7 @@ std::size_t count_fixes(const Diagnostics& diagnostics) {
     return count;
 }
 
-/// The bytes of a file before the repair.
+/// The bytes of the file `changed` before the repair.
 Result<std::string> original_text(const std::string& changed,
                                   const std::string& path,
                                   const GrammarText& text,
@@ -158,7 +160,7 @@ ExitStatus fix_file(const std::string& path,
         }
     }
     if (command.diff) {
-        // The difference shows them.
+        // The printed difference shows the fixes.
     } else if (command.messages.format == MessageFormat::Json) {
         console.records(fixed.records);
     } else {

@@ -28,7 +28,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// A message about conflicting options; empty if there are none.
+/// A message about options that conflict; empty if none do.
 std::string find_conflict(const DumpCommand& command) {
     const bool uses_states = command.steps || !command.save_state.empty() || !command.from.empty();
     const bool makes_mesh = command.stage == DumpStage::Mesh;
@@ -106,7 +106,7 @@ write_stage(const DumpCommand& command, const std::string& text, const Console& 
     return report_result(write_file(command.output, text, console), console);
 }
 
-/// Prints the tokens or the syntax tree, also of a grammar with errors.
+/// Prints the tokens or the syntax tree, even if the grammar has errors.
 ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
     GrammarText grammar;
@@ -138,7 +138,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     return more_severe(console.show(diagnostics, sources), write_stage(command, text, console));
 }
 
-/// Reports that a compiled grammar has no program.
+/// Reports that a .lsb file has no Program.
 ExitStatus report_missing_program(const DumpCommand& command, const Console& console) {
     return report_error(
         Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
@@ -154,7 +154,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
         page->first = command.first.value_or(page->first);
         page->count = command.rows.value_or(page->count);
     }
-    std::optional<Output> output; // opened by the first piece: a refused system replaces no file
+    std::optional<Output> output; // opened by the first piece, so that a refusal replaces no file
     Result<void> written;
     const auto put = [&](std::string_view text) {
         if (!output) {
@@ -252,7 +252,7 @@ ExitStatus dump_plant(const DumpCommand& command, Grammar& grammar, const Consol
         return status;
     }
     const std::size_t number =
-        std::min<std::size_t>(command.mesh.level, levels.levels.size() - 1); // or the coarsest
+        std::min<std::size_t>(command.mesh.level, levels.levels.size() - 1); // at most the coarsest
     status = console.take(
         mesh_plant_level(plant, plant.skeleton, levels, number, mesh_options, project), mesh);
     if (status != ExitStatus::Ok) {

@@ -15,7 +15,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// All codes with severity and meaning, in the order of diagnostics.def.
+/// A table of all codes with severity and meaning, in the order of diagnostics.def.
 std::string list_all() {
     std::size_t width = 0;
     for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
@@ -37,7 +37,7 @@ constexpr std::size_t kColumns = 80;
 /// has a line of its own.
 std::string wrapped(std::string_view text) {
     std::string out;
-    std::size_t column = 0; // of the current line
+    std::size_t column = 0; // length of the current line
     std::size_t at = 0;
     while (at < text.size()) {
         const std::size_t begin = std::min(text.find_first_not_of(" \n", at), text.size());
@@ -107,7 +107,7 @@ Json row_as_json(const DiagnosticInfo& row) {
         {"code", row.name}, {"severity", severity_name(row.severity)}, {"meaning", row.meaning}};
 }
 
-/// The texts of explain() as an object; an example is `right` or not, with its files by name.
+/// An explanation as a JSON object. Each example has `right` and its files by name.
 std::string explain_as_json(const DiagnosticInfo& row, const Explanation& explanation) {
     Json object = row_as_json(row);
     object["text"] = explanation.text;

@@ -47,22 +47,22 @@ struct Export {
     const Plant& plant;
     ExportTiming timing;
     Mesh mesh;                           // of the last file
-    DetailLevels levels;                 // of the plant; empty until a coarser level is asked for
-    std::set<std::string> pictures;      // names of the written ones, shared by all frames
-    std::optional<glm::vec3> pivot = {}; // of all frames of a growth: that of the last plant
-    bool is_placed = false;              // the mesh has its pivot and unit
-    std::vector<Mesh>* collected = nullptr; // receives meshes in place of files; null: none
+    DetailLevels levels;                 // of the plant; empty if only the finest level is needed
+    std::set<std::string> pictures;      // names of the written pictures, shared by all frames
+    std::optional<glm::vec3> pivot = {}; // for all frames of a growth: pivot of the last plant
+    bool is_placed = false;              // pivot and unit have been applied to the mesh
+    std::vector<Mesh>* collected = nullptr; // if not null, receives the meshes in place of files
     const PlantVariants* variants = nullptr;
 };
 
-/// Adds the files beside `path`: pictures, the materials of an OBJ, the buffer of a glTF; puts
-/// their names into `info`.
+/// Adds the files that accompany the file `path`: pictures, the materials of an OBJ, the buffer of
+/// a glTF. Puts their names into `info`.
 ExitStatus add_side_files(Export& run,
                           const Skeleton& skeleton,
                           const std::filesystem::path& path,
                           ExportInfo& info,
                           OutputSet& files) {
-    // Levels of detail have colours of their own, frames the same ones.
+    // Each level of detail has pictures of its own; all frames share theirs.
     info.picture_prefix = run.command.lods != 0
                               ? path.stem().string()
                               : std::filesystem::path(run.command.output).stem().string();
@@ -98,7 +98,7 @@ ExitStatus add_side_files(Export& run,
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
-/// Whether `path` is or will be a regular file, which other files can accompany.
+/// Whether `path` is, or will be, a regular file: only then can other files accompany it.
 bool is_regular(const std::string& path) {
     std::error_code ignored;
     const auto kind = std::filesystem::status(path, ignored).type();
@@ -106,8 +106,8 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Plans levels of detail, once for all poses of the plant. DetailChain::pictures is that of the
-/// format.
+/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures to what the
+/// format and the output allow.
 ExitStatus plan_levels(Export& run, const Skeleton& skeleton, DetailChain chain) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
@@ -125,7 +125,7 @@ ExitStatus plan_levels(Export& run, const Skeleton& skeleton, DetailChain chain)
                             run.levels);
 }
 
-/// Meshes the wanted level of `skeleton`, or the coarsest.
+/// Meshes the level of detail of `skeleton` that `--level` asks for, or the coarsest level.
 ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOptions& options) {
     const std::uint32_t wanted = run.command.mesh.level;
     if (wanted == 0) {
@@ -144,7 +144,7 @@ ExportInfo export_info(const Export& run) {
     const ExportCommand& command = run.command;
     ExportInfo info;
     info.grammar = std::filesystem::path(command.file).filename().string();
-    // Without the name of a file, nodes have that of any plant.
+    // Nodes are named after the output, else after the grammar; exporters have a default name.
     const std::string& named = command.output == "-" ? command.file : command.output;
     info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
     info.seed = run.plant.seed;
@@ -162,7 +162,7 @@ ExportInfo export_info(const Export& run) {
     return info;
 }
 
-/// The place of the plant in its files; the pivot is that of the plant at rest.
+/// Pivot and unit of the plant in its files. The pivot is that of the plant at rest.
 PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
     if (run.is_placed) {
         return {};
@@ -172,13 +172,14 @@ PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
             units_per_metre(run.command.unit)};
 }
 
-/// Makes the mesh of `skeleton`; with `segments` those of its vertices too.
+/// Makes the mesh of `skeleton`. `segments`: with the segment of each vertex.
 ExitStatus mesh_frame(Export& run, const Skeleton& skeleton, bool segments) {
     const SteadyClock::time_point start = SteadyClock::now();
     MeshOptions options = run.command.mesh;
     options.segments = segments;
     run.mesh = {};
-    // Frames of a growth are other plants: their levels only have fewer sides.
+    // Frames of a growth are different plants, so planned levels do not fit them: `--level` only
+    // reduces the number of sides.
     const ExitStatus status =
         run.command.grow
             ? run.console.take(mesh_plant(run.plant, skeleton, options, run.project), run.mesh)
@@ -187,13 +188,13 @@ ExitStatus mesh_frame(Export& run, const Skeleton& skeleton, bool segments) {
     return status;
 }
 
-/// How the mesh of a file moves; both null: not at all.
+/// The motion of the mesh of a file. Both null: no motion.
 struct Movement {
     const PlantAnimation* animation = nullptr;
     const MeshFilm* film = nullptr;
 };
 
-/// Writes the mesh to `path`.
+/// Writes the mesh `run.mesh` and its side files to `path`.
 ExitStatus write_mesh(Export& run,
                       const Skeleton& skeleton,
                       const std::string& path,
@@ -239,8 +240,8 @@ ExitStatus write_mesh(Export& run,
     return status;
 }
 
-/// Meshes `skeleton` and writes the mesh to `path`; with `animation` as a skin, whose first pose is
-/// `skeleton`.
+/// Meshes `skeleton` and writes the mesh to `path`. With `animation` the mesh is a skin, whose
+/// first pose is `skeleton`.
 ExitStatus write_plant(Export& run,
                        const Skeleton& skeleton,
                        const std::string& path,
@@ -255,7 +256,7 @@ ExitStatus write_plant(Export& run,
     return write_mesh(run, skeleton, path, {animation, nullptr});
 }
 
-/// Writes the levels of detail of `skeleton`: into one file, or a file for each and a list of them.
+/// Writes the levels of detail of `skeleton`: all into one file, or one file per level and a list.
 ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
     const ExportCommand& command = run.command;
     const bool one_file = traits_of(run.format).lods && !command.lod_files;
@@ -312,7 +313,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
         });
     } else {
         std::vector<LodFile> list;
-        Mesh finest; // for the statistics
+        Mesh finest; // kept for the statistics
         for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
             if (i == 1) {
                 finest = std::move(run.mesh);
@@ -368,7 +369,7 @@ ExitStatus write_still(Export& run, const Skeleton& skeleton) {
                                  : write_plant(run, skeleton, run.command.output);
 }
 
-/// Stops if `bytes` of an animation are more than the limit.
+/// Reports an error if the `bytes` of an animation exceed the memory limit.
 ExitStatus check_animation(const Export& run, std::uint64_t bytes) {
     const std::uint64_t limit = run.command.run.limits.max_bytes;
     return bytes <= limit ? ExitStatus::Ok
@@ -380,7 +381,7 @@ ExitStatus check_animation(const Export& run, std::uint64_t bytes) {
                                             ExitStatus::Limit, run.grammar, run.console);
 }
 
-/// Writes the motion as a loop: to one file, or to numbered files.
+/// Writes the motion as a loop, to one file or to numbered files.
 ExitStatus write_loop(Export& run, PlantPhysics& physics) {
     const ExportCommand& command = run.command;
     const std::uint64_t segments = run.plant.skeleton.segments.size();
@@ -408,7 +409,7 @@ ExitStatus write_loop(Export& run, PlantPhysics& physics) {
     return ExitStatus::Ok;
 }
 
-/// Writes all frames to one file.
+/// Writes all frames of the motion to one file.
 ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     const ExportCommand& command = run.command;
     const std::uint64_t segments = run.plant.skeleton.segments.size();
@@ -422,8 +423,8 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
     return write_plant(run, first, command.output, &animation);
 }
 
-/// Warns of a plant that falls under its weight alone, without wind. Large plants are not checked,
-/// because weighing settles the plant many times.
+/// Warns if the plant falls under its own weight, without wind. Large plants are not checked,
+/// because the check settles the plant many times.
 ExitStatus check_weight(const Export& run, const PhysicsOptions& options) {
     Diagnostics warning =
         weigh_for_warning(run.plant.skeleton, run.grammar.bytecode.settings, options);
@@ -441,7 +442,7 @@ ExitStatus write_bent(Export& run) {
     options.damping = run.grammar.bytecode.settings.damping;
     options.load = run.grammar.bytecode.settings.load;
     options.threads = command.run.threads;
-    // A whole number of steps per frame.
+    // Use a whole number of simulation steps per frame.
     const auto steps = static_cast<std::uint32_t>(
         std::max(1.0F, std::ceil(kStepsPerSecond / command.frames_per_second)));
     options.time_step = 1.0F / (command.frames_per_second * static_cast<float>(steps));
@@ -487,7 +488,7 @@ ExitStatus write_stats(const Export& run, const Plant& plant) {
     const std::string text = command.messages.format == MessageFormat::Json
                                  ? export_stats_json(plant, run.mesh, run.timing)
                                  : export_stats_text(plant, run.mesh, run.timing);
-    if (command.output == "-") { // standard output holds the plant
+    if (command.output == "-") { // standard output is taken by the plant
         run.console.line(text);
         return ExitStatus::Ok;
     }
@@ -498,7 +499,7 @@ bool is_empty(const Skeleton& skeleton) {
     return skeleton.segments.empty() && skeleton.objects.empty() && skeleton.polygons.empty();
 }
 
-/// Sets `generation` to the first with something to draw, 0 if there is none.
+/// Sets `generation` to the first generation that draws something, or to 0 if none does.
 ExitStatus find_first_drawn(const Export& run, PlantGrowth& growth, std::uint32_t& generation) {
     Skeleton drawn;
     for (generation = 0; generation <= growth.last_generation(); ++generation) {
@@ -514,14 +515,15 @@ ExitStatus find_first_drawn(const Export& run, PlantGrowth& growth, std::uint32_
     return ExitStatus::Ok;
 }
 
-/// Makes the skeleton of a moment.
+/// Sets `grown` to the skeleton of a moment.
 ExitStatus
 pose_growth(const Export& run, PlantGrowth& growth, const GrowthMoment& moment, Skeleton& grown) {
     return run.console.interrupted() ? ExitStatus::Interrupted
                                      : run.console.take(growth.pose(moment, run.project, grown));
 }
 
-/// Sets the pivot of all frames: that of the last plant. Without an option nothing is derived.
+/// Sets the pivot of all frames to that of the last plant. Derives nothing if the pivot is the
+/// origin.
 ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
     if (run.command.pivot == PlantPivot::Origin) {
         return ExitStatus::Ok;
@@ -532,20 +534,20 @@ ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
         run.console.show(posed.messages());
         return status_of(posed.stop());
     }
-    run.pivot = pivot_of(last, run.command.pivot); // the last frame shows the messages
+    run.pivot = pivot_of(last, run.command.pivot); // writing the last frame shows the messages
     return ExitStatus::Ok;
 }
 
-/// Writes the plant from its axiom to its last generation, a numbered file for each frame. `grown`
-/// becomes the skeleton of the last frame.
+/// Writes the growth of the plant from its axiom to its last generation, one numbered file per
+/// frame. `grown` becomes the skeleton of the last frame.
 ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     const ExportCommand& command = run.command;
     std::uint32_t first = 0;
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
     }
-    // From the last generation that draws nothing on. It has no file, as nothing can be written:
-    // the first frame is one step later.
+    // Growth starts at the last generation that draws nothing. That moment has no file, since there
+    // is nothing to write: the first frame is one step later.
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {
@@ -572,8 +574,8 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     return ExitStatus::Ok;
 }
 
-/// Writes the plant from its axiom to its last generation to one file. `grown` becomes the skeleton
-/// of the last frame.
+/// Writes the growth of the plant from its axiom to its last generation to one file. `grown`
+/// becomes the skeleton of the last frame.
 ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
     const ExportCommand& command = run.command;
     MeshFilmBuilder builder(command.frames_per_second);
@@ -598,7 +600,7 @@ ExitStatus write_film(Export& run, PlantGrowth& growth, Skeleton& grown) {
     return write_mesh(run, grown, command.output, {nullptr, &film});
 }
 
-/// A message about options of levels of detail that do not go together; empty if there are none.
+/// A message about options of levels of detail that conflict; empty if none do.
 std::string find_lod_conflict(const ExportCommand& command, ExportFormat format) {
     if (command.lod_files && command.lods == 0) {
         return "--lod-files needs the number of levels: --lods";
@@ -638,7 +640,7 @@ std::string find_lod_conflict(const ExportCommand& command, ExportFormat format)
     return {};
 }
 
-/// A message about options that --variants does not go with; empty if there are none.
+/// A message about options that conflict with --variants; empty if none do.
 std::string find_variant_conflict(const ExportCommand& command, ExportFormat format) {
     if (!command.variants) {
         return {};
@@ -674,7 +676,7 @@ std::string find_variant_conflict(const ExportCommand& command, ExportFormat for
     return {};
 }
 
-/// A message about options that do not go together; empty if there are none.
+/// A message about options that conflict; empty if none do.
 std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     const bool bends = command.gravity || command.wind;
     if (std::string conflict = find_lod_conflict(command, format); !conflict.empty()) {
@@ -771,14 +773,14 @@ std::string find_conflict(const ExportCommand& command, ExportFormat format) {
     return {};
 }
 
-/// The plant of one value of --variants.
+/// The plant for one value of --variants.
 struct VariantPlant {
     ExportCommand command;
     Grammar grammar;
     Plant plant;
 };
 
-/// Takes the value of an outcome and shows its messages, unless the same ones have been shown.
+/// Takes the value of an outcome and shows its messages, unless equal messages have been shown.
 template <typename T>
 ExitStatus
 take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::string>& shown) {
@@ -792,7 +794,7 @@ take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::st
     return ExitStatus::Ok;
 }
 
-/// Writes a plant for each value of --variants into one file.
+/// Writes one plant per value of --variants into one file.
 ExitStatus export_variants(const ExportCommand& command,
                            ExportFormat format,
                            const Project& project,
@@ -925,7 +927,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
-    if (bends) { // all time but that of meshing and writing
+    if (bends) { // the rest of the time is physics
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }

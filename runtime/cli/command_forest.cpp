@@ -29,11 +29,11 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::uint32_t kGroundCells = 128; // per side
+constexpr std::uint32_t kGroundCells = 128; // cells of the ground mesh per side
 
 enum class OutputKind : std::uint8_t { None, Instances, Mesh, Statistics };
 
-/// The kind and format of the output, by its extension.
+/// The kind and format of the output, which its extension decides.
 struct OutputTarget {
     OutputKind kind = OutputKind::None;
     ExportFormat format = ExportFormat::Glb;
@@ -68,7 +68,7 @@ Result<OutputTarget> target_of(const ForestCommand& command) {
     return OutputTarget{OutputKind::Instances, *format};
 }
 
-/// A message about options of the place of a forest; empty if there are none.
+/// A message about --collision, --unit or --pivot if one does not fit the output; empty if all do.
 std::string find_place_conflict(const ForestCommand& command, const OutputTarget& target) {
     const bool has_format = target.kind == OutputKind::Instances || target.kind == OutputKind::Mesh;
     if (command.collision != CollisionKind::None) {
@@ -96,7 +96,7 @@ std::string find_place_conflict(const ForestCommand& command, const OutputTarget
     return {};
 }
 
-/// A message about conflicting options; empty if there are none.
+/// A message about options that conflict; empty if none do.
 std::string find_conflict(const ForestCommand& command, const OutputTarget& target) {
     if (command.output.empty() && !command.stats && !command.check) {
         return "nothing is asked for; say where to write with -o, or --stats, or --check";
@@ -167,7 +167,7 @@ struct Run {
 };
 
 ExitStatus make_meshes(Run& run) {
-    const bool lods = run.command.instances == ForestInstances::Lods; // make their own
+    const bool lods = run.command.instances == ForestInstances::Lods; // write_lods() makes meshes
     if (!lods || run.command.messages.format == MessageFormat::Json) {
         const ExitStatus status =
             run.console.take(mesh_forest(run.grown, run.command.mesh, run.project), run.meshes);
@@ -182,7 +182,7 @@ ExitStatus make_meshes(Run& run) {
         ground.rows = kGroundCells;
         ground.threads = run.command.run.threads;
         ground.pictures = run.grown.ground;
-        // A baked mesh has tangents only where all its parts have some.
+        // A baked mesh has tangents only if all its parts do.
         ground.tangents =
             run.grown.ground.normals != nullptr || run.target.kind == OutputKind::Mesh;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);
@@ -194,7 +194,7 @@ ExitStatus make_meshes(Run& run) {
     return ExitStatus::Ok;
 }
 
-/// Adds pictures in the folder of `path`.
+/// Adds pictures as files in the folder of `path`.
 ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
                         const std::string& path,
                         OutputSet& outputs) {
@@ -210,7 +210,7 @@ ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
     return ExitStatus::Ok;
 }
 
-/// The place of the scene that is the origin of the file.
+/// The point of the scene that becomes the origin of the file.
 glm::vec3 pivot_of(const Run& run) {
     if (run.command.pivot == ForestPivot::Origin) {
         return glm::vec3(0.0F);
@@ -236,7 +236,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.threads = run.command.run.threads;
     info.compression = run.command.compression.value_or(ExportCompression::None);
     info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
-    OutputSet outputs(run.console); // pictures before the file that names them
+    OutputSet outputs(run.console); // pictures are added before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
         std::vector<PictureFile> pictures;
@@ -278,7 +278,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     info.up = run.command.surface.up;
     info.both_sides = run.command.surface.both_sides;
     const FormatTraits& format = traits_of(run.target.format);
-    OutputSet outputs(run.console); // the files beside it first
+    OutputSet outputs(run.console); // side files are added before the mesh that names them
     if (path == "-") {
         info.textures = format.pictures == ExportPictures::Inside;
     } else {
@@ -377,7 +377,7 @@ std::string stats_text(const Run& run, const ForestCounts& counts, double second
                 "because there was none to take\n",
                 stage.generations, cache.instances.size(), cache.slots.size(),
                 cache.skeleton.segments.size(), hits, misses);
-            // Sums over the keys with the same id and age.
+            // Sum over the slots with the same id and age.
             std::map<std::pair<std::uint32_t, std::uint32_t>, InstanceSlot> rows;
             for (const InstanceSlot& slot : cache.slots) {
                 InstanceSlot& row = rows[{slot.id, slot.age}];
@@ -411,7 +411,7 @@ ExitStatus print_stats(const Run& run) {
     return report_result(run.console.write(text), run.console);
 }
 
-/// Writes a forest whose trees have stages in `frames` of them, from the start to the last.
+/// Writes `frames` files of a forest whose trees have stages, from their first stage to the last.
 ExitStatus write_stages(Run& run) {
     Outcome<ForestGrowth> begun = ForestGrowth::begin(run.scene, run.grown, run.project);
     if (!begun) {
@@ -420,7 +420,7 @@ ExitStatus write_stages(Run& run) {
     }
     ForestGrowth growth = std::move(begun.value());
     for (std::uint32_t frame = 0; frame < run.command.frames; ++frame) {
-        // Whole stages: a file holds no tree between two of them.
+        // Rounded down to a whole stage, since a file has no trees between two stages.
         const GrowthMoment moment{
             moment_of_frame(frame, run.command.frames, growth.last_year()).generation, 0.0};
         const TreeHeight no_height = [](const Tree& /*tree*/) { return 0.0F; };
@@ -439,7 +439,7 @@ ExitStatus write_stages(Run& run) {
     return ExitStatus::Ok;
 }
 
-/// Writes the forest of `frames` evenly spaced years, including the last.
+/// Writes the forest at `frames` evenly spaced years, the last of which is the last year.
 ExitStatus write_years(Run& run) {
     PlacementOptions options = run.scene.placement;
     options.threads = run.project.threads;
@@ -494,7 +494,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     SceneOverrides overrides = command.overrides;
     if (command.instances != ForestInstances::Branches) {
         overrides.rho =
-            0.0F; // heroes take no branch from others, so each is an instance as a whole
+            0.0F; // no branch is replaced by a recorded one, so each hero is a single instance
     }
     LoadedScene loaded;
     if (const ExitStatus status =

@@ -37,7 +37,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     const ParseContext context{sources, names, diagnostics, load};
     const std::optional<std::string> text =
         check_is_lsys(file, context) ? format_lsys(file, context) : std::nullopt;
-    if (!text) { // nothing is written; the messages say why
+    if (!text) { // a text with syntax errors is not formatted; the messages show them
         return console.show(diagnostics, sources);
     }
     if (command.check) {

@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 
 /// The translation of one system.
 struct Imported {
-    std::string text; // .lsys
+    std::string text; // a .lsys grammar
     Dialect dialect = Dialect::Lsys;
     std::uint64_t warnings = 0;
 };
 
-/// A .lsys text with the generations, constants and settings of the command line in place of its
-/// own.
+/// A .lsys text whose generations, constants and settings are replaced by those of the command
+/// line.
 Result<std::string> with_options(const std::string& text, const GrammarOptions& options) {
     const FileLoader load = [](const std::string& path) -> Result<std::string> {
         return Error{fmt::format("`{}` is not read here", path)};
@@ -40,13 +40,13 @@ Result<std::string> with_options(const std::string& text, const GrammarOptions& 
                        {options.generations, options.definitions, options.settings}, load);
 }
 
-/// Whether binary32, the type of all numbers in a grammar, holds the number exactly.
+/// Whether binary32, the type of all numbers in a grammar, can represent the number exactly.
 bool is_exact(std::uint32_t generations) {
     return static_cast<double>(static_cast<float>(generations)) == static_cast<double>(generations);
 }
 
-/// Translates one system and reports its diagnostics, like every command that compiles. After Ok
-/// `imported.text` derives the same word as the original.
+/// Translates one system and reports its diagnostics. If it returns Ok, `imported.text` derives the
+/// same word as the original.
 ExitStatus import_text(const std::string& path,
                        GrammarText text,
                        const GrammarOptions& options,
@@ -103,12 +103,12 @@ Result<std::vector<fs::path>> files_of(const std::string& folder) {
     return files;
 }
 
-/// An import of several systems, each to a file named after it.
+/// State of an import of several systems, each to a file named after it.
 struct FolderImport {
     const ImportCommand& command;
     const Console& console;
     fs::path folder;
-    std::set<std::string> names; // of the files written by this run
+    std::set<std::string> names; // names of the files written by this run
     ExitStatus status = ExitStatus::Ok;
     std::uint64_t imported = 0;
     std::uint64_t failed = 0;
@@ -125,8 +125,8 @@ std::string file_name(std::string_view name) {
     return text.starts_with('.') ? "_" + text : text;
 }
 
-/// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has used the name:
-/// the systems `a/b` and `a_b` have the same stem.
+/// The path of `stem`.lsys in the folder, or of `stem`-2.lsys, ... if this run has already used the
+/// name. For example, the systems `a/b` and `a_b` have the same stem.
 std::string unused_path(const std::string& stem, FolderImport& import) {
     std::string name = stem + ".lsys";
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
@@ -157,7 +157,7 @@ write_new_file(const std::string& path, const std::string& text, const FolderImp
     return report_result(done, import.console);
 }
 
-/// Imports one system to `stem`.lsys and prints one line.
+/// Imports one system to `stem`.lsys and prints one line about it.
 Result<void> import_one(const std::string& path,
                         GrammarText text,
                         const GrammarOptions& options,
@@ -183,8 +183,8 @@ Result<void> import_one(const std::string& path,
                              : fmt::format("{}: {}, not imported\n", what, title));
 }
 
-/// Imports the systems of a file to `prefix`NAME.lsys. Skips a system that has the name of an
-/// earlier one, regardless of letter case.
+/// Imports the systems of a file to `prefix`NAME.lsys. Skips a system with the name of an earlier
+/// system, ignoring letter case.
 Result<void> import_systems(const std::string& path,
                             const GrammarText& text,
                             const std::string& prefix,

@@ -80,7 +80,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
                "Example: lsc compile tree.lsys -o tree.lsb");
 }
 
-/// Options of --stage instanced, heroes and cache.
+/// Adds the options of --stage instanced, heroes and cache.
 void add_dump_instancing(CLI::App& app, DumpCommand& command) {
     const char* const group = "Instances";
     add_parsed(app, "--rho", command.rho, fraction,
@@ -180,7 +180,7 @@ void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
                             "that is given too wins");
 }
 
-/// `season=0,0.5`: a name and several numbers.
+/// Parses `season=0,0.5`: a name and several numbers.
 Result<VariantValues> parse_variants(const std::string& text) {
     VariantValues variants;
     const std::size_t equals = std::min(text.find('='), text.size());
@@ -234,7 +234,7 @@ void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
         "(default unreal)");
 }
 
-/// Options of the file of a plant.
+/// Adds the options of unit and pivot of the file of a plant.
 void add_placement(CLI::App& app, ExportCommand& command) {
     add_unit(app, command.unit);
     add_choice<PlantPivot>(
@@ -560,7 +560,7 @@ void add_explain(CLI::App& app, ExplainCommand& command) {
     app.footer("Example: lsc explain look-alike");
 }
 
-/// The command with the name; null if there is none.
+/// The command named `name`; null if there is none.
 const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     for (const CLI::App* command : app.get_subcommands({})) {
         if (command->get_name() == name) {
@@ -570,7 +570,8 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     return nullptr;
 }
 
-/// The error of a missing command or of a first argument that is none; none if it is a command.
+/// The error if the command is missing or the first argument is not a command; nothing if it is one
+/// or an option.
 std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
                                           const CLI::App& app) {
     if (arguments.empty()) {
@@ -591,8 +592,8 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
     return usage;
 }
 
-/// The mistake found by CLI11, with help that knows the commands. `command`: the one given; null if
-/// the first argument is none.
+/// Words a mistake found by CLI11, with help about commands. `command`: the given command; null if
+/// the first argument is not a command.
 UsageError usage_error(const CLI::ParseError& error,
                        const CLI::App& app,
                        const CLI::App* command,
@@ -616,7 +617,8 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-/// The format of a command's output, as the command itself finds it; null: the name tells none.
+/// The format of a command's output, as the command itself decides it; null if the name of the
+/// output decides none.
 const FormatTraits* format_of(const ExportCommand& command) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);
@@ -627,8 +629,8 @@ const FormatTraits* format_of(const ForestCommand& command) {
     return format ? &traits_of(*format) : nullptr;
 }
 
-/// The options of the command's preset that are not given, or that the preset has no such files.
-/// Nothing without a preset, and where the command itself will not find its format.
+/// The options that the command's preset adds to the given ones. Error: the preset has no files of
+/// the format. Empty without a preset, or if the format is unknown, which the command will report.
 template <typename Command>
 Result<std::vector<std::string>> find_preset_arguments(const Command& command,
                                                        const CLI::App& app) {
@@ -654,7 +656,7 @@ Result<std::vector<std::string>> find_preset_arguments(const Command& command,
     return std::vector<std::string>{};
 }
 
-/// Parses the arguments as they are. `implied` becomes the options of their preset.
+/// Parses the arguments. Sets `implied` to the options that their preset adds.
 CommandLine parse_arguments(std::span<const std::string> arguments,
                             std::vector<std::string>& implied) {
     CLI::App app("Compiles, derives and exports L-systems, the grammars of plants and curves.",
@@ -662,7 +664,8 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.require_subcommand(1);
     app.footer("`lsc COMMAND --help` lists the options of a command.");
-    // Only the given command gets options, because `parsed` holds the options of one command.
+    // Only the given command gets options, because `parsed` has room for the options of one
+    // command.
     const std::string first = arguments.empty() ? std::string() : arguments.front();
     CommandLine parsed = UsageError{"no command is given", kListHint};
     const auto add = [&]<typename Command>(const char* name, const char* text,

@@ -26,7 +26,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum rows of a table.
+/// Max rows of a table.
 constexpr std::uint32_t kMaxRows = 10'000;
 
 using Row = std::vector<std::string>;
@@ -60,7 +60,7 @@ std::string factor_bounds(const GrowthPrediction& growth, std::size_t generation
     return low == high ? low : low + " .. " + high;
 }
 
-/// A table with right-aligned columns.
+/// Lays out a table with right-aligned columns.
 std::string lay_out(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const Row& row : rows) {
@@ -112,7 +112,7 @@ std::string_view accuracy_note(const GrowthPrediction& growth) {
                : "bounds: the productions depend on parameters, neighbours or chance\n";
 }
 
-/// The size of a word in the terms of GrowthPrediction.
+/// The size of a derived word, counted in the same way as a GrowthPrediction.
 GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
     std::vector<std::uint64_t> census(bytecode.code_count(), 0);
     for (std::uint64_t i = 0; i < word.module_count(); ++i) {
@@ -129,7 +129,7 @@ GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
             count(word.module_count() * code_width(bytecode.code_count()) + 4 * parameters)};
 }
 
-/// Derives the words and counts their sizes, for grammars without prediction.
+/// Derives the words and counts their sizes, for grammars whose growth cannot be predicted.
 ExitStatus count_words(const StatsCommand& command,
                        std::uint32_t generations,
                        const Grammar& grammar,
@@ -173,8 +173,8 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
     return object;
 }
 
-/// The height of the plant in m; none if the plant has too many modules, drawing fails or nothing
-/// is visible. Folds the bytecode of the grammar.
+/// The height of the plant in m; nothing if the plant has too many modules, drawing fails or
+/// nothing is visible. Folds the bytecode of the grammar (fold_modules()).
 std::optional<double> find_height(const StatsCommand& command,
                                   const Count& modules,
                                   Grammar& grammar,
@@ -194,7 +194,8 @@ std::optional<double> find_height(const StatsCommand& command,
     return height_of(plant.value().skeleton);
 }
 
-/// One JSON object per generation; the last one has the height of the plant, in m.
+/// Makes one JSON object per generation, each in a line. The last object has the height of the
+/// plant, in m.
 std::string
 make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> height) {
     std::string text;
@@ -203,7 +204,7 @@ make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> 
         object["generation"] = i;
         object["exact"] = growth.exact;
         if (!predicted) {
-            object["derived"] = true; // counted in the words of one seed
+            object["derived"] = true; // counted in words derived with one seed
         }
         object["low"] = json_size(growth.low[i]);
         object["high"] = json_size(growth.high[i]);
@@ -223,7 +224,8 @@ std::string shortest(float value) {
     return fmt::format("{}", value);
 }
 
-/// One row for each #param and #define in source order; a random constant has no single value.
+/// Makes a table with one row per #param and #define in source order. A random constant has no
+/// value.
 std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
     std::vector<Row> rows{{"name", "kind", "value", "min", "max"}};
     for (const Constant& constant : grammar.program->constants) {
@@ -238,7 +240,8 @@ std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
     return text;
 }
 
-/// One JSON object: `generations`, `seed`, and `parameters` with name, kind, value, min and max.
+/// Makes a JSON object: `generations`, `seed`, and `parameters` with name, kind, value, min and
+/// max.
 std::string parameter_json(const Grammar& grammar, std::uint32_t generations) {
     // A float written as a double would show digits that the grammar does not have.
     const auto number = [](float value) { return nlohmann::ordered_json::parse(shortest(value)); };
@@ -266,7 +269,7 @@ std::string parameter_json(const Grammar& grammar, std::uint32_t generations) {
     return object.dump() + '\n';
 }
 
-/// Lists the constants; a .lsb file has none that -D could change.
+/// Lists the constants of a grammar. A .lsb file has no constants that -D could change.
 ExitStatus
 list_parameters(const StatsCommand& command, const Grammar& grammar, const Console& console) {
     const std::uint32_t generations =
@@ -284,7 +287,7 @@ list_parameters(const StatsCommand& command, const Grammar& grammar, const Conso
     return written ? ExitStatus::Ok : report_error(written.error(), console);
 }
 
-/// Grows the plant and reports how it bears its weight.
+/// Grows the plant and reports how it bends under its weight.
 ExitStatus report_weight(const StatsCommand& command,
                          const Project& project,
                          Grammar& grammar,

@@ -12,7 +12,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// A message about missing or conflicting options; empty if there is none.
+/// A message about options that are missing or conflict; empty if none.
 std::string find_conflict(const TraceCommand& command) {
     const int given = (command.position ? 1 : 0) + (command.module.empty() ? 0 : 1) +
                       (command.name.empty() ? 0 : 1);
@@ -26,8 +26,9 @@ std::string find_conflict(const TraceCommand& command) {
     return {};
 }
 
-/// Reads the grammar. Its checks are for all generations of `#n`: -n names the generation of a
-/// module. For a file without `#n`, and for standard input, which is read once, they are for -n.
+/// Reads and compiles the grammar. Here -n names the generation of a module, so the checks use the
+/// number of generations of `#n`. They use -n for a file without `#n`, and for standard input,
+/// which can be read only once.
 Outcome<Grammar> load_traced(const TraceCommand& command, const Project& project) {
     GrammarOptions options = command.grammar;
     if (options.generations && !is_standard_input(command.file)) {
@@ -71,7 +72,8 @@ ExitStatus run_command(const TraceCommand& command, const Console& console) {
     }
     const TraceFormat format = command.format.value_or(
         command.messages.format == MessageFormat::Json ? TraceFormat::Json : TraceFormat::Text);
-    // Standard output may be a pipe where standard error, for which `auto` decides, is a terminal.
+    // `auto` is decided by standard error, but the text goes to standard output, which may be a
+    // pipe.
     const bool colour = command.messages.colour == ColourMode::Always;
     const std::string text = format == TraceFormat::Json ? trace_json(trace, grammar)
                                                          : trace_text(trace, grammar, colour);

@@ -1,4 +1,5 @@
-// One overload per command, in command_<name>.cpp: runs the command and returns its exit status.
+// The functions of the commands: each overload of run_command(), in command_<name>.cpp, runs a
+// command and returns its exit status.
 #pragma once
 
 #include "runtime/cli/options.h"

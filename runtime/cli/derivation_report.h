@@ -1,4 +1,4 @@
-// Message and exit status of a derivation run by a command.
+// Messages and exit status of a derivation that a command runs itself.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -7,13 +7,13 @@
 
 namespace lsys::lsc {
 
-/// Prints a diagnostic with places in the grammar; returns `status`.
+/// Prints a diagnostic whose places are in the grammar; returns `status`.
 ExitStatus show_diagnostic(Diagnostic diagnostic,
                            ExitStatus status,
                            const Grammar& grammar,
                            const Console& console);
 
-/// Shows the message of a derivation that a Stop ended; returns its exit status.
+/// Prints why a derivation stopped; returns the exit status.
 [[nodiscard]] ExitStatus report_derivation(const DerivationEnd& end,
                                            const Limits& limits,
                                            const Grammar& grammar,

@@ -28,14 +28,14 @@ namespace {
 
 constexpr std::size_t kPieceOfHeroes = std::size_t{1} << 18;
 
-/// Collects text and writes it in pieces.
+/// Collects text in `text` and writes it in large pieces.
 class PieceWriter {
 public:
     explicit PieceWriter(Output output) : output_(std::move(output)) {}
 
     std::string text;
 
-    /// Writes `text` if it is long enough; returns whether to go on.
+    /// Writes `text` if it is long enough. Returns false after an interrupt or a failed write.
     [[nodiscard]] bool pass(const Console& console) {
         return text.size() < kPieceOfHeroes || (!console.interrupted() && write());
     }
@@ -60,8 +60,8 @@ private:
     Result<void> written_;
 };
 
-/// Prints words of an instanced system: `@(id,age)[...]$` where a branch is recorded,
-/// `<(id,age)[...]>` where one is taken in its place.
+/// Prints words of an instanced system: `@(id,age)[...]$` for a branch that is recorded,
+/// `<(id,age)[...]>` for a branch that is replaced by a recorded one.
 class HeroPrinter {
 public:
     explicit HeroPrinter(const Bytecode& bytecode) : bytecode_(bytecode), printer_(bytecode) {}
@@ -101,7 +101,7 @@ private:
             open_.push_back(takes ? '>' : '$');
             return;
         }
-        if (symbol.name == "$") { // of the grammar; a `$` alone is one of instancing
+        if (symbol.name == "$") { // quoted, since a `$` alone is an operation of instancing
             text += "`$`";
             for (std::size_t i = 0; i < parameters.size(); ++i) {
                 text += i == 0 ? '(' : ',';
@@ -130,7 +130,7 @@ private:
     std::string open_; // by open bracket: the character to print after its `]`, or kPlain
 };
 
-/// Removes the notes that all plants are equal, which are expected of a single hero.
+/// Removes the notes that all plants are equal. With a single hero this is expected.
 void drop_notes_on_variety(Diagnostics& diagnostics) {
     Diagnostics left;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -141,7 +141,7 @@ void drop_notes_on_variety(Diagnostics& diagnostics) {
     diagnostics = std::move(left);
 }
 
-/// The value, or 0 for a rounding error of sums of sines and cosines.
+/// The value, or 0 if it is so small that it is a rounding error of sums of sines and cosines.
 float without_noise(float value) {
     constexpr float kNoise = 1e-9F;
     return std::abs(value) < kNoise ? 0.0F : value;
@@ -154,7 +154,7 @@ std::string frame_text(const glm::quat& q) {
                        without_noise(q.y), without_noise(q.z));
 }
 
-/// Adds `first-last` of a kind of parts, or nothing if there is none.
+/// Appends the range [begin, end) of a kind of parts as `kind first-last`; nothing if it is empty.
 void append_range(const char* kind, std::uint32_t begin, std::uint32_t end, std::string& text) {
     if (end == begin + 1) {
         fmt::format_to(std::back_inserter(text), " {} {}", kind, begin);
@@ -243,7 +243,7 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
     const Bytecode& bytecode = grammar.bytecode;
     PlantOptions options;
     options.generations = command.grammar.generations;
-    options.seed = command.seed.value_or(0); // as the heroes of a forest
+    options.seed = command.seed.value_or(0); // default seed of the heroes of a forest
     DeriveOptions derive = derive_options(options, bytecode, make_project(console, command.run));
     const std::uint64_t seed = derive.seed;
     const auto derive_hero = [&](std::uint32_t hero, std::optional<Derivation>& derivation) {
@@ -254,7 +254,8 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
                    : ExitStatus::Ok;
     };
     if (command.output == "-" && heroes > 1) {
-        // Standard output cannot be undone, so a first run checks that all heroes can be derived.
+        // Written output cannot be taken back, so a first run checks that all heroes can be
+        // derived.
         for (std::uint32_t hero = 0; hero < heroes; ++hero) {
             std::optional<Derivation> derivation;
             if (const ExitStatus status = derive_hero(hero, derivation); status != ExitStatus::Ok) {

@@ -9,12 +9,12 @@
 namespace lsys::lsc {
 
 /// Prints the words of the heroes, one after the other, with the operations of instancing around
-/// valid branches. Precondition: the grammar has its program, which is used up.
+/// valid branches. Moves from `grammar.program`, which must be set.
 [[nodiscard]] ExitStatus
 dump_heroes(const DumpCommand& command, Grammar& grammar, const Console& console);
 
-/// Prints the instance cache that `lsc forest` makes of a grammar or scene: its keys, their
-/// instances and exits.
+/// Prints the instance cache that `lsc forest` makes for a grammar or scene: keys, their instances
+/// and the exits of each instance.
 [[nodiscard]] ExitStatus dump_cache(const DumpCommand& command, const Console& console);
 
 } // namespace lsys::lsc

@@ -28,12 +28,13 @@ namespace {
 
 constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 
-/// The derivation of a run, from command line, grammar and saved state. Ages are generations.
+/// The derivation to run, as command line, grammar and saved state decide. The age of a word is its
+/// generation.
 struct Plan {
     DeriveOptions derive;
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
-    std::string saved_bytes; // of the file of --from; empty: start at the axiom
+    std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -99,7 +100,7 @@ Result<Plan> make_plan(const DumpCommand& command, const Grammar& grammar, const
     return plan;
 }
 
-/// An Output for callbacks that return whether to continue; keeps the first error.
+/// An Output whose write() returns whether to continue, for callbacks. Keeps the first error.
 class Writer {
 public:
     explicit Writer(Output output) : output_(std::move(output)) {}
@@ -128,8 +129,8 @@ private:
 
 using OnGeneration = std::function<bool(const Derivation&)>;
 
-/// Runs the derivation of `plan` and calls `on_generation` after the last generation, with --all
-/// after each. `on_generation` returns false to end the run.
+/// Runs the derivation of `plan`. Calls `on_generation` after the last generation, or with --all
+/// after each generation. `on_generation` returns false to end the run.
 ExitStatus derive(Derivation& derivation,
                   const DumpCommand& command,
                   const Plan& plan,
@@ -207,7 +208,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     const Bytecode& bytecode = grammar.bytecode;
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
-        // Standard output cannot be undone, so a first run checks that the derivation succeeds.
+        // Written output cannot be taken back, so a first run checks that the derivation succeeds.
         Derivation trial(bytecode, plan.derive);
         const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
@@ -255,7 +256,7 @@ ExitStatus dump_stored(const DumpCommand& command,
 
 // --- streamed words
 
-/// Runs one streamed derivation into `consumer`.
+/// Runs one streamed derivation, whose chunks `consumer` receives.
 ExitStatus stream(const Plan& plan,
                   const Grammar& grammar,
                   const Console& console,
@@ -276,7 +277,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
     StreamOutcome outcome;
     const auto ignore = [&](const StreamChunk&) { return !console.interrupted(); };
     if (command.count || command.output == "-") {
-        // Check the derivation and count its modules before standard output is written.
+        // A first run checks the derivation and counts its modules before anything is written.
         const ExitStatus status = stream(plan, grammar, console, ignore, outcome);
         if (status != ExitStatus::Ok) {
             return status;
@@ -293,7 +294,7 @@ ExitStatus dump_streamed(const DumpCommand& command,
         WordPrinter printer(bytecode);
         ModuleLines lines(bytecode);
         std::string text;
-        bool has_modules = false; // so far
+        bool has_modules = false; // some module has been printed
         const auto print = [&](const StreamChunk& chunk) {
             if (command.origins) {
                 lines.append(chunk, text);
@@ -323,8 +324,8 @@ ExitStatus dump_streamed(const DumpCommand& command,
 
 // --- counts without words
 
-/// Prints the counts if the growth matrix gives them. The derivation is only started, to check the
-/// random constants.
+/// Prints the counts of modules if the growth matrix predicts them. Only starts the derivation, to
+/// check the random constants.
 std::optional<ExitStatus> print_predicted_counts(const DumpCommand& command,
                                                  const Plan& plan,
                                                  const Grammar& grammar,

@@ -12,7 +12,7 @@ bool has_carriage_returns(std::string_view text) {
 
 EditedFile::EditedFile(std::string_view text, std::vector<TextPlace> statements)
     : original_(text), statements_(std::move(statements)) {
-    // A file included twice has its statements twice.
+    // The statements of a file that is included twice are listed twice.
     std::sort(statements_.begin(), statements_.end());
     statements_.erase(std::unique(statements_.begin(), statements_.end()), statements_.end());
 }

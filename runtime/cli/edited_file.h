@@ -25,14 +25,16 @@ public:
     /// `statements`: places in `text`, in any order.
     EditedFile(std::string_view text, std::vector<TextPlace> statements);
 
-    /// Adds a round of edits of `text`, which ascend and do not overlap.
+    /// Adds a round of edits. `text` is the text before the round. Precondition: `edits` are sorted
+    /// by place and do not overlap.
     void add_round(std::string_view text, const std::vector<const Edit*>& edits);
 
-    /// Maps a position of the edited text to the original; within an edit, to its begin.
+    /// Maps an offset in the edited text to the original text. An offset within an edit maps to the
+    /// begin of the edit.
     [[nodiscard]] std::uint32_t original_place(std::uint32_t at) const;
-    /// The indices of the statements touched by a place of the edited text.
+    /// The indices of the statements that a place of the edited text touches.
     [[nodiscard]] std::vector<std::size_t> statements_at(TextPlace place) const;
-    /// The indices of the statements touched by a place of the original.
+    /// The indices of the statements that a place of the original touches.
     [[nodiscard]] std::vector<std::size_t> original_statements_at(TextPlace place) const;
 
     [[nodiscard]] const std::string& original() const { return original_; }

@@ -17,7 +17,7 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-/// Parses the lines of a fenced block to its end.
+/// Parses the lines of a fenced block up to its closing fence into the files of `example`.
 void parse_example(std::string_view& text, Example& example) {
     example.files.emplace_back("example.lsys", std::string());
     bool is_first = true;
@@ -54,7 +54,7 @@ std::vector<Explanation> parse_explanations(std::string_view markdown) {
         if (line.starts_with(kHeading)) {
             all.push_back({std::string(line.substr(kHeading.size())), {}, {}});
         } else if (all.empty()) {
-            continue; // the head of the document
+            continue; // text before the first explanation
         } else if (line.starts_with(kFence)) {
             Example example;
             example.right = line.find(" right") != std::string_view::npos;

@@ -12,18 +12,18 @@ namespace lsys::lsc {
 /// The text of grammar/explanations.md.
 [[nodiscard]] std::string_view explanations_text();
 
-/// A grammar of an explanation.
+/// An example grammar of an explanation.
 struct Example {
-    bool right = false;     // a correct grammar; else a wrong one
-    bool is_sketch = false; // not to be run
-    std::string arguments;  // of `lsc`; `check` if empty
-    /// Name and text of the grammar, `example.lsys`, and of the files beside it.
+    bool right = false;     // true: a correct grammar; false: one with the mistake
+    bool is_sketch = false; // too incomplete to be run by the test
+    std::string arguments;  // command line of `lsc`; `check` if empty
+    /// Names and texts of the grammar, `example.lsys`, and of the files that it needs.
     std::vector<std::pair<std::string, std::string>> files;
 };
 
 struct Explanation {
     std::string code;
-    std::string text; // paragraphs
+    std::string text; // paragraphs, separated by blank lines
     std::vector<Example> examples;
 };
 

@@ -17,7 +17,7 @@ struct ExportTiming {
     std::uint64_t bytes = 0;
 };
 
-/// The statistics as a table. `mesh`: of the last file.
+/// The statistics as a table. `mesh`: the mesh of the last file.
 [[nodiscard]] std::string
 export_stats_text(const Plant& plant, const Mesh& mesh, const ExportTiming& timing);
 /// The statistics as a JSON object in one line.

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] bool contains(const std::string& path) const;
 
 private:
-    std::string root_; // path of the grammar as messages show it
+    std::string root_; // path of the grammar, as shown_path()
     std::filesystem::path folder_;
     std::set<std::filesystem::path> named_;
 };

@@ -10,10 +10,11 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum attempts that apply fixes, each fewer than the one before; one more applies none.
+/// Max number of attempts that apply fixes, each with more statements excluded. One further attempt
+/// applies none.
 constexpr int kMaxAttempts = 20;
 
-/// Repeats the repair until all applied fixes are certain; calls `finish` with the last attempt.
+/// Repeats attempts until all applied fixes are certain, then calls `finish` with the last attempt.
 template <typename Finish>
 Result<void> repair(const RepairSubject& subject, const Finish& finish) {
     std::set<StatementKey> excluded;

@@ -5,16 +5,17 @@
 // 2. A statement is not changed if one of its syntax errors has no certain fix
 //    (ParseSession::offer_doubtful_fixes).
 // 3. Warnings are fixed after all errors, because errors may cause warnings.
-// 4. The fixes of a statement are applied and undone together. They are undone if the statement
-//    then has a syntax error or a new error; if a bracket or comma was repaired, for any error.
-//    Typographic characters are always replaced, independent of each other.
+// 4. The fixes of a statement are applied and undone together. They are undone if the repaired
+//    statement has a syntax error or a new error, or any error if a bracket or comma was repaired.
+//    Typographic characters are always replaced, each independently of other fixes.
 // 5. A bracket or comma is repaired only if each alternative gives errors, the same meaning or more
 //    warnings (alternative_repairs.h).
 //
-// With FixChoice::Offered the first repair of every message is applied, certain or not; 3 and the
-// undoing of repairs that bring new errors hold. Each place is repaired once for one code.
+// With FixChoice::Offered the first repair of every message is applied, certain or not. Of the
+// rules only 3 holds, and repairs that cause new errors are undone. A place is repaired at most
+// once for each code.
 //
-// Other fixes become offers: shown as help, and not machine applicable in JSON.
+// Fixes that are not applied become offers: shown as help, and not machine-applicable in JSON.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -35,7 +36,7 @@ struct FixedGrammar {
     std::map<std::string, std::string> changed;
     /// The first kMaxFixLines fixes, one per line: `tree.lsys:7:26: fixed: write A S(1) [code]`.
     std::vector<std::string> lines;
-    /// All fixes as lines of JSON; places are those in the text at the time of the fix.
+    /// All fixes as lines of JSON. Places refer to the text just before the fix was applied.
     std::string records;
     std::uint64_t fix_count = 0;
     /// Files with certain fixes that are outside the scope.
@@ -45,11 +46,12 @@ struct FixedGrammar {
 };
 inline constexpr std::size_t kMaxFixLines = 50;
 
-/// The repairs that are applied.
+/// The repairs that are applied: certain ones only, or the first one that each message offers.
 enum class FixChoice : std::uint8_t { Certain, Offered };
 
-/// Repairs `text`, the text of `path`, and its included files within `scope`. Keeps byte order
-/// marks and CRLF line ends.
+/// Repairs `text`, the contents of the file `path`, and its included files within `scope`. Keeps
+/// byte order marks and CRLF line ends. Error: the grammar cannot be compiled, for example because
+/// of its options.
 [[nodiscard]] Result<void> fix_text(const std::string& path,
                                     const GrammarText& text,
                                     const GrammarOptions& options,
@@ -58,7 +60,8 @@ enum class FixChoice : std::uint8_t { Certain, Offered };
                                     FixChoice choice,
                                     FixedGrammar& fixed);
 
-/// Turns the fixes of `compiled`, the compiled `text`, into offers unless fix_text() applies them.
+/// Turns the fixes in `compiled`, the result of compiling `text`, into offers unless fix_text()
+/// would apply them.
 [[nodiscard]] Result<void> offer_doubtful_fixes(const std::string& path,
                                                 const GrammarText& text,
                                                 const GrammarOptions& options,

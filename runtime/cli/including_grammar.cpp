@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFiles = 1000; // of a folder
+constexpr std::size_t kMaxFiles = 1000; // files searched per folder
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
 
 /// The .lsys files of a folder, by name.

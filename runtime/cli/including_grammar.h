@@ -1,4 +1,4 @@
-// Search for the grammar that includes a file, so that a part can be checked by itself.
+// Finds a grammar that includes a file, which shows that the file is only a part of a grammar.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,8 @@
 
 namespace lsys::lsc {
 
-/// The path of a .lsys file in the folder of `path`, or in the folder above, that includes `path`;
-/// the first by name. Unreadable and large files are passed over.
+/// The path of the first .lsys file, in order of names, that includes `path`. Searches the folder
+/// of `path` and the folder above. Unreadable and large files are skipped.
 [[nodiscard]] std::optional<std::string> find_including_grammar(const std::string& path);
 
 } // namespace lsys::lsc

@@ -10,8 +10,8 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr double kAspect = 16.0 / 9.0;                 // of the screen
-constexpr double kDegrees = 60.0;                      // of the view, from top to bottom
+constexpr double kAspect = 16.0 / 9.0;                 // width / height of the screen
+constexpr double kDegrees = 60.0;                      // vertical field of view
 constexpr double kHalfCotangent = 0.86602540378443865; // 1 / (2 tan 30 degrees)
 
 } // namespace

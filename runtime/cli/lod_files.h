@@ -1,5 +1,5 @@
-// Files of levels of detail: their names, when each is shown, and the list of them as JSON, which
-// scripts/engines read.
+// Files of levels of detail: their names, the distance and screen coverage at which each is shown,
+// and the list of the files as JSON, which scripts/engines read.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -12,7 +12,7 @@
 
 namespace lsys::lsc {
 
-/// Lines of the screen for which the list gives distances and parts of the screen.
+/// Height in pixels of the screen for which the list gives distances and coverages.
 inline constexpr double kScreenLines = 1080.0;
 
 /// The size of a plant in metres.
@@ -23,11 +23,11 @@ struct PlantExtent {
 };
 [[nodiscard]] PlantExtent extent_of(const Mesh& mesh);
 
-/// The part of a screen of 16 : 9 that the box of the plant covers, seen from its wider side, where
-/// its largest extent takes `pixels` lines of kScreenLines; at most 1.
+/// The fraction of a 16:9 screen that the bounding box of the plant covers, seen from its wider
+/// side, if its largest extent takes `pixels` of kScreenLines lines. At most 1.
 [[nodiscard]] double screen_coverage(const PlantExtent& extent, float pixels);
-/// The distance in metres where the largest extent takes `pixels` lines of kScreenLines in a view
-/// of 60 degrees from top to bottom.
+/// The distance in metres at which the largest extent takes `pixels` of kScreenLines lines, with a
+/// vertical field of view of 60 degrees.
 [[nodiscard]] double lod_distance(const PlantExtent& extent, float pixels);
 
 struct LodFile {
@@ -36,11 +36,11 @@ struct LodFile {
     float pixels = 0.0F; // DetailLevel::pixels
     double coverage = 0.0;
 };
-/// `tree.LOD2.glb` for `tree.glb` and 2.
+/// The path of level `number`: `tree.LOD2.glb` for `tree.glb` and 2.
 [[nodiscard]] std::string lod_path(const std::string& path, std::size_t number);
-/// `tree.lods.json` for `tree.glb`.
+/// The path of the list: `tree.lods.json` for `tree.glb`.
 [[nodiscard]] std::string lods_json_path(const std::string& path);
-/// The list as JSON with a new line at its end.
+/// The list as a JSON object with a line end.
 [[nodiscard]] std::string
 lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<LodFile>& files);
 

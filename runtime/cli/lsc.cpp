@@ -12,7 +12,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Runs the command of the parsed options.
+/// Runs the command whose options have been parsed, or prints the text or the usage error.
 class Dispatch {
 public:
     explicit Dispatch(const Io& io) : io_(io) {}

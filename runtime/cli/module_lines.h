@@ -15,13 +15,14 @@ namespace lsys::lsc {
 
 class ModuleLines {
 public:
-    /// `bytecode` outlives the object.
+    /// `bytecode` must outlive the object.
     explicit ModuleLines(const Bytecode& bytecode)
         : bytecode_(bytecode), modules_(bytecode), origins_(bytecode) {}
 
-    /// Appends one line per module of `piece`, which has origins.
+    /// Appends one line per module of `piece`. Precondition: `piece` has origins.
     void append(const StreamChunk& piece, std::string& text);
-    /// Passes the text of a word to `flush` in pieces; returns false as soon as `flush` does.
+    /// Passes the text of a word to `flush` in pieces. Stops and returns false as soon as `flush`
+    /// returns false.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:

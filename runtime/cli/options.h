@@ -22,9 +22,9 @@ struct CheckCommand {
     GrammarOptions grammar;
     RunOptions run;
     std::vector<std::string> files;
-    std::string fix;   // `certain` or `offered` repairs are applied; empty: none
-    bool diff = false; // repairs are shown, and no file is written
-    bool part = false; // the files are parts of grammars
+    std::string fix;   // which repairs to apply: `certain`, `offered`, or empty for none
+    bool diff = false; // show repairs as a difference, write no file
+    bool part = false; // GrammarOptions::part for all files
 };
 
 struct CompileCommand {
@@ -62,14 +62,14 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
-    std::optional<float> rho;           // of --stage instanced, heroes and cache
-    std::optional<std::uint64_t> first; // form of --stage instanced
-    std::optional<std::uint64_t> rows;  // forms of --stage instanced
+    std::optional<float> rho;           // for --stage instanced, heroes and cache
+    std::optional<std::uint64_t> first; // for --stage instanced: first form listed
+    std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
     std::optional<std::uint32_t> heroes;
     std::optional<std::uint32_t> cache_cap;
     std::optional<float> tolerance;
     bool origins = false;
-    std::optional<std::uint32_t> steps; // generations of this run
+    std::optional<std::uint32_t> steps; // number of generations to derive in this run
     std::string save_state;
     std::string from;
 };
@@ -80,16 +80,16 @@ enum class BufferPlace : std::uint8_t {
     Separate, // files beside the output
 };
 
-/// Options of the file of a mesh.
+/// Options for files of meshes that not all formats take.
 struct SurfaceOptions {
     UpAxis up = UpAxis::Y;
     bool both_sides = false;
 };
 
-/// Values of a constant of the grammar: a plant for each in one file.
+/// Values of one constant of the grammar, for a file with one plant per value.
 struct VariantValues {
     std::string name;
-    std::vector<std::string> texts; // as they were given
+    std::vector<std::string> texts; // the values as the user wrote them
     std::vector<float> values;
 };
 
@@ -100,7 +100,7 @@ struct ExportCommand {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output;
-    std::optional<ExportFormat> format;           // default: by the extension of the output
+    std::optional<ExportFormat> format;           // default: from the extension of the output
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
     SurfaceOptions surface;
@@ -111,35 +111,36 @@ struct ExportCommand {
     CollisionNames collision_names = CollisionNames::Unreal;
     MeshOptions mesh;
     std::optional<float> height;  // m, of the plant
-    std::optional<float> gravity; // m/s^2; gravity or wind bend the plant
+    std::optional<float> gravity; // m/s^2; with gravity or wind the plant is bent
     std::optional<Wind> wind;
     bool settle = false;
-    /// Max joints of a skin, 0: one for each segment that moves; default 128.
+    /// Max number of joints of a skin. 0: one per segment that moves. Default: 128.
     std::optional<std::uint32_t> bones;
-    bool wind_data = false;   // in vertices, for shaders
-    bool loop = false;        // the last frame is the first
-    bool grow = false;        // the frames show the generations
-    std::uint32_t frames = 0; // of an animation or of numbered files; 0: the plant at rest
+    bool wind_data = false;   // add vertex attributes for wind shaders
+    bool loop = false;        // the motion ends as it begins
+    bool grow = false;        // the frames show the growth through the generations
+    std::uint32_t frames = 0; // of an animation or of numbered files; 0: only the plant at rest
     float frames_per_second = 24.0F;
     bool stream = false;
-    std::uint32_t lods = 0; // levels of detail to write; 0: MeshOptions::level alone
-    bool lod_files = false; // a file for each level
+    std::uint32_t lods = 0; // number of levels of detail to write; 0: only MeshOptions::level
+    bool lod_files = false; // one file per level
     std::optional<VariantValues> variants;
     bool stats = false;
 };
 
-/// Parts of a forest that its file repeats.
+/// The objects that a forest file instances: shared branches, whole trees, or trees with levels of
+/// detail.
 enum class ForestInstances : std::uint8_t { Branches, Trees, Lods };
 
-/// Place of a scene that is the origin of its file.
+/// The point of the scene that becomes the origin of the file.
 enum class ForestPivot : std::uint8_t {
-    Origin, // that of the scene
+    Origin, // the origin of the scene
     Base,   // the ground in the middle of the scene's rectangle
 };
 
 struct ForestCommand {
     MessageOptions messages;
-    std::vector<std::string> files; // one scene, or grammars
+    std::vector<std::string> files; // one scene, or one or more grammars
     std::string output;             // empty: none
     std::string preset;             // of presets.def; empty: none
     SceneOverrides overrides;
@@ -153,8 +154,9 @@ struct ForestCommand {
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
     ForestInstances instances = ForestInstances::Branches;
-    std::optional<glm::vec3> viewpoint; // m, of ForestInstances::Lods
-    /// Side in m of the ground cells with one node each; 0: one cell; unset: 100, of whole trees 0.
+    std::optional<glm::vec3> viewpoint; // m, for ForestInstances::Lods
+    /// Side in m of the square cells of ground whose trees share a node. 0: a single cell. Unset:
+    /// 100 for ForestInstances::Branches, else 0.
     std::optional<float> cell;
     std::uint32_t frames = 0;
     bool check = false;
@@ -168,22 +170,22 @@ struct StatsCommand {
     RunOptions run;
     std::optional<float> height; // m, of the plant
     std::string file;
-    std::optional<float> gravity; // m/s^2; weighs the plant too
-    bool parameters = false;      // list the constants instead
+    std::optional<float> gravity; // m/s^2; if set, also reports the plant under its weight
+    bool parameters = false;      // list the constants instead of sizes
 };
 
 enum class TraceFormat : std::uint8_t { Text, Json };
 
 struct TraceCommand {
     MessageOptions messages;
-    GrammarOptions grammar; // generations: the generation of the modules
+    GrammarOptions grammar; // `generations` is the generation of the traced modules
     RunOptions run;
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output = "-";
     std::optional<std::uint64_t> position;
     std::string module;
-    std::string name; // of --all
+    std::string name; // module name of --all
     std::uint64_t rows = 10;
     bool back = false;
     std::optional<TraceFormat> format; // default: text; JSON with --message-format json
@@ -193,10 +195,10 @@ struct ImportCommand {
     MessageOptions messages;
     GrammarOptions grammar;
     RunOptions run;
-    std::string file;   // empty: all of `folder`
-    std::string folder; // of --all
-    std::string output; // a file, or a folder for --all
-    bool force = false; // replace existing files whose names the program chose
+    std::string file;   // empty: all files of `folder`
+    std::string folder; // folder of --all
+    std::string output; // a file, or with --all a folder
+    bool force = false; // replace existing files whose names the program has chosen
 };
 
 struct FormatCommand {

@@ -14,16 +14,16 @@ namespace lsys::lsc {
 
 class OutputSet {
 public:
-    /// `console` outlives the set.
+    /// `console` must outlive the set.
     explicit OutputSet(const Console& console) : console_(console) {}
 
-    /// Writes a file that appears at commit(), and prints the messages of `write`, which hands its
-    /// bytes to a sink. The sink returns false after a failure or an interrupt.
+    /// Writes a file that appears at commit(), and prints the messages of `write`. `write` passes
+    /// the bytes to the sink that it gets, which returns false after a failure or an interrupt.
     [[nodiscard]] ExitStatus add(const std::string& path,
                                  const std::function<Outcome<void>(const ByteSink&)>& write);
     /// Makes all files visible.
     [[nodiscard]] ExitStatus commit() { return report_result(commit_all(outputs_), console_); }
-    /// Bytes of all files.
+    /// Total size of all files.
     [[nodiscard]] std::uint64_t byte_count() const { return byte_count_; }
 
 private:

@@ -1,4 +1,4 @@
-// The options of grow_plant() from the options of a command.
+// Makes the options of grow_plant() from the options of a command.
 #pragma once
 
 #include "runtime/pipeline/plant.h"

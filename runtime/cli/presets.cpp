@@ -13,7 +13,8 @@ bool expands(const FormatTraits& format) {
     return format.expands_forest;
 }
 
-/// Whether readers of the format have to guess the axis: PLY and STL are +Z up for most.
+/// Whether the format does not say which axis is up. Most readers of such formats, PLY and STL,
+/// assume +Z.
 bool cannot_say_up(const FormatTraits& format) {
     return format.up_axes && format.pictures == ExportPictures::None;
 }
@@ -39,7 +40,7 @@ std::string_view formats_of(const Preset& preset, PresetCommand command) {
     return command == PresetCommand::Export ? preset.plants : preset.forests;
 }
 
-/// Words divided by blanks.
+/// The words of a text, separated by blanks.
 std::vector<std::string_view> words_of(std::string_view text) {
     std::vector<std::string_view> words;
     while (!text.empty()) {
@@ -88,7 +89,7 @@ preset_arguments(const Preset& preset,
                  const FormatTraits& format,
                  const std::function<bool(std::string_view option)>& is_given) {
     std::vector<std::string> arguments;
-    std::string_view last; // name of the last one; rows of an option follow one another
+    std::string_view last; // name of the last option taken; rows of an option are neighbours
     for (const PresetOption& option : kOptions) {
         if (option.preset != preset.name || option.command != command || option.name == last) {
             continue;

@@ -1,5 +1,5 @@
-// Presets: options for the program that a file is made for. A preset stands for options of the
-// command line, and for nothing else: an option that is given too wins.
+// Presets: sets of options for the program that a file is made for. A preset only adds options to
+// the command line: an option that the user gives wins.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -19,11 +19,12 @@ enum class PresetCommand : std::uint8_t { Export, Forest };
 struct PresetOption {
     std::string_view preset;
     PresetCommand command = PresetCommand::Export;
-    std::string_view name;  // `--unit`
-    std::string_view value; // empty: the option is a flag
-    /// Options that rule this one out, divided by blanks; `--output=-`: with this value only.
+    std::string_view name;  // such as `--unit`
+    std::string_view value; // empty for a flag
+    /// Options with which this one is not set, separated by blanks; `--output=-`: only with this
+    /// value.
     std::string_view unless;
-    /// Formats that take the option; null: all of the preset.
+    /// Whether a format takes the option. Null: all formats of the preset do.
     bool (*takes)(const FormatTraits& format) = nullptr;
 };
 
@@ -31,29 +32,29 @@ struct PresetOption {
 struct Preset {
     std::string_view name;
     std::string_view use;     // the programs that the files are for
-    std::string_view plants;  // names of formats for `lsc export`, divided by blanks
-    std::string_view forests; // for `lsc forest`; empty: none
+    std::string_view plants;  // names of formats for `lsc export`, separated by blanks
+    std::string_view forests; // names of formats for `lsc forest`; empty: none
 };
 
 [[nodiscard]] std::span<const Preset> presets();
 [[nodiscard]] std::span<const PresetOption> preset_options();
 /// Whether the preset has files of the format for a command.
 [[nodiscard]] bool suits(const Preset& preset, PresetCommand command, const FormatTraits& format);
-/// The message that the preset has no files of a format.
+/// The message that the preset does not suit a format.
 [[nodiscard]] std::string
 unsuitable_text(const Preset& preset, PresetCommand command, std::string_view format);
 
-/// The options of a preset as on the command line, `--unit=mm`, without those for which `is_given`
-/// (their own name, or a word of PresetOption::unless) and those that the format does not take. Of
-/// several rows of an option the first that is left.
+/// The options that a preset adds, as on the command line: `--unit=mm`. Leaves out an option if
+/// `is_given` holds for its name or for a word of PresetOption::unless, or if the format does not
+/// take it. If an option has several rows, the first row that is not left out counts.
 [[nodiscard]] std::vector<std::string>
 preset_arguments(const Preset& preset,
                  PresetCommand command,
                  const FormatTraits& format,
                  const std::function<bool(std::string_view option)>& is_given);
 
-/// All options of a preset for a command: "--pivot base --unit mm". Of several rows of an option the
-/// first.
+/// All options of a preset for a command: "--pivot base --unit mm". If an option has several rows,
+/// the first one.
 [[nodiscard]] std::string preset_text(const Preset& preset, PresetCommand command);
 /// The presets of a command as a table for `--help`.
 [[nodiscard]] std::string preset_table(PresetCommand command);

@@ -38,7 +38,7 @@ std::string duration_text(double seconds) {
 
 } // namespace
 
-/// The remaining time at the rate so far.
+/// The text of the remaining time, estimated from the rate so far.
 std::string
 Progress::time_left(std::uint32_t generation, std::uint64_t modules, double seconds) const {
     if (expected_.size() <= generations_) {

@@ -1,5 +1,5 @@
-// A progress bar on a terminal for derivations of more than one second. Updated from any thread,
-// but not from two at once.
+// A progress bar on a terminal for derivations of more than one second. Any thread may update it,
+// but never two at once.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -19,9 +19,9 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Draws on `terminal` unless it is null. `begin`: the start of the work. `expected`: modules
-    /// of each generation from 0 to `generations`; empty if unknown, which hides the remaining
-    /// time.
+    /// Draws on `terminal` unless it is null. `begin`: start of the work. `expected`: expected
+    /// number of modules of each generation from 0 to `generations`; empty if unknown, which hides
+    /// the remaining time.
     Progress(std::ostream* terminal,
              std::uint32_t generations,
              Clock::time_point begin,
@@ -32,7 +32,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Shows that `modules` modules of `generation` are written.
+    /// Shows that `modules` modules of `generation` have been written.
     void update(std::uint32_t generation, std::uint64_t modules, Clock::time_point now);
     /// Removes the bar.
     void clear();
@@ -48,15 +48,15 @@ private:
     std::vector<double> expected_;
     std::uint32_t generation_ = 0;      // of the last update
     std::uint64_t modules_ = 0;         // of the last update
-    std::uint64_t earlier_modules_ = 0; // of all generations before
+    std::uint64_t earlier_modules_ = 0; // of all generations before generation_
     bool drawn_ = false;
 };
 
-/// The progress bar of the pipeline's derivations.
+/// A progress bar for the derivations of pipeline calls.
 class PipelineProgress {
 public:
-    /// Makes `host` report progress to this bar if `console` shows progress. The bar outlives all
-    /// calls with `host`.
+    /// Makes `host` report progress to this bar if `console` shows progress. The bar must outlive
+    /// all calls with `host`.
     PipelineProgress(const Console& console, Host& host);
     /// Removes the bar.
     void clear() { bar_.reset(); }

@@ -11,7 +11,7 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum rounds. Each round compiles the text again, because a mistake may hide others.
+/// Max number of rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
@@ -22,7 +22,7 @@ std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceM
                        info(diagnostic.code).name);
 }
 
-/// The fix as a line of JSON.
+/// Appends the fix as a line of JSON.
 void append_record(const Diagnostic& diagnostic,
                    const Fix& fix,
                    const SourceMap& sources,
@@ -37,7 +37,7 @@ void append_record(const Diagnostic& diagnostic,
     render(record, sources, options, out);
 }
 
-/// Whether the repair is independent of other errors of its statement.
+/// Whether a repair of this code is applied regardless of other errors in its statement.
 bool is_independent(DiagnosticCode code) {
     return code == DiagnosticCode::LookAlike;
 }
@@ -96,7 +96,7 @@ Result<void> RepairAttempt::run() {
     }
 }
 
-/// Adds the files that occur in this round for the first time.
+/// Adds the files that are read for the first time in this round to files_.
 void RepairAttempt::read_files() {
     const SourceMap& sources = *fixed_.compiled.grammar.sources;
     std::map<std::string, std::vector<TextPlace>> statements;
@@ -115,7 +115,7 @@ void RepairAttempt::read_files() {
     }
 }
 
-/// Precondition: the diagnostics are in order of discovery.
+/// Sets with_syntax_errors_. Precondition: the diagnostics are not sorted yet.
 void RepairAttempt::read_syntax_errors() {
     with_syntax_errors_.clear();
     const std::vector<Diagnostic>& all = fixed_.compiled.diagnostics.all();
@@ -188,7 +188,7 @@ void RepairAttempt::apply(const ChosenFixes& chosen) {
             applied_[key].push_back(applied);
         }
     }
-    std::set<std::string> done; // a file included twice is one text
+    std::set<std::string> done; // paths done, since a file may be included twice
     for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
         const SourceFile& file = sources.file(static_cast<FileId>(i));
         const auto found = chosen.edits.find(file.path());
@@ -250,8 +250,8 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
             const auto before = original_errors_.find(key);
             const bool is_new = before == original_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
-            // The parser reads the original as if its brackets were repaired, so an error caused by
-            // a bracket is in both texts.
+            // The parser recovers by reading the original as if its brackets were repaired, so an
+            // error that a wrong bracket repair causes is in both texts and does not look new.
             const bool is_doubtful =
                 subject_.choice == FixChoice::Certain && has_bracket_repair(key);
             if ((is_new || is_doubtful) && is_repaired(key)) {

@@ -25,16 +25,16 @@ namespace lsys::lsc {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// A statement of the original text: path and index.
+/// A statement of the original text: path of its file and index in EditedFile::statements().
 using StatementKey = std::pair<std::string, std::size_t>;
 
 struct AppliedFix {
     DiagnosticCode code{};
-    std::string path;        // of the first edit
-    std::uint32_t place = 0; // of the first edit, in the original text
+    std::string path;        // file of the first edit
+    std::uint32_t place = 0; // offset of the first edit in the original text
 };
 
-/// The grammar to repair and its options.
+/// The grammar to repair, and the options of the repair.
 struct RepairSubject {
     const std::string& path;
     const GrammarText& text;
@@ -49,7 +49,7 @@ struct RepairSubject {
                                            const std::map<std::string, std::string>& changed,
                                            CompiledText& compiled);
 
-/// The repair of a grammar without its excluded statements.
+/// Repairs a grammar except for the excluded statements. With `excludes_all` it applies no fix.
 class RepairAttempt {
 public:
     RepairAttempt(const RepairSubject& subject,
@@ -57,14 +57,14 @@ public:
                   bool excludes_all)
         : subject_(subject), excluded_(excluded), excludes_all_(excludes_all) {}
 
-    /// Applies fixes until none is left.
+    /// Applies fixes until none is left that may be applied.
     [[nodiscard]] Result<void> run();
-    /// Repaired statements that are still wrong.
+    /// Repaired statements that have errors after the repair.
     [[nodiscard]] std::set<StatementKey> wrong_statements() const;
     /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;
-    /// Turns the fixes of `diagnostics`, of the original text, into offers unless they were
-    /// applied.
+    /// Turns the fixes of `diagnostics`, which belong to the original text, into offers unless this
+    /// attempt has applied them.
     void offer_doubtful(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }
 
@@ -87,10 +87,11 @@ private:
     bool excludes_all_;
     FixedGrammar fixed_;
     std::map<std::string, EditedFile> files_;
-    std::set<StatementKey> with_syntax_errors_; // of the last round
+    std::set<StatementKey> with_syntax_errors_; // in the last round
     std::map<StatementKey, Errors> original_errors_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
-    std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_; // if offered
+    /// Places repaired with FixChoice::Offered: path, offset and code.
+    std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_;
 };
 
 } // namespace lsys::lsc

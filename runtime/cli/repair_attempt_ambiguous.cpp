@@ -30,7 +30,7 @@ std::set<ModuleName> modules_of(const Grammar& grammar) {
 std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
     std::set<StatementKey> keys;
     if (subject_.choice == FixChoice::Offered) {
-        return keys; // asked for
+        return keys; // the user accepts ambiguous repairs
     }
     std::size_t compared = 0;
     for (const auto& [key, fixes] : applied_) {
@@ -40,7 +40,8 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         if (candidate == fixes.end() || subject_.project.is_cancelled()) {
             continue;
         }
-        // Several repairs count as ambiguous, because their combinations are not compared.
+        // Several repairs of one statement count as ambiguous, because combinations are not
+        // compared.
         if (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate)) {
             keys.insert(key);
         }
@@ -90,8 +91,8 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
                 program) {
             return false;
         }
-        // The alternative to a missing comma is a missing `*`. It is not plausible if no other
-        // module has the name and number of parameters that it gives.
+        // For a missing comma the alternative is a missing `*`. It is not plausible if it makes a
+        // module whose name and number of parameters no other module has.
         const std::set<ModuleName> alternative_modules = modules_of(alternative_text.grammar);
         return fix.code != DiagnosticCode::MissingComma ||
                alternative_modules.size() <= modules.size() ||

@@ -1,4 +1,4 @@
-// Options of the file of a mesh that not all formats take.
+// Checks options of mesh files that not all formats take.
 #pragma once
 
 #include "runtime/cli/options.h"

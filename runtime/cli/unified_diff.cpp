@@ -12,10 +12,11 @@ namespace lsys::lsc {
 namespace {
 
 constexpr std::size_t kContext = 3;
-/// Maximum size of the table of common lines; larger differences are shown as one replacement.
+/// Max size of the table of common lines, in entries. Larger differences are shown as one
+/// replacement.
 constexpr std::size_t kMaxTable = std::size_t{1} << 24;
 
-/// The lines of a text with their line ends; the last one may have none.
+/// The lines of a text with their line ends. The last line may have no line end.
 std::vector<std::string_view> lines_of(std::string_view text) {
     std::vector<std::string_view> lines;
     for (std::size_t at = 0; at < text.size();) {
@@ -28,13 +29,13 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 enum class Side : std::uint8_t { Both, Before, After };
 
-/// A line of the result: which of the texts it is in.
+/// A line of the result, and which of the texts contain it.
 struct DiffLine {
     Side side = Side::Both;
     std::string_view text;
 };
 
-/// Appends the lines of two texts without common lines at their ends.
+/// Appends the lines of two texts whose common first and last lines have been removed.
 void append_middle(const std::vector<std::string_view>& before,
                    const std::vector<std::string_view>& after,
                    std::vector<DiffLine>& out) {
@@ -43,7 +44,7 @@ void append_middle(const std::vector<std::string_view>& before,
     std::size_t i = 0;
     std::size_t j = 0;
     if (rows != 0 && columns != 0 && rows <= kMaxTable / columns) {
-        // common[i][j]: length of the longest common subsequence from line i and line j on.
+        // common[i][j]: length of the longest common subsequence of before[i...] and after[j...].
         std::vector<std::uint32_t> common((rows + 1) * (columns + 1));
         const auto at = [&](std::size_t row, std::size_t column) -> std::uint32_t& {
             return common[row * (columns + 1) + column];
@@ -103,7 +104,8 @@ std::vector<DiffLine> compare(std::string_view before, std::string_view after) {
     return lines;
 }
 
-/// `3,2`: the first line and the number of lines; an empty range names the line before it.
+/// A range as in the head of a hunk, `3,2`: first line and number of lines. An empty range names
+/// the line before it.
 std::string range_text(std::size_t first, std::size_t count) {
     return count == 1 ? std::to_string(first + 1)
                       : fmt::format("{},{}", first + (count == 0 ? 0 : 1), count);
@@ -120,14 +122,14 @@ std::string unified_diff(std::string_view path, std::string_view before, std::st
         old_line += side == Side::After ? 0 : 1;
         new_line += side == Side::Before ? 0 : 1;
     };
-    std::size_t done = 0; // lines before this one are counted
+    std::size_t done = 0; // lines counted so far
     for (std::size_t at = 0; at < lines.size();) {
         if (lines[at].side == Side::Both) {
             ++at;
             continue;
         }
         const std::size_t begin = std::max(done, at - std::min(at, kContext));
-        std::size_t end = at;     // of the hunk
+        std::size_t end = at;     // end of the hunk
         std::size_t changed = at; // the last line that differs
         while (end < lines.size() && end <= changed + 2 * kContext) {
             changed = lines[end].side == Side::Both ? changed : end;

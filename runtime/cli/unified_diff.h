@@ -1,5 +1,5 @@
-// Unified diff: two texts as the lines that differ, with context, as `diff -u` writes them and
-// `patch` reads them.
+// Unified diff of two texts: the lines that differ, with context, as `diff -u` writes and `patch`
+// reads them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lsys::lsc {
 
-/// The difference of two texts of one file; empty if they are equal. `path`: in its heading.
+/// The unified diff of two texts of one file; empty if they are equal. `path` is shown in its head.
 [[nodiscard]] std::string
 unified_diff(std::string_view path, std::string_view before, std::string_view after);
 

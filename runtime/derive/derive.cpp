@@ -32,7 +32,7 @@ struct Derivation::State {
     std::optional<Passes> decompose_passes;
     Word word;
     Word next;  // written by the current pass
-    Word spare; // a generation of several passes needs a third
+    Word spare; // the third word, for generations of several passes
     Pruner pruner;
     StageDepth depth; // of decomposition
     std::uint32_t rules = 0;
@@ -145,7 +145,7 @@ struct Derivation::State {
         current = &next;
     }
 
-    /// Reports that a pass over `current` begins, if somebody wants to know.
+    /// Calls DeriveOptions::on_pass, if set, before a pass over `current`.
     void announce(DerivationPass& facts, const Word* current) {
         if (!options.on_pass) {
             return;
@@ -231,7 +231,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Makes the cuts of `%` modules, before anything is rewritten.
+    /// Removes what `%` modules cut, before anything is rewritten.
     [[nodiscard]] std::optional<Stop> prune(const Word*& current) {
         if (!pruner.can_cut()) {
             return std::nullopt;

@@ -40,11 +40,11 @@ struct RuntimeError {
     std::vector<float> parameters; // of the module
     float value = 0.0F;            // for NotFinite and OutOfBounds
     float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
-    float maximum = 0.0F; // and the second one
+    float maximum = 0.0F; // the second argument of BadDistribution
     Opcode opcode = Opcode::Range; // for BadDistribution
     std::uint32_t global = kNone;  // for OutOfBounds and errors while globals are drawn
     bool in_condition = false;     // in a condition or weight; false: in an argument
-    bool in_weight = false;
+    bool in_weight = false;        // in a weight; in_condition is then true
 };
 
 /// A pass of a step of a derivation, for DeriveOptions::on_pass.

@@ -35,8 +35,9 @@ struct SavedState {
 [[nodiscard]] bool write_state(const StateHeader& header,
                                const Word& word,
                                const std::function<bool(std::string_view)>& flush);
-/// Reads a state file. Errors: foreign, newer, truncated or damaged bytes, a state of another
-/// program, a word that the program cannot have. The message does not name the file.
+/// Reads a state file. Errors: not a state file; another version; truncated or damaged bytes; a
+/// state of another program; a word that the program cannot have. The message does not name the
+/// file.
 [[nodiscard]] Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode);
 /// Whether these bytes begin like a state file.
 [[nodiscard]] bool is_state_file(std::string_view bytes);

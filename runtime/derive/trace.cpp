@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// A module as the engine has written it.
+/// Whether the engine has written `expected` at `position` of `word`.
 bool equals(const TracedWord& word, std::uint64_t position, const TracedModule& expected) {
     return same_module(word.module(position), expected);
 }
@@ -63,7 +63,7 @@ struct StepTracer::State {
     TraceInputs inputs;
     std::vector<ModuleTrace> traces;
     std::vector<Place> places;           // tracked in the current word, ascending
-    std::vector<ModuleTrace> unrun;      // of the roots, if the engine makes no pass
+    std::vector<ModuleTrace> unrun;      // traces of the roots, if the engine makes no pass
     std::vector<std::uint32_t> of_names; // productions of the current pass
     bool multiple = false;               // the pass has predecessors of several modules
     std::size_t first_of_pass = 0;       // in traces
@@ -71,7 +71,7 @@ struct StepTracer::State {
     std::vector<std::size_t> trace_of_place;
     bool ok = true;
 
-    /// Whether a production of the pass has the name of the symbol.
+    /// Whether the predecessor of a production of the pass begins with `symbol`.
     [[nodiscard]] bool concerns(SymbolId symbol) const {
         return std::any_of(of_names.begin(), of_names.end(), [&](std::uint32_t index) {
             const TableRange predecessor = bytecode.productions[index].predecessor;
@@ -104,7 +104,7 @@ struct StepTracer::State {
         }
     }
 
-    /// Explains the tracked modules that productions of the pass concern. A root is always
+    /// Explains the tracked modules to which productions of the pass may apply. A root is always
     /// explained, except in the passes of a sequential generation for other rules.
     void begin_productions(const TracedWord& word, const DerivationPass& facts) {
         const TracedPass pass{bytecode, inputs, word, facts};
@@ -181,7 +181,7 @@ struct StepTracer::State {
         }
     }
 
-    /// Compares the successors with the word written, and goes on with its modules.
+    /// Compares the successors with the word written, and tracks its modules from then on.
     void end(const Word& out) {
         const TracedWord word(bytecode, out);
         const std::span<const Origin> origins = out.origins();

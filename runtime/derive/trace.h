@@ -38,7 +38,7 @@ module_text(const Bytecode& bytecode, std::string_view name, const std::vector<f
 /// A module that a context search came to.
 struct MetModule {
     std::uint64_t position = 0; // in the word read
-    std::uint32_t item = 0;     // of the pattern, that it was compared with
+    std::uint32_t item = 0;     // of the pattern that the module was compared with
     TracedModule module;
 };
 
@@ -49,7 +49,7 @@ LSYS_COUNTED_ENUM(ContextEnd,
                   NoBranch,    // there is no branch where the pattern has `[`
                   NotSearched);
 
-/// The search for a context, in the order in which it goes: from the module outwards.
+/// The search for a context, in its order: from the module outwards.
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
     std::vector<MetModule> met;
@@ -95,14 +95,14 @@ LSYS_COUNTED_ENUM(Verdict,
                   Applies,
                   OtherCount,  // the predecessor has another number of parameters
                   OtherRule,   // rewriting cyclic: the rule of another generation
-                  Predecessor, // the modules after the first one are others
+                  Predecessor, // a module after the first one is not that of the predecessor
                   LeftContext,
                   RightContext,
-                  Condition, // it is 0
+                  Condition, // the condition is 0
                   Fault,     // the condition or the weight is not finite, or the weight negative
                   NoWeight,  // the computed weight is 0
-                  NotDrawn,  // it matches, and chance chose another one
-                  NotTried); // a production before it was taken
+                  NotDrawn,  // it matches, but another production was drawn
+                  NotTried); // an earlier production was taken
 
 /// One production that has a module's name, and why it applies or does not.
 struct Attempt {
@@ -134,10 +134,10 @@ struct ChoiceTrace {
 
 LSYS_COUNTED_ENUM(Fate,
                   Copied,    // no production matches
-                  Rewritten, //
+                  Rewritten, // by a production
                   Cut,       // taken out with the rest of its branch
                   UsedUp,    // by a match that begins before it
-                  Failed);   // a value is not finite, or a range has no width
+                  Failed);   // a value is not finite, or a range cannot be drawn from
 
 /// A module in one pass.
 struct ModuleTrace {
@@ -147,7 +147,7 @@ struct ModuleTrace {
     std::uint32_t generation = 0;
     bool was_run = true; // false: the engine left the pass out, which could change no module
 
-    std::size_t root = 0;          // of StepTracer::begin()
+    std::size_t root = 0;          // index of the start module in StepTracer::begin()
     std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
     std::uint64_t offset = 0;      // in ModuleTrace::written of the parent
     std::uint64_t position = 0;    // in the word read
@@ -158,25 +158,25 @@ struct ModuleTrace {
     std::optional<ChoiceTrace> choice;
     Fate fate = Fate::Copied;
     ProductionId production = kNoProduction; // if rewritten or used up
-    /// Of the cut, or of the match that used the module up.
+    /// Position of the cut, or of the match that used the module up.
     std::uint64_t cause = 0;
     std::uint32_t replaced = 1; // modules that the match replaced
 
     std::vector<TracedLocal> locals;
     std::vector<TracedRange> ranges;
-    std::string fault;                 // of a successor: what is wrong
+    std::string fault;                 // what is wrong in the successor; empty: nothing
     std::vector<TracedModule> written; // the module itself if it was copied
     std::uint64_t first_written = 0;   // position in the word written
     bool is_checked = false;           // compared with what the engine wrote
-    bool agrees = false;               // with it
+    bool agrees = false;               // the engine has written the same
 };
 
 /// Names of a production's formals and local values, for texts.
 struct ProductionNames {
     struct Local {
         std::string name;
-        /// The instruction of a value that is one leaf, which stands in each of its uses, so that
-        /// no code computes it. End: code does.
+        /// Opcode of a value that is a single leaf, such as a literal: each use has a copy of it,
+        /// so that no code computes it. End: code computes the value.
         Opcode leaf = Opcode::End;
         float literal = 0.0F;    // of Literal
         std::uint32_t index = 0; // of Formal, Global and Local
@@ -185,7 +185,7 @@ struct ProductionNames {
     std::vector<Local> locals; // by slot
 };
 
-/// What a derivation has fixed.
+/// Values that are constant during a derivation.
 struct TraceInputs {
     std::uint64_t seed = 0;
     float steps = 0.0F; // number of generations of the derivation
@@ -193,8 +193,8 @@ struct TraceInputs {
     std::vector<ProductionNames> names; // by production; none: formals are $0, $1, ...
 };
 
-/// A module of a word; a walk over the word finds its parameters.
-/// Precondition: positions ascend and are less than the number of modules.
+/// The modules at `positions`. Time is linear in the length of the word. Precondition: positions
+/// ascend and are less than the number of modules.
 [[nodiscard]] std::vector<TracedModule>
 modules_at(const Bytecode& bytecode, const Word& word, const std::vector<std::uint64_t>& positions);
 
@@ -215,11 +215,12 @@ public:
                std::uint32_t age,
                DerivationPass::Kind kind);
     void on_pass(const DerivationPass& pass);
-    /// Ends the step. Modules in passes that the engine left out are traced as it would.
+    /// Ends the step. Adds a trace of each start module whose pass the engine left out because it
+    /// changes nothing.
     void finish();
 
-    /// All traces, each after its parent: of the modules begun with in each pass, and of modules
-    /// written for them for which later passes have productions.
+    /// All traces, each after its parent: of the modules of begin() in each pass, and of modules
+    /// written for them to which productions of later passes may apply.
     [[nodiscard]] const std::vector<ModuleTrace>& traces() const;
     /// A module of the last word of the step.
     struct Place {
@@ -228,7 +229,7 @@ public:
         std::size_t parent = kNoTrace; // the trace that wrote it
         std::uint64_t offset = 0;      // in what the trace wrote
     };
-    /// The modules that the last pass has written for those begun with.
+    /// The modules that the last pass has written for the modules of begin().
     [[nodiscard]] const std::vector<Place>& places() const;
     /// Whether every successor equals that of the engine.
     [[nodiscard]] bool agrees() const;

@@ -41,7 +41,7 @@ private:
     struct Spelling {
         std::array<char, kShort> head{}; // the text if it fits
         std::uint32_t length = 0;
-        std::uint32_t long_text = 0; // else its index in long_texts_
+        std::uint32_t long_text = 0; // index of a longer text in long_texts_
         std::uint32_t parameter_count = 0;
         bool starts_identifier = false;
         bool ends_identifier =

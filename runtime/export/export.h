@@ -41,13 +41,14 @@ enum class UpAxis : std::uint8_t { Y, Z };
 
 /// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
 enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
-/// Names by which an importer knows such a node: `UCP_tree_00`, `UCX_tree_00`;
+/// Names by which importers recognise the nodes of collision shapes: `UCP_tree_00`, `UCX_tree_00`;
 /// `tree_00-convcolonly`; `tree_collider_00`.
 enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
 
-/// Unit of the lengths in a file. The mesh is in it already; the formats that can say so state it.
+/// Unit of the lengths in a file. The mesh is scaled to it already; formats with a field for units
+/// state it.
 enum class LengthUnit : std::uint8_t { Metres, Centimetres, Millimetres };
-/// Units in a metre.
+/// Units per metre: 1, 100 or 1000.
 [[nodiscard]] float units_per_metre(LengthUnit unit);
 
 struct ExportJob;
@@ -83,7 +84,7 @@ struct FormatTraits {
 [[nodiscard]] const FormatTraits& traits_of(ExportFormat format);
 /// All formats, in the order of formats.def.
 [[nodiscard]] std::span<const ExportFormat> export_formats();
-/// The format of the path's extension, in any case of letters.
+/// The format of the path's extension, in upper or lower case; none if it is unknown.
 [[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
 /// Names of the formats for which `is_listed`, in alphabetical order: "glb, gltf or usda".
 [[nodiscard]] std::string format_names(std::string_view conjunction,
@@ -108,13 +109,15 @@ enum class ExportSubject : std::uint8_t { Plant, Forest };
 /// A coarser level of detail in a file.
 struct CoarserMesh {
     Mesh mesh;
-    /// The part of the screen, 0 to 1, that the box of the plant covers where this level begins.
+    /// The level is shown while the bounding box of the plant covers less than this part of the
+    /// screen, 0 to 1.
     double coverage = 0.0;
 };
 
-/// Plants of which a reader shows one: the mesh of the file, its default, and others.
+/// Plants of which a reader shows one: the mesh of the file, which is the default, or one of
+/// `others`.
 struct PlantVariants {
-    std::string set;                // name of the choice
+    std::string set;                // name of the variant set
     std::vector<std::string> names; // of the mesh of the file, then of `others`
     std::vector<Mesh> others;
 };
@@ -142,17 +145,17 @@ struct ExportInfo {
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped.
     const std::vector<UserMesh>* user_meshes = nullptr;
-    /// Poses that move the mesh as a skin, in formats with motion. The skeleton is the first pose,
-    /// and Mesh::segments is complete.
+    /// Poses that move the mesh as a skin, in formats with motion. Preconditions: the skeleton is
+    /// the first pose; Mesh::segments has an item for each vertex.
     const PlantAnimation* animation = nullptr;
-    /// Frames with different meshes, in formats with films. The mesh is that of the film, and there
-    /// is no animation, compression or wind data.
+    /// Frames with different meshes, in formats with films. Preconditions: the mesh is that of the
+    /// film; no animation, compression or wind data.
     const MeshFilm* film = nullptr;
-    /// Max count of joints of the skin, 2 to kMaxJoints: a light skeleton with smooth weights. 0: a
-    /// joint for each segment that moves.
+    /// Max count of joints of the skin, 2 to kMaxJoints: a skeleton of few joints with smooth
+    /// weights (impl/bones.h). 0: a joint for each segment that moves.
     std::uint32_t max_joints = 0;
     /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
-    /// FormatTraits::wind_data. Mesh::segments is complete.
+    /// FormatTraits::wind_data. Precondition: Mesh::segments has an item for each vertex.
     bool wind_data = false;
     UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
     /// Triangles of two-sided materials are written a second time, reversed, with normals of their

@@ -59,15 +59,15 @@ Outcome<void> export_forest(const ForestScene& scene,
                             ForestForm form,
                             const ForestExportInfo& info,
                             const ByteSink& sink);
-/// The pictures that lie beside such a file. Stops: OutOfMemory.
+/// The pictures that lie beside a file of export_forest(). Stops: OutOfMemory.
 Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& scene,
                                                             ExportFormat format,
                                                             const ForestExportInfo& info);
 
-/// All triangles in world coordinates, parts by the order of materials in species and ground.
-/// Texture coordinates, tangents and colours are kept only if every surface has them. Stops: Limit
-/// for more than `max_bytes`, checked before the memory is allocated; Failed for more vertices than
-/// 32 bits can number; OutOfMemory.
+/// One mesh of all triangles in world coordinates. Parts are in the order of materials: those of
+/// the species, then those of the ground. Texture coordinates, tangents and colours are kept only
+/// if every surface has them. Stops: Limit for more than `max_bytes`, checked before the memory is
+/// allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 struct ForestStatsOptions {

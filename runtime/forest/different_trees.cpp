@@ -11,9 +11,10 @@ namespace lsys {
 
 namespace {
 
-/// Moments of the drawing of an instance, seen from its entry: of the ends of segments, weighted by
-/// half the length, of objects, by size, and of corners of polygons, by 1. The sum over the
-/// instances of a tree does not depend on how the tree is divided into them.
+/// Moments of the points that an instance draws, in the coordinates of its entry. Weights: half the
+/// length of the segment for an end of a segment, the size for an object, 1 for a corner of a
+/// polygon. The sum over the instances of a tree does not depend on how the tree is divided into
+/// them.
 struct Moments {
     std::uint64_t items = 0; // segments, objects and corners
     double total_weight = 0.0;
@@ -64,7 +65,7 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
     return moments;
 }
 
-/// Adds the moments `own` of an instance at `branch`, whose scale is 1.
+/// Adds to `tree` the moments `own` of an instance at `branch`, whose scale is 1.
 void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(branch.rotation)));
     const glm::dvec3 at(branch.position);
@@ -86,7 +87,8 @@ void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     }
 }
 
-/// Compares to one part in a million of the largest moment.
+/// Whether the numbers of items are equal and all moments agree to one part in a million of their
+/// size.
 bool alike(const Moments& a, const Moments& b) {
     constexpr double kPart = 1e-6;
     const auto near = [](double x, double y, double size) {
@@ -123,7 +125,7 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     };
     std::sort(looks.begin(), looks.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // representatives that further trees may equal
+    std::vector<std::size_t> near; // indices of distinct looks that a later look may equal
     for (std::size_t i = 0; i < looks.size(); ++i) {
         const TreeLook& look = looks[i];
         const auto& s = look.moments.second;
@@ -189,7 +191,7 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
-    MomentsOfCaches of_caches; // of these trees only: a forest may have many species
+    MomentsOfCaches of_caches; // caches of these trees only: a forest may have many species
     std::vector<TreeLook> looks;
     for (const Tree& tree : trees) {
         const InstanceCache& cache = forest.cache_of(tree);

@@ -1,4 +1,4 @@
-// Different trees of a forest: how many of them look unlike all others.
+// The number of distinct shapes among the trees of a forest.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -8,14 +8,14 @@
 
 namespace lsys {
 
-/// Counts trees with different segments, regardless of their instances: number, lengths and places
-/// of the segments in the coordinates of the tree, compared by second moments to one part in a
-/// million. Trees of one species that differ only in age count once if their segments are equal.
-/// Takes about 100 bytes a tree and time linear in the branches. 0 threads: as many as the machine
-/// has.
+/// Counts the distinct shapes of trees, in the coordinates of each tree: place, yaw, scale and age
+/// do not matter, nor how a tree is divided into instances. Two trees of one species have the same
+/// shape if they draw the same number of items and the moments of these up to the second order
+/// agree to one part in a million. Takes about 100 bytes per tree and time linear in the branches.
+/// 0 threads: as many as the machine has.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads);
 
-/// Counts the different trees among `trees`, which are trees of `forest`; on one thread.
+/// Counts the distinct shapes among `trees`, which are trees of `forest`, on one thread.
 [[nodiscard]] std::uint64_t count_different_trees(const Forest& forest,
                                                   std::span<const Tree> trees);
 

@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Plants of one species with one number of generations.
+/// Plants of one species with the same number of generations.
 struct ForestStage {
     std::uint32_t generations = 0;
     InstanceCache cache;
@@ -52,7 +52,7 @@ struct Forest {
 
 struct ForestCounts {
     std::uint64_t trees = 0;
-    std::uint64_t branches = 0; // instances, whole plants included
+    std::uint64_t branches = 0; // placed instances, the root of each tree included
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
     std::uint64_t polygons = 0;
@@ -64,8 +64,8 @@ struct ForestCounts {
     void add(const ForestCounts& other);
 };
 
-/// Calls visit(piece, trees) for each piece of the trees, on several threads. 0 threads: as many as
-/// the machine has.
+/// Calls visit(piece, trees) for each piece, a run of up to 4,096 trees, on several threads.
+/// `piece`: number of the piece, below piece_count(). 0 threads: as many as the machine has.
 void for_each_piece(const Forest& forest,
                     std::uint32_t threads,
                     const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);

@@ -16,6 +16,7 @@ namespace lsys {
 
 namespace {
 
+/// Generation number of the draws that choose instances (docs/language.md section 9.6).
 constexpr std::uint32_t kExpansionGeneration = 0xFFFFFFFEu;
 
 /// Records instances while the turtle draws the heroes.
@@ -103,7 +104,7 @@ public:
     }
 
 private:
-    /// An instance in progress.
+    /// An instance that is being recorded.
     struct Active {
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
@@ -186,7 +187,7 @@ private:
         values.has_vertical = branch.id < options_.depends_on_vertical.size() &&
                               options_.depends_on_vertical[branch.id];
         if (values.has_vertical) {
-            // Rise of the heading and of the right axis.
+            // Elevation of the heading, and roll about it from the rise of the right and up axes.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);
             const glm::dvec3 up = place.frame * glm::dvec3(0.0, 0.0, 1.0);
@@ -215,7 +216,7 @@ private:
 
     void add(std::uint32_t word) { key_.append(reinterpret_cast<const char*>(&word), sizeof word); }
 
-    /// Adds the bits of a value or, with a tolerance, its number of rounding steps.
+    /// Adds to the key the bits of a value or, with a tolerance, its number of rounding steps.
     void add_real(std::uint32_t id, float value) {
         const std::uint32_t part = part_++;
         if (options_.tolerance == 0.0F) {
@@ -240,9 +241,10 @@ private:
     std::vector<std::vector<DrawnRange>> ranges_;      // by instance
     std::vector<std::vector<std::uint32_t>> variants_; // by slot
     std::vector<Active> active_;
-    std::size_t suspended_ = 0; // count of suspended instances, the first ones in active_
+    std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_; // by id and part of the key
+    // Absolute value that was met first, by id and part of the key.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;
     std::uint32_t part_ = 0;
     std::uint32_t hero_ = 0;

@@ -36,7 +36,8 @@ struct DrawnRange {
     DrawnCounts end;
 };
 
-/// A segment of the heroes at whose tip a branch is left out.
+/// A segment of the heroes at whose tip a branch is not drawn, because a recorded instance replaces
+/// it.
 struct InstanceFork {
     std::uint32_t segment = 0;
     std::uint32_t slot = 0; // of the branch
@@ -50,27 +51,27 @@ struct Instance {
     std::uint32_t first_range = 0; // in InstanceCache::ranges
     std::uint32_t range_count = 0;
     DrawnCounts size;                     // of all its ranges
-    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at its entry, in the skeleton
-    glm::dvec3 position{};
-    std::uint32_t order = 0; // of the branch and its segments in its hero
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at the entry, in the skeleton
+    glm::dvec3 position{};                // m, of the entry, in the skeleton
+    std::uint32_t order = 0;              // of the branch and its segments in its hero
 };
 
 /// The instances of one key, with counts of the recording.
 struct InstanceSlot {
-    std::uint32_t id = 0; // 0: the axiom, whole plants
-    std::uint32_t age = 0;
+    std::uint32_t id = 0;            // of the branch; 0: the axiom, whole plants
+    std::uint32_t age = 0;           // of the branch, in generations
     std::uint32_t first_variant = 0; // in InstanceCache::variants
     std::uint32_t variant_count = 0;
-    std::uint64_t hits = 0;     // branches that were taken from recorded ones
-    std::uint64_t misses = 0;   // branches that were recorded because the slot was empty
-    std::uint64_t recorded = 0; // other branches that were recorded
-    std::uint64_t dropped = 0;  // not kept because of the cap
+    std::uint64_t hits = 0;     // branches `<` that a recorded instance replaced
+    std::uint64_t misses = 0;   // branches `<` that were recorded because the slot was empty
+    std::uint64_t recorded = 0; // branches `@`, those not kept included
+    std::uint64_t dropped = 0;  // branches `@` that were not kept because of CacheOptions::cap
 };
 
 /// The values of a key besides id and age, as the first branch of the key has them.
 struct InstanceKey {
     std::vector<float> formals; // used in the text of the branch, by position in the predecessor
-    TurtlePlace place;          // without position, frame and order
+    TurtlePlace place;          // position, frame and order are not part of the key
     bool has_vertical = false;  // whether elevation and roll are part of the key
     float elevation = 0.0F;     // degrees, of the heading
     float roll = 0.0F;          // degrees, about the heading
@@ -79,8 +80,8 @@ struct InstanceKey {
 struct InstanceCache {
     Skeleton skeleton; // of all heroes, one after the other
     std::vector<Instance> instances;
-    std::vector<InstanceSlot> slots; // 0: of whole plants
-    std::vector<std::uint32_t> variants;
+    std::vector<InstanceSlot> slots;     // 0: of whole plants
+    std::vector<std::uint32_t> variants; // numbers of instances, slot by slot
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
     std::vector<InstanceFork> forks; // where the skeleton lacks a branch
@@ -90,7 +91,7 @@ struct InstanceCache {
     /// CacheOptions::origins.
     std::vector<Origin> origins;
 
-    /// Memory without the skeleton.
+    /// Memory in bytes, without the skeleton.
     [[nodiscard]] std::uint64_t byte_count() const {
         return instances.size() * sizeof(Instance) + slots.size() * sizeof(InstanceSlot) +
                variants.size() * sizeof(std::uint32_t) + exits.size() * sizeof(InstanceExit) +
@@ -121,13 +122,14 @@ struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
     DerivationEnd derivation_end;
     DrawingEnd drawing_end; // with the faults of all heroes
-    std::uint32_t hero = 0; // the last one begun
+    std::uint32_t hero = 0; // the hero begun last
 
     [[nodiscard]] bool ok() const { return !derivation_end.stop && !drawing_end.stop; }
 };
 
-/// Derives and draws the heroes. `bytecode` is of an instanced system
-/// (compiler/instancing/impl/instancing_pass.h); another one gives a cache of whole plants.
+/// Derives and draws the heroes. `bytecode` is that of an instanced system
+/// (compiler/instancing/impl/instancing_pass.h); that of another system gives a cache of whole
+/// plants.
 [[nodiscard]] CacheOutcome make_instance_cache(const Bytecode& bytecode,
                                                const CacheOptions& options);
 
@@ -143,11 +145,11 @@ struct BranchInstance {
 /// Expands trees into instances. Use one for each thread.
 class TreeExpander {
 public:
-    /// `key`: of the forest. `cache` outlives the expander.
+    /// `key`: the forest's key. `cache` outlives the expander.
     TreeExpander(const InstanceCache& cache, std::uint64_t key) : cache_(cache), key_(key) {}
 
     /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in their
-    /// order. Depends on cache, key and tree alone. Returns the count.
+    /// order. Depends on cache, key and tree alone. Returns the number of instances.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
@@ -166,8 +168,8 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
-    /// Instances to visit, the next one last. Doubles when full: most instances add only one or
-    /// two.
+    /// Items still to visit, the next one last. Memory doubles when it is full, since most
+    /// instances add only one or two items.
     template <typename T>
     class Stack {
     public:
@@ -196,7 +198,7 @@ private:
     std::uint64_t key_;
     Stack<Pending> pending_;
     Stack<std::uint32_t> pending_slots_;           // of expand_instances()
-    std::array<std::uint32_t, kBlockRun> draws_{}; // of the tree's nodes around the last one
+    std::array<std::uint32_t, kBlockRun> draws_{}; // of the kBlockRun nodes around the current one
 };
 
 /// The transform of a tree into the world.

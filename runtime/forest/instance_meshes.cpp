@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint64_t kInstancesPerPiece = 256;
 
-/// Slots that a tree can contain.
+/// Per slot: whether a tree can contain its instances.
 std::vector<bool> find_reached(const InstanceCache& cache) {
     std::vector<bool> reached(cache.slots.size());
     std::vector<std::uint32_t> pending;
@@ -43,7 +43,7 @@ std::vector<bool> find_reached(const InstanceCache& cache) {
     return reached;
 }
 
-/// Whether an instance draws a segment that begins at its entry, where its parent ends.
+/// Whether an instance draws a segment that begins at its entry, at the tip of the parent segment.
 bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     for (std::uint32_t r = 0; r < instance.range_count; ++r) {
         const DrawnRange& range = cache.ranges[instance.first_range + r];
@@ -60,7 +60,7 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// Per slot: whether its instances begin with a segment, their own or that of an instance at one of
+/// Per slot: whether its instances begin with a segment of their own or of an instance at one of
 /// their exits.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
@@ -98,7 +98,7 @@ Skeleton numbered_heroes(const InstanceCache& cache) {
     return skeleton;
 }
 
-/// Cuts the heroes' boxes where an instance begins, so that no surface belongs to two of them.
+/// Cuts the heroes' boxes where an instance begins, so that no surface belongs to two instances.
 void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
     for (const Instance& instance : cache.instances) {
         const std::span<const DrawnRange> ranges =
@@ -130,7 +130,7 @@ void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
 
 /// Triangles of each segment, object and polygon, in the order of the mesh.
 struct ItemTriangles {
-    LargeVector<std::uint32_t> first; // of each item; at the end the number of triangles
+    LargeVector<std::uint32_t> first; // by item, then the number of triangles
     LargeVector<std::uint32_t> triangles;
 };
 
@@ -163,6 +163,7 @@ ItemTriangles find_item_triangles(const Mesh& mesh,
     return result;
 }
 
+/// Counts and writes the triangle lists of instances.
 class ListWriter {
 public:
     ListWriter(const InstanceCache& cache, const Mesh& mesh)

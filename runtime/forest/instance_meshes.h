@@ -19,9 +19,9 @@ struct InstanceMeshes {
     /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
     /// Parts: those of the first instance by rising material, then of the next one.
     Mesh mesh;
-    std::vector<std::uint32_t> first_part; // of each instance; at its end, the number of parts
+    std::vector<std::uint32_t> first_part; // by instance, then the number of parts
 
-    /// Triangles of an instance; 0 for one that no tree can contain.
+    /// Parts with the triangles of an instance; none for an instance that no tree can contain.
     [[nodiscard]] std::span<const MeshPart> parts_of(std::uint32_t instance) const {
         return std::span(mesh.parts)
             .subspan(first_part[instance], first_part[instance + 1] - first_part[instance]);
@@ -33,18 +33,19 @@ struct InstanceMeshes {
         }
         return triangles;
     }
-    /// Memory of vertices and lists.
+    /// Memory of vertices and lists in bytes.
     [[nodiscard]] std::uint64_t byte_count() const {
         return mesh.byte_count() + mesh.parts.size() * sizeof(MeshPart) +
                first_part.size() * sizeof(std::uint32_t);
     }
 };
 
-/// A triangle belongs to all instances that contain its segment, object or polygon. A parent of a
-/// branch that is left out ends as if the branch were there. Leaves droop and bark noise runs as on
-/// the heroes. Boxes are joined within an instance; where an instance begins they are cut, and the
-/// closed surface of the branch begins within its parent. MeshOptions::segments is ignored;
-/// max_bytes limits the result. Returns as make_mesh() does.
+/// Makes the surfaces of all instances of a cache. A triangle belongs to all instances that contain
+/// its segment, object or polygon. A segment at whose tip a branch is left out ends as if the
+/// branch were there. Leaves droop and bark noise runs as on the heroes. Boxes are joined within an
+/// instance; where an instance begins they are cut, and the closed surface of the branch begins
+/// within its parent. MeshOptions::segments is ignored; max_bytes limits the result. Returns as
+/// make_mesh() does.
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

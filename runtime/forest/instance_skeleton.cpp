@@ -13,7 +13,8 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     own.l3d_compatible_surface = all.l3d_compatible_surface;
     own.box_segments = all.box_segments;
     own.leaf_droop = all.leaf_droop;
-    std::map<std::uint32_t, std::uint32_t> shifts; // of segments, by the begin of their range
+    // New number of the first segment of each range, by its number in the cache.
+    std::map<std::uint32_t, std::uint32_t> shifts;
     const auto number_of = [&](std::uint32_t parent) {
         const auto after = shifts.upper_bound(parent);
         if (parent == kNoSegment || after == shifts.begin()) {

@@ -1,11 +1,12 @@
-// The skeleton of one instance of a cache, with numbers of its own.
+// The skeleton of one instance of a cache, with its own numbering of segments.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
 
 namespace lsys {
 
-/// The part of the heroes' skeleton that an instance draws.
+/// The part of the heroes' skeleton that an instance draws, in the coordinates of the heroes.
+/// Parents outside of it become kNoSegment.
 [[nodiscard]] Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance);
 
 } // namespace lsys

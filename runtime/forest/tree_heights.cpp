@@ -12,7 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// Fraction of the size of the plant, as in scale_to_height().
+/// Min height of a tree that is not flat, as a fraction of the largest extent of the instances; as
+/// in scale_to_height().
 constexpr double kMinHeightFraction = 1e-6;
 constexpr std::uint64_t kTreesPerPiece = 1024;
 
@@ -57,7 +58,7 @@ void add_points(const InstanceCache& cache,
     });
 }
 
-/// World up in the coordinates of the heroes, for an instance with this pose.
+/// The up direction of the world in the coordinates of the heroes, for an instance with this pose.
 glm::dvec3 up_of(const InstancePose& pose) {
     return glm::conjugate(glm::dquat(pose.rotation)) * glm::dvec3(0.0, 1.0, 0.0);
 }
@@ -159,7 +160,8 @@ std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
     const auto add = [&](const Part& part) {
         add_points(cache_, part.instance, part.up, part.offset, extent);
     };
-    // The parts that reach farthest come first, so that few others have to be read.
+    // The parts with the highest and the lowest box come first, so that the points of few others
+    // have to be read.
     add(*std::max_element(parts_.begin(), parts_.end(),
                           [](const Part& a, const Part& b) { return a.high < b.high; }));
     add(*std::min_element(parts_.begin(), parts_.end(),
@@ -221,7 +223,7 @@ size_trees(std::span<const double> heights, std::uint32_t threads, Forest& fores
 }
 
 double tallest_tree(const Forest& forest, std::uint32_t threads) {
-    // Tables of all stages, since a young tree is as high as its own stage.
+    // Tables of all stages, since a young tree has the height of its own stage.
     std::vector<std::vector<HeightTable>> tables;
     for (const ForestSpecies& species : forest.species) {
         std::vector<HeightTable>& stages = tables.emplace_back();

@@ -1,4 +1,4 @@
-// Heights of the trees of a forest: boxes of trees that are put together from instances, and the
+// Heights of the trees of a forest: measures of trees that are put together from instances, and the
 // scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
 // after the placement; every height depends on the cache, the forest's key and the tree alone.
 #pragma once
@@ -18,7 +18,7 @@ namespace lsys {
 /// Extents of a cache's instances, from which the heights of its trees are computed.
 struct HeightTable {
     std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
-    /// Heights of instances without exits; none for others.
+    /// Heights in m of whole plants without exits; none for other instances.
     std::vector<std::optional<double>> whole;
     double min_height = 0.0; // m: a lower tree counts as flat
 };
@@ -31,9 +31,9 @@ public:
     TreeMeasure(const InstanceCache& cache, const HeightTable& table, std::uint64_t key)
         : cache_(cache), table_(table), expander_(cache, key) {}
 
-    /// Height in m from the lowest to the highest point: axes of segments, places of objects,
-    /// corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads points only of
-    /// instances whose boxes reach beyond the points known so far.
+    /// Height in m of tree `number` from its lowest to its highest point: axes of segments, places
+    /// of objects, corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads
+    /// points only of instances whose boxes reach beyond the points known so far.
     [[nodiscard]] std::optional<double> height_of(std::uint32_t number);
 
 private:
@@ -41,7 +41,7 @@ private:
         std::uint32_t instance = 0;
         glm::dvec3 up{}; // the height of a point is its product with `up`, plus `offset`
         double offset = 0.0;
-        double low = 0.0; // of the box
+        double low = 0.0; // lowest and highest height of the box
         double high = 0.0;
     };
 
@@ -58,7 +58,7 @@ void scale_cache(double factor, const StemMaterial& material, InstanceCache& cac
 /// Multiplies the scale of every tree of species s by heights[s] / its height at scale 1, so that
 /// it is scale * heights[s] metres high. Younger trees use the height of their species' last stage.
 /// Scales stay for heights[s] = 0, and for trees that are flat or draw nothing. Returns the first
-/// species with a flat tree. 0 threads: as many as the machine has.
+/// species with a flat tree, or nullopt. 0 threads: as many as the machine has.
 [[nodiscard]] std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);
 

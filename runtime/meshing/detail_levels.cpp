@@ -21,58 +21,61 @@ namespace lsys {
 
 namespace {
 
-// Triangles of a level in those of the next one.
+// Ratio of the triangles of a level to those of the next one: usual value and bounds.
 constexpr double kUsualFactor = 2.45;
 constexpr double kRootFactor = 1.5652; // its square root
 constexpr double kLowFactor = 2.0;
 constexpr double kMaxFactor = 3.0;
-constexpr double kSafeFactor = 1.04;      // by which steps keep from both bounds where they can
-constexpr double kMaxFactorOfBoxes = 4.5; // a step of their subdivision has a quarter
-constexpr std::uint32_t kMaxSideLevel = 8;
-constexpr int kMaxTries = 24;
-constexpr double kEnough = 0.96; // of the wanted triangles end the search for a number of paths
+constexpr double kSafeFactor = 1.04; // margin within both bounds, where possible
+// Max ratio for boxes: with one step of subdivision less they have a quarter of the triangles.
+constexpr double kMaxFactorOfBoxes = 4.5;
+constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
+constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
+constexpr double kEnough = 0.96;           // fraction of the wanted triangles that ends that search
 constexpr int kFittingSteps = 12;
-constexpr double kCloseAreas = 0.004; // ends the fitting of areas: part of wood, and a part of all
-constexpr double kAreaWeight = 0.1;
-constexpr double kMinScale = 0.2; // of what is fitted
+constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
+constexpr double kAreaWeight = 0.1;   // of the covered area in Planner::difference()
+constexpr double kMinScale = 0.2;     // of DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
-constexpr double kMaxStep = 1.8;   // factor of a scale from one try to the next
-constexpr double kMaxExcess = 3.0; // of an area, as a part of the wanted one
+constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the next
+constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
 constexpr double kMinTint = 0.25;
 constexpr double kMaxTint = 4.0;
-constexpr float kMaxModerate = 1.6F; // beyond it, all materials get one colour
-constexpr double kCloseTint = 0.002; // is left as it is
-constexpr double kMinCover = 0.25;   // of impostors
+constexpr float kMaxModerate = 1.6F; // beyond this tint all materials get one colour
+constexpr double kCloseTint = 0.002; // max distance from 1 of a tint that is left out
+constexpr double kMinCover = 0.25;   // of DetailLevel::cover
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
-constexpr double kCloseCover = 0.005;         // ends the fitting of the area of an impostor
-constexpr double kLastTriangles = 45.0;       // aimed at, of chains without an impostor
-constexpr double kLastOfCards = 24.0;         // the same with an impostor
-constexpr std::uint64_t kMaxBeforePoor = 450; // the same where less would show
-constexpr double kPoorPixels =
-    0.8; // by which wood may lie off where it stands for what is left out
-constexpr std::uint64_t kMaxBeforeCards = 100; // triangles; three times the last
-constexpr std::uint64_t kMinBeforeCards = 20;  // has none after it
-constexpr std::uint64_t kMinBeforeFewer = 40;  // cards that have fewer of them after
-constexpr double kMaxOfCards = 400.0;          // triangles
-constexpr double kCloseCount = 0.04;           // difference of triangles that is left as it is
-constexpr double kNearMax = 1.35;              // triangles in those that a level may have
-constexpr int kMaxEqualSteps = 3;              // near the end of the chain
-constexpr std::array<double, 6> kParts{1.0, 0.9, 1.1, 0.82, 1.18, 0.72}; // of what is aimed at
+constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
+constexpr double kLastTriangles = 45.0; // aimed at for the last level, without impostors
+constexpr double kLastOfCards = 24.0;   // aimed at for the last level, with impostors
+// Max triangles of a level that impostors may follow because the next mesh would look poor.
+constexpr std::uint64_t kMaxBeforePoor = 450;
+// A mesh looks poor if left-out wood lies, on average, more pixels than this from its parent.
+constexpr double kPoorPixels = 0.8;
+constexpr std::uint64_t kMaxBeforeCards = 100; // max triangles of a mesh that only cards may follow
+constexpr std::uint64_t kMinBeforeCards = 20;  // a mesh of at most this many triangles is the last
+constexpr std::uint64_t kMinBeforeFewer = 40;  // the same for cards
+constexpr double kMaxOfCards = 400.0;          // max triangles of an impostor
+constexpr double kCloseCount = 0.04; // relative difference from the planned triangles that is kept
+constexpr double kNearMax = 1.35; // see Planner::coarser(): ratio to the max triangles of a level
+constexpr int kMaxEqualSteps = 3; // max levels before the end of the chain with equal ratios
+// Multiples of the wanted triangles that are aimed at, one after the other.
+constexpr std::array<double, 6> kParts{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
 constexpr int kRootSteps = 40;
 constexpr int kSeekSteps = 8;
 constexpr int kStraighterTries = 6;
 constexpr int kMaxStraightenings = 48;
-constexpr float kStraightening = 1.15F;
+constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
 constexpr int kRestoringTries = 14;
-constexpr std::uint64_t kMorePaths = 8;
-constexpr double kMaxOfPaths = 4000.0; // triangles of levels that get more of them
-constexpr double kFairCount = 0.1;     // difference of triangles that is enough then
-constexpr float kRestoring = 1.3F;
-constexpr double kMeanErrorPart = 0.3; // of the error allowed to axes, on average
+constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds for their joints
+constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels that get such paths
+constexpr double kFairCount = 0.1;      // kCloseCount with such paths
+constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
+constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMinErrorPart = 0.1F;
-constexpr float kMaxDeviations = 4.0F;   // of sides, in errors of joints
-constexpr double kMinMove = 1e-12;       // of a step that teaches derivatives
+constexpr float kMaxDeviations = 4.0F; // max MeshOptions::deviation / axis_error
+constexpr double kMinMove = 1e-12;     // min product of a step and its effect to update derivatives
 constexpr float kMaxRadiusErrors = 2.0F; // radius of widened wood in errors: it is two pixels wide
 
 std::uint64_t triangles_of(const Mesh& mesh) {
@@ -120,12 +123,13 @@ void colour_materials(const DetailLevel& level, Mesh& mesh) {
     }
 }
 
-/// Whether a tint leaves materials about as they are.
+/// Whether a tint changes materials little.
 bool is_moderate(const glm::vec3& tint) {
     return std::max({tint.x, tint.y, tint.z}) < kMaxModerate &&
            std::min({tint.x, tint.y, tint.z}) > 1.0F / kMaxModerate;
 }
 
+/// Plans and fits the levels of one plant. After a failure stop_ is set and all steps do nothing.
 class Planner {
 public:
     Planner(const Skeleton& skeleton,
@@ -180,7 +184,7 @@ public:
         return stop_;
     }
 
-    /// Fits the marked levels to the finest one.
+    /// Sets the scales, tints and colours of the levels marked in `which`.
     std::optional<Stop>
     fit(const DetailChain& chain, const std::vector<bool>& which, DetailLevels& levels) {
         if (finest_ == 0) {
@@ -193,7 +197,8 @@ public:
         }
         meter_.emplace(mesh_, foliage_mesh_, frame_, options_.threads);
         areas_ = meter_->measure(mesh_, foliage_mesh_, &third_);
-        // From the coarsest one, as each depends on what is planned for the one before.
+        // From the coarsest level on, since fitting a level needs the unfitted plan of the next
+        // finer one.
         for (std::size_t k = levels.levels.size(); --k > 0 && !stop_;) {
             DetailLevel& level = levels.levels[k];
             if (!which[k]) {
@@ -228,8 +233,9 @@ private:
         measure_polygons();
     }
 
-    /// Sets the loss of each number of paths: how far wood that is left out lies from its parent, on
-    /// average over all wood, each path reaching away by a quarter of its length.
+    /// Sets losses_: for each number of paths that stay, the distance in m from wood that is left
+    /// out to its parent, as a mean over all wood. Each path counts as a quarter of its length
+    /// away.
     void measure_paths() {
         std::vector<double> areas(order_.path_count());
         std::vector<double> lengths(order_.path_count());
@@ -247,7 +253,7 @@ private:
         }
     }
 
-    /// Meshes without arrays that do not change the number of triangles.
+    /// Makes mesh_ without the arrays that do not change the number of triangles.
     void count(const Skeleton& skeleton, MeshOptions options) {
         options.texture_coordinates = false;
         options.tangents = false;
@@ -269,7 +275,7 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// About: corners of a polygon that coincide make no triangles.
+    /// An estimate: corners of a polygon that coincide make no triangles.
     double triangles_of_item(std::uint32_t item, const std::vector<FoliageShape>& shapes) const {
         const std::size_t objects = skeleton_.objects.size();
         return item < objects
@@ -300,7 +306,7 @@ private:
         }
     }
 
-    /// Meshes with what decides over visible areas.
+    /// Makes `mesh` with the arrays that visible areas depend on.
     void draw(const Skeleton& skeleton, MeshOptions options, Mesh& mesh) {
         options.texture_coordinates = true;
         options.tangents = false;
@@ -335,9 +341,9 @@ private:
                      : meter_->measure(mesh_, foliage_mesh_);
     }
 
-    /// Scales wood and foliage until they cover what they cover at the finest level, by Broyden's
+    /// Scales wood and foliage until they cover the same areas as at the finest level, by Broyden's
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
-    /// what they cover then. `coarser_than`: the level before.
+    /// the areas that they cover. `coarser_than`: the next finer level.
     VisibleAreas fit_areas(const DetailLevel& coarser_than, DetailLevel& level) {
         const bool is_fixed = !level.thinned && (level.options.method != MeshMethod::Tubes ||
                                                  skeleton_.l3d_compatible_surface);
@@ -347,11 +353,11 @@ private:
         glm::dvec2 scales(1.0);
         glm::dvec2 step(0.0);
         glm::dvec2 before(0.0);
-        // Inverse of the derivatives of areas: that of wood grows as its widths, that of foliage as
-        // the square of its size.
+        // Inverse of the derivatives of the areas by the scales. The area of wood grows as its
+        // widths, that of foliage as the square of its size.
         glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
-        bool third = !is_fixed; // measured from fewer sides until it is close
+        bool third = !is_fixed; // measures a third of the views until it is close
         for (int i = 0; i < kFittingSteps && !stop_; ++i) {
             third = third && i + 2 < kFittingSteps;
             tried.wood_scale = static_cast<float>(scales.x);
@@ -398,10 +404,10 @@ private:
         }
         return result;
     }
-    /// Seeks the error that leaves `wanted` triangles of `tried`. What is nearer to them than `least`
-    /// becomes `best`.
+    /// Seeks the axis_error with which `tried` has `wanted` triangles. A try that is nearer than
+    /// `least` becomes `best`, and `least` its difference.
     void seek_joints(double wanted, double& least, DetailLevel tried, DetailLevel& best) {
-        float low = 0.0F; // errors that leave too many triangles, and too few
+        float low = 0.0F; // an error that leaves too many triangles; `high`: too few
         float high = std::numeric_limits<float>::infinity();
         float& error = tried.options.axis_error;
         for (int i = 0; i < kRestoringTries && !stop_; ++i) {
@@ -423,8 +429,9 @@ private:
         }
     }
 
-    /// Gives wood the joints back that it loses as it is widened, or branches and foliage, up to
-    /// those of the level `before`, in their place: about as many triangles as planned.
+    /// Restores about the planned number of triangles. Wood loses joints when it is widened, since
+    /// thicker wood may be off by more. It gets them back or, in their place, paths and foliage up
+    /// to those of the level `before`.
     void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
@@ -433,7 +440,8 @@ private:
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
-        // Branches lose joints all at once where they are alike: some more of them then.
+        // Branches that are alike lose their joints at the same error, so some more paths are
+        // tried.
         const std::uint64_t most =
             std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
         double least = std::numeric_limits<double>::infinity();
@@ -483,7 +491,7 @@ private:
         const ImpostorBaker baker(mesh_, level.pixels, level.triangles);
         const Mesh none;
         VisibleAreas own;
-        // By the secant through the cover before; at first through no cover, which has no area.
+        // The secant method. The first secant goes through cover 0, which has area 0.
         glm::dvec2 before(0.0);
         level.cover = kFirstCover;
         Mesh cards;
@@ -518,7 +526,8 @@ private:
         const glm::dvec3 off = glm::abs(tint - 1.0);
         return std::max({off.x, off.y, off.z}) < kCloseTint ? glm::vec3(1.0F) : glm::vec3(tint);
     }
-    /// Difference of colour as the part of wood, and less so of what is covered.
+    /// Difference of two measures: that of the share of wood, which decides the colour, and with
+    /// less weight that of the covered area.
     static double difference(const VisibleAreas& now, const VisibleAreas& wanted) {
         const double all = std::max(wanted.all(), 1.0);
         return std::abs(now.wood / std::max(now.all(), 1.0) - wanted.wood / all) +
@@ -542,7 +551,7 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// Sets the course allowed to branches of a level of about so many triangles.
+    /// Sets the size on screen and the errors of a level with about this many triangles.
     void set_error(double triangles, DetailLevel& level) const {
         const auto part =
             static_cast<float>(std::sqrt(std::max(triangles, 1.0) / static_cast<double>(finest_)));
@@ -551,14 +560,14 @@ private:
         level.options.axis_error = level.error;
     }
 
-    /// Whether cards look more like the plant than a few enlarged leaves, or than wood whose branches
-    /// are left out.
+    /// Whether cards look more like the plant than `level`, which has a few enlarged leaves or
+    /// lacks too many branches.
     bool shows_loss(const DetailLevel& level) const {
         return !order_.foliage.empty() ||
                losses_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
     }
 
-    /// An impostor that shows the finest level.
+    /// The impostor that follows the level `before`.
     DetailLevel cards_after(const DetailLevel& before) const {
         const auto all = static_cast<double>(before.triangles);
         const double factor = before.triangles <= kMaxBeforeCards
@@ -576,7 +585,8 @@ private:
         return level;
     }
 
-    /// By which factor the step from a level to the next is beyond the bounds, less 1.
+    /// The factor by which the ratio of triangles from a level to the next is beyond its bounds,
+    /// less 1: 0 within them. `safe`: margin within the bounds.
     static double off_band(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
         const double most =
             before.options.method == MeshMethod::Boxes ? kMaxFactorOfBoxes : kMaxFactor;
@@ -585,11 +595,11 @@ private:
         return std::max({safe * kLowFactor / factor, safe * factor / most, 1.0}) - 1.0;
     }
 
-    /// The factor from a level to the next that leads to the last triangles in equal steps.
+    /// The ratio of triangles to the next level with which equal steps lead to the last level.
     double factor_from(double triangles) const {
         const double all = triangles / last_;
         int steps = 1;
-        double most = kMaxFactor; // that so many steps can be
+        double most = kMaxFactor; // max ratio of that many steps
         double usual =
             kUsualFactor * kRootFactor; // above it, one step more is nearer to kUsualFactor
         while (most < all || usual < all) {
@@ -630,8 +640,8 @@ private:
             return off_band(before, level) == 0.0;
         };
         if (wood + foliage < min) {
-            // Fewer joints alone leave too little: keep more of them, or all and fewer sides where
-            // branches are thin.
+            // Leaving out joints leaves too few triangles: keep more joints, or all joints and
+            // fewer sides where branches are thin.
             const float error = base.options.axis_error;
             seek(&MeshOptions::axis_error, before.options.axis_error, error, min - foliage,
                  max - foliage, base);
@@ -646,15 +656,15 @@ private:
                 return rounder;
             }
             wood = static_cast<double>(wood_triangles(base));
-            // Both leave too much. All joints with few sides may still be less than all with many:
-            // straight wood of many joints loses most of them at once.
+            // Both leave too many triangles: straight wood loses most of its joints at once, so
+            // that no error leaves a part of them. Go on with the smaller of the two.
             const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
             if (rounder_wood < wood) {
                 base = rounder;
                 wood = rounder_wood;
             }
         }
-        // Fewer sides, as long as that alone does not leave too little.
+        // Fewer sides of all branches, as long as that alone does not leave too few triangles.
         for (std::uint32_t sides = before.options.level;
              sides <= options_.level + kMaxSideLevel && !stop_; ++sides) {
             DetailLevel level = base;
@@ -688,9 +698,9 @@ private:
             make_plain(tubes.options);
             return coarser(tubes);
         }
-        // Items of foliage differ, and so do branches: of several numbers of triangles aimed at, the
-        // first that leads to a good one, else the nearest.
-        // Where little has to be left out, no more than that is.
+        // Items of foliage and branches differ in size, so several numbers of triangles are aimed
+        // at: the first level within the bounds is taken, else the nearest. If little has to be
+        // left out, the aim is the max.
         const double aim = wood + foliage <= kNearMax * max ? max : wanted;
         DetailLevel best = before;
         double least = std::numeric_limits<double>::infinity();
@@ -713,8 +723,8 @@ private:
         return best;
     }
 
-    /// Sets an option that leaves the less wood the larger it is, between `low` and `high`, so that
-    /// wood has `min` to `max` triangles, or else more.
+    /// Bisects an option between `low` and `high`, of which larger values leave fewer triangles of
+    /// wood, until these are `min` to `max`. If that fails, they are more.
     void seek(float MeshOptions::*option,
               float low,
               float high,
@@ -732,7 +742,7 @@ private:
         level.options.*option = low;
     }
 
-    /// Tubes without the detail of their bark.
+    /// Changes to tubes without relief of the bark and without smooth joints.
     static void make_plain(MeshOptions& options) {
         options.method = MeshMethod::Tubes;
         options.bark_noise = 0.0F;
@@ -742,7 +752,7 @@ private:
     }
 
     /// Leaves out paths and foliage until about `wanted` triangles are left, in the proportion of
-    /// `wood` and `foliage`.
+    /// the triangles `wood` and `foliage`.
     DetailLevel thinner(DetailLevel level, double wood, double foliage, double wanted) {
         level.thinned = true;
         most_paths_ = level.paths;
@@ -771,7 +781,8 @@ private:
         return level;
     }
 
-    /// Takes more joints from branches as long as the branches kept instead are worth it.
+    /// Leaves out more joints, so that more paths stay, as long as that lowers the mean distance of
+    /// the drawn wood from the plant.
     void straighten_for_paths(DetailLevel& level, double wanted) {
         const auto cost = [this](const DetailLevel& of) {
             return losses_[of.paths] + kMeanErrorPart * static_cast<double>(of.options.axis_error);
@@ -800,7 +811,7 @@ private:
         std::uint64_t low = 0;
         std::uint64_t low_count = 0;
         for (int i = 0; i < kMaxTries && high - low > 1 && !stop_; ++i) {
-            // By proportion, and by halves every other time.
+            // Linear interpolation and bisection by turns.
             const double slope = (wanted - static_cast<double>(low_count)) /
                                  static_cast<double>(high_count - low_count);
             const auto step = static_cast<std::uint64_t>((i % 2 == 0 ? slope : 0.5) *
@@ -823,13 +834,13 @@ private:
             straighten(level, wanted);
             return;
         }
-        // Of the numbers of paths around, the one nearer to `wanted` in proportion.
+        // The number of paths whose triangles have the ratio to `wanted` that is nearer to 1.
         const bool is_high =
             static_cast<double>(low_count) * static_cast<double>(high_count) < wanted * wanted;
         level.paths = is_high ? high : low;
     }
 
-    /// Takes joints from the only path that is left.
+    /// Leaves out joints of the only path that is left.
     void straighten(DetailLevel& level, double wanted) {
         auto now = static_cast<double>(wood_triangles(level));
         for (int i = 0; i < kMaxStraightenings && now > wanted && !stop_; ++i) {
@@ -851,20 +862,20 @@ private:
     std::vector<FoliageShape> fine_;
     Mesh mesh_;
     LargeVector<std::uint32_t> numbers_;
-    std::vector<double> losses_;   // in m, by number of paths
-    std::uint64_t most_paths_ = 0; // of the level that is thinned
+    std::vector<double> losses_;   // m, by number of paths; see measure_paths()
+    std::uint64_t most_paths_ = 0; // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_; // of the finest level
     VisibleAreas third_; // the same by AreaMeter::measure_third()
     Bounds frame_;
     std::uint64_t finest_ = 0;       // triangles
     double last_ = 1.0;              // triangles at the end of the chain
-    double triangles_per_ear_ = 1.0; // of polygons, which have corners - 2 ears
+    double triangles_per_ear_ = 1.0; // mean; a polygon of n corners has n - 2 ears
     float extent_ = 0.0F;
     std::optional<Stop> stop_;
 };
 
-/// The impostor of a pose, with the arrays that are asked for.
+/// Makes the impostor of a pose, with the arrays that `options` request.
 std::optional<Stop> make_impostor(const Skeleton& skeleton,
                                   const std::vector<UserMesh>& user_meshes,
                                   const MeshOptions& options,
@@ -901,7 +912,8 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
         });
 }
 
-/// Leaves `count` levels, at least 2: the first, the last, and those nearest to equal steps between.
+/// Keeps `count` levels, at least 2: the first, the last, and those nearest to equal steps in
+/// between.
 void spread_levels(std::size_t count, std::vector<DetailLevel>& levels) {
     if (levels.size() <= count) {
         return;

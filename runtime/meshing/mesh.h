@@ -31,7 +31,7 @@ struct Material {
     glm::vec4 colour{1.0F};
     bool two_sided = false;
     bool cut_out = false;  // texels below half opacity are discarded
-    bool textured = false; // by `picture`, or else by material_texture(kind)
+    bool textured = false; // by `picture` or, if that is null, material_texture(kind)
     std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
     std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
 };
@@ -70,7 +70,7 @@ enum class MeshMethod : std::uint8_t {
     Default,   // Boxes for Skeleton::box_segments, else Tubes
     Tubes,     // linked tubes along axes, joints shared
     Cylinders, // one closed cylinder per segment (Crankshaw 2019)
-    Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (report of the .sys forest)
+    Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (docs/documents.md, S)
     Solid,     // one closed surface around the union of all parts, for printing
 };
 
@@ -131,11 +131,11 @@ struct UserMesh {
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texture_coordinates;
     std::vector<std::uint32_t> indices;
-    std::vector<ObjName> libraries; // its files of materials (mtllib)
+    std::vector<ObjName> libraries; // its material files (mtllib)
     std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
     std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
     std::shared_ptr<const Texture> relief;          // normals of the whole mesh; may be null
-    std::vector<std::string> files;                 // tried in search of the picture
+    std::vector<std::string> files;                 // files tried to find the picture
     [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };

@@ -13,7 +13,7 @@ bool looks_equal(const Material& a, const Material& b) {
            a.picture == b.picture && a.relief == b.relief;
 }
 
-/// Whether the vertices of `b` are those of `a` in other places.
+/// Whether `b` has the triangles and materials of `a`, so that only vertices differ.
 bool is_same_shape(const Mesh& a, const Mesh& b) {
     return a.positions.size() == b.positions.size() && a.parts.size() == b.parts.size() &&
            std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(),

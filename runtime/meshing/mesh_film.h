@@ -1,6 +1,6 @@
 // MeshFilm: the meshes of successive frames as shapes whose vertices move. Frames with the same
-// triangles and materials are one shape; where a frame has others, another shape follows. Made of
-// the frames of a growth by MeshFilmBuilder; written by runtime/export as morph targets.
+// triangles and materials are one shape; where a frame differs in these, another shape begins. Made
+// of the frames of a growth by MeshFilmBuilder; written by runtime/export as morph targets.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -18,7 +18,7 @@ struct MeshFilm {
     };
     struct Shape {
         std::uint32_t first_frame = 0;
-        std::vector<Frame> earlier;     // its frames but the last, which is in MeshFilm::mesh
+        std::vector<Frame> earlier; // all its frames but the last one, which is in MeshFilm::mesh
         std::uint64_t first_vertex = 0; // in MeshFilm::mesh
         std::uint32_t first_part = 0;
         std::uint32_t part_count = 0; // 0: nothing is drawn

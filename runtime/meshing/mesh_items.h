@@ -22,8 +22,8 @@ struct SkeletonItem {
 void number_items(Skeleton& skeleton);
 
 /// The item that triangle number `triangle` of make_mesh(skeleton, user_meshes, options) shows; a
-/// triangle between two segments belongs to the one that carries all its corners. Makes the mesh
-/// again. None: no such triangle, or no memory.
+/// triangle between two segments belongs to the segment that carries all its corners. Makes the
+/// mesh again. nullopt: no such triangle, or no memory.
 [[nodiscard]] std::optional<SkeletonItem> item_of_triangle(const Skeleton& skeleton,
                                                            const std::vector<UserMesh>& user_meshes,
                                                            const MeshOptions& options,

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-// Palette indices of materials that have no colour of their own.
+// Palette indices of the colours of the library.
 constexpr std::uint16_t kLeafGreen = 1;
 constexpr std::uint16_t kYellow = 18;
 constexpr std::uint16_t kPink = 20;
@@ -33,7 +33,8 @@ ShapePart plain(std::uint16_t palette) {
 }
 
 // --- LEAF
-// Ovate, with a stem and a drawn-out tip. The outline is straight between these places.
+// An ovate leaf with a stem and a drawn-out tip. Its outline is straight between these points:
+// distance from the base, half the width.
 constexpr float kStemLength = 0.12F;
 constexpr float kStemHalfWidth = 0.014F;
 constexpr float kLeafHalfWidth = 0.25F;

@@ -73,7 +73,7 @@ Texture normals_of(const Texture& picture, float bump) {
         return picture;
     }
     constexpr float kHeight = 0.02F; // of white, in widths of the picture
-    // Rise of a whole step of grey over a texel.
+    // Height in texels per step of red + green + blue.
     const float scale = bump * kHeight * static_cast<float>(picture.width) / (3.0F * 255.0F);
     const auto height = [&](std::uint32_t x, std::uint32_t y) {
         const std::uint8_t* const texel =

@@ -11,9 +11,9 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMaxPatchSides = 255;
-// Indices of a unit of a patch: one band, or the whole of any other shape.
+// Max indices of a unit of a patch: one band, or the whole of any other shape.
 constexpr std::size_t kMaxUnitIndices = std::size_t{6} * kMaxPatchSides;
-constexpr std::uint32_t kMaxBands = 1U << 20; // at once
+constexpr std::uint32_t kMaxBands = 1U << 20; // per call of append_bands()
 constexpr std::uint32_t kMaxBlockIndices = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace

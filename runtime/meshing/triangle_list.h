@@ -39,9 +39,9 @@ public:
     [[nodiscard]] bool empty() const { return size_ == 0; }
     [[nodiscard]] std::uint64_t byte_count() const;
 
-    /// Slow: see TriangleReader, read() and expanded().
+    /// Slow; for many indices use TriangleReader, read() or expanded().
     [[nodiscard]] std::uint32_t operator[](std::uint64_t index) const;
-    /// Copies the indices from `first` on. Precondition: the list has as many.
+    /// Copies the indices from `first` on. Precondition: first + to.size() <= size().
     void read(std::uint64_t first, std::span<std::uint32_t> to) const;
     [[nodiscard]] LargeVector<std::uint32_t> expanded() const;
     /// Compares indices, however they are stored.
@@ -57,13 +57,14 @@ public:
     /// Appends the triangles between two rings with different sides.
     void append_uneven_band(const RingCorners& low, const RingCorners& high);
     /// Appends a triangle from each side of a ring to vertex `point`, or with `point_per_side` to
-    /// the vertices from `point` on. `upwards`: the ring is counter-clockwise seen from there.
+    /// the vertices from `point` on. `upwards`: the ring is counter-clockwise seen from the point.
     void
     append_fan(const RingCorners& ring, std::uint32_t point, bool point_per_side, bool upwards);
 
 private:
     enum class Shape : std::uint8_t { Bands, UnevenBand, Fan };
 
+    /// Triangles of one shape in a regular order.
     struct Patch {
         std::uint32_t end = 0; // of its indices, counted within the block
         std::uint32_t first = 0;

@@ -170,7 +170,8 @@ private:
         error_ = memory_error("its mesh", max_bytes_);
         return false;
     }
-    /// Room for `more` items, by doubling; the old ones are there until they have been moved.
+    /// Makes room for `more` items, by doubling. Needs the memory of the new array beside the old
+    /// one.
     template <typename T>
     bool make_room(std::vector<T>& items, std::size_t more) {
         const std::size_t count = items.size() + more;
@@ -505,7 +506,7 @@ ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
     return is_relief ? &material.relief : nullptr;
 }
 
-/// The number that a word is; 1 for other words.
+/// The number written as `word`; 1 if it is no number.
 float number_of(std::string_view word) {
     float number = 1.0F;
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -550,7 +551,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
             const std::string_view name = mtl.substr(begin, last - begin);
             material = names.contains(name) ? &materials[std::string(name)] : nullptr;
         } else if (material == nullptr) {
-            // of no interest
+            // a line of a material that is not wanted
         } else if (ObjName* const file = map_of(kind, *material); file != nullptr) {
             // Options stand before the name: a word, then its numbers or one more word.
             while (begin < last && mtl[begin] == '-') {

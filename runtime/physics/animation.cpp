@@ -10,9 +10,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kRestAngle = 1e-6; // rad
-constexpr double kMismatch = 1e-3;  // of the plant's size, at which the motion counts as periodic
-constexpr double kMaxRunIn = 30.0;  // s
+constexpr double kRestAngle = 1e-6; // rad, tolerance of settle()
+constexpr double kMismatch = 1e-3;  // PlantLoop::mismatch at which the motion counts as periodic
+constexpr double kMaxRunIn = 30.0;  // s, or kMinRunInLoops loops if they take longer
 constexpr std::uint32_t kMinRunInLoops = 4;
 
 float usable_rate(float frames_per_second) {
@@ -86,7 +86,7 @@ glm::dvec3 end_of(const Segment& segment, const SegmentPlace& place) {
     return glm::dvec3(place.base + segment.length * heading(place.frame));
 }
 
-/// Size of the box of all ends of segments.
+/// Longest side in m of the bounding box of the origin and all ends of segments.
 double size_of(const Skeleton& plant) {
     glm::vec3 low(0.0F);
     glm::vec3 high(0.0F);

@@ -1,5 +1,6 @@
-// PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
-// polygons move rigidly with their parent segment; without a parent they stand still.
+// PlantAnimation: poses of a moving plant, for exporters of skins. Made by record() and
+// record_loop(). Objects and polygons move rigidly with their parent segment; without a parent they
+// stand still.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -14,7 +15,7 @@
 namespace lsys {
 
 struct SegmentPlace {
-    glm::vec3 base{};
+    glm::vec3 base{}; // m
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
 };
 
@@ -29,7 +30,7 @@ struct PlantAnimation {
     }
 };
 
-/// Memory of an animation.
+/// Memory of an animation in bytes.
 [[nodiscard]] constexpr std::uint64_t animation_bytes(std::uint64_t segments,
                                                       std::uint64_t frames) {
     return segments * frames * sizeof(SegmentPlace);
@@ -38,27 +39,27 @@ struct PlantAnimation {
 /// A clip that loops: a PlantAnimation whose last frame is its first.
 struct PlantLoop {
     PlantAnimation animation;
-    /// Max way of a segment's end from the start to the end of a loop before the blend, as part of
-    /// the plant's size, and count of loops before the recorded one.
+    /// Max distance of an end of a segment between the first and the last frame before they were
+    /// blended, as a fraction of the plant's size.
     double mismatch = 0.0;
-    std::uint32_t run_in = 0;
+    std::uint32_t run_in = 0; // number of loops simulated before the recorded one
 };
 
-/// Memory of record_loop().
+/// Memory of record_loop() in bytes.
 [[nodiscard]] constexpr std::uint64_t loop_bytes(std::uint64_t segments, std::uint64_t frames) {
     return 2 * animation_bytes(segments, frames);
 }
 
-/// Records the motion in gusts as a loop: frame `frames` - 1 equals frame 0. The gusts repeat after
-/// the clip. From rest in the mean wind the plant moves until a loop ends where it began, for at
-/// most 30 s or four loops; the rest of the difference is spread over the clip by blending it into
-/// the loop before it, joint by joint, so that the motion is smooth at the seam too. Fewer than 3
-/// frames count as 3.
+/// Records the motion in gusts as a loop: frame `frames` - 1 equals frame 0. The gusts repeat with
+/// the period of the clip. The plant starts at rest in the mean wind and moves until a loop ends
+/// where it began, for at most 30 s or four loops, whichever is longer. The remaining difference is
+/// spread over the clip: it is blended into the loop before it, joint by joint, so that the motion
+/// is smooth at the seam too. Fewer than 3 frames count as 3.
 [[nodiscard]] PlantLoop
 record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_per_second);
 
-/// The plant with its segments at `places`: objects and polygons move rigidly with their parent.
-/// `places` has one for each segment.
+/// Writes to `out` the plant with its segments at `places`, one for each segment: objects and
+/// polygons move rigidly with their parent.
 void pose_at(const Skeleton& rest, std::span<const SegmentPlace> places, Skeleton& out);
 
 /// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at once.

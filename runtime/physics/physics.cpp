@@ -1,5 +1,5 @@
 // Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
-// "Real-time procedural animation of trees". As in these, a segment turns about its base against a
+// "Real-time procedural animation of trees". As in both, a segment turns about its base against a
 // spring, moved by weight, wind and a damper, and carries its children. Differences:
 // - Hooke's torque is -k d - c w with the relative angular velocity w. The thesis prints + for the
 //   damper, which would add energy.
@@ -39,8 +39,9 @@
 // 2.6): its main branches first, which bear their twigs as loads (impl/coarse.h), then more and
 // more of it, each from where the stage before lies. So the rounds that find where the branches go
 // cost little, and few are left for all bodies. The pose that the last stage begins with may have
-// more energy than the plant had, as its twigs have not moved yet; if so much is left when the
-// plant rests, it goes back and settles without stages. So the energy does not grow.
+// more energy than the plant had, as its twigs have not moved yet. If the plant still has more
+// energy when it comes to rest, it goes back to its first pose and settles without stages. So the
+// energy does not grow.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/coarse.h"
@@ -61,30 +62,33 @@ namespace {
 
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
-constexpr int kTrials = 12;
-constexpr int kInexactTrials = 2; // with Forces::exactness: the next round comes nearer
-constexpr double kTrialShare = 0.25;
-constexpr double kRounding = 1e-12;
-constexpr double kRestStep = 1e6; // s, step of settle(), so long that inertia does not matter
+constexpr int kTrials = 12;              // max shares of a step that are tried
+constexpr int kInexactTrials = 2;    // with Forces::exactness: a later round has safer derivatives
+constexpr double kTrialShare = 0.25; // factor from one share to the next
+constexpr double kRounding = 1e-12;  // relative to Energies::potential_magnitude
+constexpr double kRestStep = 1e6;    // s, step of settle(), so long that inertia does not matter
 // A plant that slides in settle() is at rest when friction with this coefficient, less than that of
-// ice, would stop it. Compared are energy and friction of some ten rounds.
+// ice, would stop it: the energy lost and the friction of about the last ten rounds are compared.
+// kRememberedShare is the weight of older rounds, per round.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
-// The same for a stage of settle() with many bodies, whose main branches lie already: a fifth of
-// kFriction, and some three rounds.
+// The same values for a stage of settle() with many bodies, whose main branches are already at
+// rest: a fifth of kFriction, and about the last three rounds.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;
 constexpr double kStageRememberedShare = 0.7;
-// A plant falls, so that stages pay, if a round of the first ones turns a body so far, or if it
-// does not rest after so many.
+// A plant counts as falling, so that stages pay off, if one of its first kFallingRounds rounds
+// turns a body by more than kFallingTurn, or if it is not at rest after these rounds.
 constexpr double kFallingTurn = 0.3; // rad
 constexpr std::uint32_t kFallingRounds = 12;
-// Max rounds of a stage but the last: as many as move so many bodies, within limits.
+// Max rounds of a stage other than the last: kStageWork over its number of bodies, at most
+// kMaxStageRounds.
 constexpr std::size_t kStageWork = 1'000'000;
 constexpr std::size_t kMaxStageRounds = 200;
 
-/// How little the rounds of settle() trust the true second derivatives: 1 - Forces::exactness. After
-/// steps that were taken whole it sinks. If that was too early it waits for more of them next time.
+/// 1 - Forces::exactness for the rounds of settle(). Falls after steps that were taken whole, and
+/// rises after a shortened step. If a fall was followed by a shortened step, the next fall waits
+/// for more whole steps.
 class Doubt {
 public:
     [[nodiscard]] double value() const { return value_; }
@@ -107,12 +111,12 @@ public:
     }
 
 private:
-    static constexpr double kMin = 1e-3; // unless it is 0
+    static constexpr double kMin = 1e-3; // min value other than 0
     static constexpr int kMaxPatience = 16;
     double value_ = 1.0;
-    int in_a_row_ = 0;  // steps taken whole since it last changed
-    int patience_ = 1;  // steps taken whole before it sinks
-    bool sank_ = false; // in the last round
+    int in_a_row_ = 0;  // steps taken whole since the value changed
+    int patience_ = 1;  // steps taken whole before the value falls
+    bool sank_ = false; // whether the value fell in the last round
 };
 
 float finite_or(float value, float other) {
@@ -167,7 +171,7 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
     return turn;
 }
 
-/// `own`, or with a positive `period` the nearest whole part of it: s.
+/// A period in s: `own`, or with a positive `period` about that, but a whole fraction of `period`.
 double part_of(double period, double own) {
     return period > 0.0 ? period / std::max(std::round(period / own), 1.0) : own;
 }
@@ -217,7 +221,7 @@ PlantBodies plant_of(Bodies bodies) {
     plant.rest = std::move(bodies);
     const std::vector<std::uint32_t>& ends = plant.rest.level_ends;
     plant.schedule = Schedule(ends);
-    std::uint32_t widest = 1; // bodies of two consecutive depths, at most
+    std::uint32_t widest = 1; // max bodies of two consecutive depths
     for (std::size_t depth = 0; depth < ends.size(); ++depth) {
         widest = std::max(widest, ends[depth] - (depth < 2 ? 0 : ends[depth - 2]));
     }
@@ -245,7 +249,7 @@ struct PlantPhysics::State {
     Workers workers;
     PlantBodies plant;
     double time = 0.0;
-    double energy = 0.0; // the energy allowed: that of the plant up to rounding, never less
+    double energy = 0.0; // J, the energy allowed: that of the plant up to rounding, never less
 
     /// Computes poses, velocities and energy from the current motion.
     void update_energy() {
@@ -319,7 +323,7 @@ struct PlantPhysics::State {
 
     enum class End { Rest, Falling, OutOfRounds };
     struct Rounds {
-        std::uint32_t most = 0;
+        std::uint32_t most = 0;    // max rounds that are left
         bool in_stage = false;     // the first pose comes from another stage
         bool stop_falling = false; // ends when the plant turns out to fall
     };
@@ -330,8 +334,8 @@ struct PlantPhysics::State {
         const bool in_many = rounds.in_stage && plant.poses.size() >= kManyBodies;
         const double remembered = in_many ? kStageRememberedShare : kRememberedShare;
         const double friction = in_many ? kStageFriction : kRestFriction;
-        double fall = 0.0;  // J, energy of the last rounds, older ones weighing less
-        double slide = 0.0; // J, in the same way
+        double fall = 0.0;  // J, energy lost in the last rounds, older ones weighing less
+        double slide = 0.0; // J, Energies::slide of the last rounds, weighed in the same way
         for (std::uint32_t round = 0; rounds.most > 0; ++round) {
             const Step made = advance(now, false);
             --rounds.most;
@@ -382,7 +386,7 @@ struct PlantPhysics::State {
         return poses;
     }
 
-    /// settle() with loads that are carried, from standstill.
+    /// settle() with LoadRule::Carried, from standstill.
     bool come_to_rest(const Forces& now, double tolerance, std::uint32_t max_rounds) {
         const bool may_fall = plant.poses.size() >= kMinCoarsened;
         Rounds rounds{.most = max_rounds, .stop_falling = may_fall};

@@ -31,8 +31,8 @@ struct Wind {
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
-    /// s, after which gusts repeat: their own two periods become the nearest whole parts of it. Not
-    /// positive: their own periods.
+    /// Time in s after which gusts repeat: their two periods, 3.1 s and 1.3 s, become about as long
+    /// whole fractions of it. 0: the periods stay.
     float gust_period = 0.0F;
     float damping = 1.0F;           // N m s/rad, of every joint
     float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
@@ -80,7 +80,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Max rounds of settle() for a plant of so many segments: 3,000,000 over that number, but 10,000
+/// Max rounds of settle() for a plant of this many segments: 3,000,000 over that number, but 10,000
 /// at most and 30 at least. Plants of 100,000 segments need some 20, about 2 s of a core.
 [[nodiscard]] std::uint32_t settle_rounds(std::size_t segments);
 

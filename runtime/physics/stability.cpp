@@ -1,10 +1,11 @@
 // Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
 // derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints and w . G w of the
 // weight, which has no coupling between bodies (see impl/joints.cpp). G is -m g y about the level
-// axes, where y is the height of a body's load above its base: a load to the side bends a plant but
-// never makes it buckle, a load above does. Elimination from the tips to the root, P = k + G + sum
-// of R of the children, R = k - k P^-1 k, finds whether the sum is positive definite: it is if each
-// P is (Sylvester). Bisection over the multiple of the weight gives the factor.
+// axes, where m is the mass of a body's load and y its height above the body's base: a load to the
+// side bends a plant but never makes it buckle, a load above does. Elimination from the tips to the
+// root, P = k + G + sum of R of the children, R = k - k P^-1 k, finds whether the sum is positive
+// definite: it is if each P is (Sylvester). Bisection over the multiple of the weight gives the
+// factor.
 #include "runtime/physics/stability.h"
 
 #include "runtime/physics/impl/bodies.h"
@@ -23,7 +24,7 @@ namespace {
 constexpr double kGreenhill = 7.837347; // (9/4) j^2, j the first zero of the Bessel function J_-1/3
 constexpr int kHalvings = 60;
 constexpr double kMaxFactor = 1e9;
-constexpr std::uint32_t kRounds = 400;
+constexpr std::uint32_t kRounds = 400; // max rounds of settle() per trial
 
 /// Whether the plant stands under `gravity` in its pose at rest.
 bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<Symmetric>& added) {
@@ -53,7 +54,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
     return true;
 }
 
-/// Measures the trunk of the first plant: its segments of order 0.
+/// Measures the trunk: the segments of order 0, without the first segments of further plants.
 void measure_trunk(const Skeleton& rest, double gravity, Stability& out) {
     double bending = 0.0; // integral of E I
     double mass = 0.0;

@@ -26,8 +26,8 @@ struct Stability {
     double trunk_length = 0.0; // m
     double trunk_width = 0.0;  // m, mean diameter
 };
-/// Measures the skeleton; the trunk is that of the first plant: segments without a parent begin
-/// others. Linear time.
+/// Measures the skeleton; the trunk is that of the first plant. A further segment without a parent
+/// begins another plant. Linear time.
 [[nodiscard]] Stability stability_of(const Skeleton& rest, const PhysicsOptions& options);
 
 /// Height of the highest point above the first segment's base under weight and wind, relative to
@@ -41,7 +41,7 @@ enum class Stiffening : std::uint8_t {
 };
 [[nodiscard]] Skeleton stiffened(const Skeleton& rest, Stiffening way, double factor);
 /// The smallest factor, within 20 %, with which the plant stands (kStandingHeight); 1 if it already
-/// stands. Nothing if the plant falls with all factors up to 1e9 (springs) or 1e3 (widths). Each
+/// stands. nullopt: the plant falls with all factors up to 1e9 (springs) or 1e3 (widths). Each
 /// trial settles a plant.
 [[nodiscard]] std::optional<double>
 standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening way);

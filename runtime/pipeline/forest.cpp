@@ -27,8 +27,8 @@ namespace {
 constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
-/// The path of a file that is named relative to `folder`. Removes `..`, unless a symbolic link
-/// makes the shorter path another file.
+/// Joins `folder` and a path relative to it. Removes `..`, unless a symbolic link makes the shorter
+/// path another file.
 std::string path_in(const std::string& folder, const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(folder) / path;
     const std::filesystem::path normal = whole.lexically_normal();
@@ -36,11 +36,12 @@ std::string path_in(const std::string& folder, const std::string& path) {
     return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
 }
 
-/// Places of axioms whose notes on equal plants have been given: path and offset.
+/// Axioms whose NoVariety note has been given: path of the file and offset of the axiom.
 using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 
-/// Removes notes on equal plants from `diagnostics`: all if the species has one hero or `is_wanted`
-/// is false, else those of places in `noted`. Returns whether `diagnostics` had such notes.
+/// Removes NoVariety notes from `diagnostics`: all if the species has one hero or `is_wanted` is
+/// false, else those at places in `noted`. Adds the places of the notes it keeps to `noted`.
+/// Returns whether `diagnostics` had such notes.
 bool drop_notes(const SceneSpecies& species,
                 bool is_wanted,
                 const std::string& path,
@@ -60,7 +61,7 @@ bool drop_notes(const SceneSpecies& species,
     return found;
 }
 
-/// The scene of a list of grammars.
+/// Makes a scene with one species per grammar.
 Scene scene_of(const std::vector<std::string>& grammars) {
     Scene scene;
     scene.terrain.region = {0.0, 0.0, kDefaultSize, kDefaultSize};
@@ -131,7 +132,7 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
     return Terrain::height_map(terrain.region, std::move(map.value()), terrain.height_map);
 }
 
-/// A picture of the ground named in a scene of `folder`.
+/// Reads a picture of the ground; its path is relative to `folder`.
 Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file,
                                                            const std::string& folder,
                                                            const Step& step,
@@ -190,7 +191,8 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
     return step.done(std::move(ground));
 }
 
-/// The heroes of one species with one number of generations, and the mesh files of its grammar.
+/// One stage of a species: its heroes with one number of generations, and the mesh files of its
+/// grammar.
 struct GrownStage {
     ForestStage stage;
     std::vector<UserMesh> user_meshes;
@@ -198,11 +200,11 @@ struct GrownStage {
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool may_take = false;            // some branch can be taken from recorded ones
-    std::vector<std::string> origins; // by instance, if asked for
+    bool may_take = false;            // some branch can be replaced by a recorded one
+    std::vector<std::string> origins; // by instance; empty unless grow_stage() is asked for them
 };
 
-/// Texts of the origins of the instances, if the cache has them.
+/// Texts of the origins of the instances, by instance; empty if the cache has no origins.
 std::vector<std::string> origin_texts(const InstanceCache& cache, const Bytecode& bytecode) {
     std::vector<std::string> texts;
     OriginPrinter printer(bytecode);
@@ -284,7 +286,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
-        // A pipe model excludes shared branches, so every hero is whole and has all its tips.
+        // With a pipe model branches are not shared, so every hero is complete, with all its tips.
         if (const std::optional<Stop> stop =
                 apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
                            stage.cache.skeleton)) {
@@ -295,7 +297,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     return step.done(std::move(grown));
 }
 
-/// Whether some branch of a stage was taken from recorded ones.
+/// Whether some branch of a hero was replaced by a recorded one.
 bool has_hits(const ForestSpecies& species) {
     return std::any_of(species.stages.begin(), species.stages.end(), [](const ForestStage& stage) {
         return std::any_of(stage.cache.slots.begin(), stage.cache.slots.end(),
@@ -303,9 +305,9 @@ bool has_hits(const ForestSpecies& species) {
     });
 }
 
-/// Scales the heroes of a species to the `#set height` of its grammar, if any: tree 0 of the last
-/// stage has this height at scale 1. Returns false if the plants are flat and a height is required,
-/// by the grammar or by `wants_height`.
+/// If the grammar has `#set height`, scales the heroes so that tree 0 of the last stage has this
+/// height at scale 1. Returns false if the plants are flat although the grammar or `wants_height`
+/// requires a height.
 bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& species) {
     if (settings.height == 0.0F && !wants_height) {
         return true;
@@ -327,7 +329,7 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     return true;
 }
 
-/// Whether both species have the same heroes from the same files.
+/// Whether all values on which heroes depend are equal, file names included.
 bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
     const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
         return one.name == other.name && one.value == other.value;
@@ -341,7 +343,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
                       b.definitions.end(), same_definition);
 }
 
-/// The index of the species of the previous forest that has the heroes of `species`, or nothing.
+/// The index of the species of the previous forest with the same heroes as `species`, or nothing.
 std::optional<std::size_t> find_reusable(const SceneSpecies& species,
                                          const PreviousForest& previous) {
     if (previous.scene == nullptr) {
@@ -466,7 +468,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
                 species.stages.empty() ? std::nullopt : std::optional(species.stages[i]);
-            for (const UserMesh& mesh : meshes) { // of the previous stage
+            for (const UserMesh& mesh : meshes) { // meshes of the previous stage
                 budget.give_back(mesh.byte_count());
             }
             meshes.clear();
@@ -500,7 +502,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             if (species.height_span.file != kNoFile) {
                 return fail_at(species.height_span, Error{message}, loaded, step);
             }
-            if (wants_height) { // an option
+            if (wants_height) { // the option --height, since the scene has no height
                 return step.fail("--height: " + message);
             }
             step.diagnose(make_diagnostic(DiagnosticCode::BadSetting, last.height_span, message),
@@ -527,7 +529,7 @@ Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& specie
     NotedAxioms noted;
     Outcome<GrownStage> grown = grow_stage(species, path_in(folder, species.grammar.path),
                                            generations, false, noted, project, budget, true);
-    if (!grown) { // its warnings were shown with the forest
+    if (!grown) { // warnings of a success were shown when the forest was grown
         step.messages.append(grown.messages());
         return step.end(grown.stop());
     }

@@ -1,5 +1,5 @@
-// From a scene to its forest: reads the files of the scene, makes the ground, derives and draws the
-// heroes of each species, places the trees.
+// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
+// the heroes of each species, places the trees.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -29,11 +29,11 @@ struct LoadedScene {
     std::string folder;                       // base of relative paths in the scene
 };
 
-/// The axiom of a grammar, for notes on its plants.
+/// Place of the axiom of a grammar, for notes on its plants.
 struct AxiomPlace {
     SourceSpan span;
     std::shared_ptr<const SourceMap> sources; // of `span`
-    /// A note says already that its plants are alike, or that no branch is ever taken.
+    /// A note has already said that its plants are equal, or that no branch can be replaced.
     bool is_noted = false;
 };
 
@@ -44,18 +44,18 @@ struct GrownForest {
     std::vector<std::vector<UserMesh>> user_meshes; // by species
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
-    GroundPictures ground; // of the surface
+    GroundPictures ground; // colours and normals of the ground
     PlacementReport placed;
-    /// Per species: index of the species of the previous forest whose heroes are reused; none: the
-    /// heroes are new.
+    /// By species: index of the species of the previous forest whose heroes are reused; unset if
+    /// the heroes are new.
     std::vector<std::optional<std::size_t>> reused_species;
     std::vector<Messages> messages; // by species
-    double cache_seconds = 0.0;     // to derive and draw the heroes
+    double cache_seconds = 0.0;     // time to derive and draw the heroes
     double place_seconds = 0.0;
 };
 
-/// A forest that was grown before. Species that ask for the same heroes reuse those of the previous
-/// forest, and the ground its pictures, even if their files have changed since. Null: none.
+/// A forest whose parts grow_species() reuses: heroes of species with equal values, and pictures of
+/// the ground with equal paths, even if the files have changed since. Null: no previous forest.
 struct PreviousForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;
@@ -64,7 +64,7 @@ struct PreviousForest {
 /// Whether the path names a scene: it ends in `.toml`.
 [[nodiscard]] bool is_scene(const std::string& path);
 
-/// Reads the scene file that `files` names, or makes a scene of the grammars that `files` names.
+/// Reads the scene file `files`[0], or makes a scene with one species per grammar in `files`.
 /// Applies `overrides`.
 [[nodiscard]] Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
                                               const SceneOverrides& overrides,
@@ -75,24 +75,24 @@ struct PreviousForest {
 [[nodiscard]] Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous);
 
-/// Gives placed trees their heights: drawn from `height` of the species, else `#set height` times
-/// the scale of the tree. Call it once per placement.
+/// Scales placed trees to their heights: a random height in the range `height` of the species, else
+/// `#set height` times the scale of the tree. Call it once per placement.
 [[nodiscard]] Outcome<void>
 size_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
-/// Places the trees of `grown`.
+/// Places the trees of `grown`, gives them their heights, and applies the scene's painting.
 [[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
 /// Height of the tallest tree in m, at its scale. Time is linear in the branches of all trees.
 [[nodiscard]] double find_tallest(const GrownForest& grown, const Project& project);
 
-/// Ends `step` with `stop`, which make_instance_meshes() returned, and its message.
+/// Ends `step` with the `stop` of make_instance_meshes() or make_detail_mesh(), and a message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
 
-/// The productions that wrote the branches of a stage's heroes, by instance of its cache: "from p2
-/// at tree.lsys:7:14, generation 3"; of whole plants "from the axiom". Reads the grammar and derives
-/// the heroes again. `folder`: of the scene.
+/// Texts by instance of a stage's cache: the production that wrote the branch, "from p2 at
+/// tree.lsys:7:14, generation 3", or "from the axiom" for a whole plant. Reads the grammar and
+/// derives the heroes again. `folder`: LoadedScene::folder.
 [[nodiscard]] Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
                                                                     const std::string& folder,
                                                                     std::size_t stage,

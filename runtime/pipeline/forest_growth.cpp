@@ -15,13 +15,13 @@ namespace lsys {
 
 namespace {
 
-/// `trees`, each `stages` stages later, at most its last.
+/// The trees of `start`, each `stages` stages later, but not beyond the last stage of its species.
 LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
                               std::span<const Tree> start,
                               std::uint32_t stages) {
     LargeVector<Tree> trees(start.begin(), start.end());
     for (Tree& tree : trees) {
-        if (tree.age != 0) { // 0: the last stage, of painted trees
+        if (tree.age != 0) { // age 0: a painted tree, which is in its last stage
             constexpr auto kYears = static_cast<std::uint32_t>(kYearsOfFreeStage);
             const std::uint32_t last = species[tree.species].stages - 1;
             const std::uint32_t stage = std::min(tree.age / kYears + stages, last);
@@ -38,9 +38,9 @@ struct ForestGrowth::State {
     const Terrain& terrain;
     PlacementOptions options;
     std::optional<Domination> domination;
-    LargeVector<Tree> start;  // methods but Domination: the trees of year 0, painting applied
-    LargeVector<Tree> before; // of the year before that of `domination`; empty in year 0
-    LargeVector<Tree> after;  // of the year of `domination`
+    LargeVector<Tree> start;  // year 0, painting applied; not used for Domination
+    LargeVector<Tree> before; // trees of year domination->year() - 1; empty in year 0
+    LargeVector<Tree> after;  // trees of year domination->year()
 
     State(const Scene& source, const Terrain& ground, PlacementOptions placement)
         : scene(source), terrain(ground), options(std::move(placement)) {}

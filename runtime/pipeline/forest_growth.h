@@ -1,5 +1,5 @@
-// ForestGrowth: a forest over its years, in steps as small as wanted. A forest placed by domination
-// has years; of another placement, whose trees have stages, a year is one stage.
+// ForestGrowth: a forest at any moment of its growth. A forest placed by domination grows by years.
+// In other placements, whose trees have stages, a year is one stage.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -14,9 +14,10 @@ namespace lsys {
 
 class ForestGrowth {
 public:
-    /// Starts with the seedlings of year 0, or with the trees of `grown` at the stages where they
-    /// start. `scene` and the terrain of `grown` outlive the growth; `grown` has its trees.
-    /// Stop::Failed: a placement of trees without stages, or errors of Domination::begin().
+    /// Starts with the seedlings of year 0, or without domination with the trees of `grown` at
+    /// their first stages. `scene` and the terrain of `grown` must outlive the growth.
+    /// Precondition: the trees of `grown` are placed. Stop::Failed: the trees have no stages, or
+    /// errors of Domination::begin().
     [[nodiscard]] static Outcome<ForestGrowth>
     begin(const Scene& scene, const GrownForest& grown, const Project& project);
     ~ForestGrowth();
@@ -26,10 +27,10 @@ public:
     /// The last year: last_year() of the scene. If trees have stages, it is the year in which the
     /// last tree reaches its last stage.
     [[nodiscard]] std::uint32_t last_year() const;
-    /// Advances to `moment`, which is not after the last year, and writes the trees of `moment` to
-    /// `trees`, painting applied: at whole years those of place_forest() with that number of years,
-    /// between years those of trees_between(). Going back to an earlier year starts again at year
-    /// 0.
+    /// Advances to `moment` and writes its trees to `trees`, painting applied. At whole years they
+    /// are those of place_forest() with that number of years, between years those of
+    /// trees_between(). An earlier year than before starts again at year 0. Precondition: `moment`
+    /// is not after last_year().
     [[nodiscard]] Outcome<void> trees(const GrowthMoment& moment,
                                       const TreeHeight& height_of,
                                       const Project& project,

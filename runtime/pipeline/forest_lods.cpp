@@ -21,22 +21,22 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
-/// Levels are fitted when it is known which ones trees have.
+/// No level is fitted when it is planned: fit_detail_levels() later fits those that trees use.
 constexpr DetailChain kChain{.pictures = true, .first_fitted = kNoDetailLevel};
 
-/// A hero of a species and stage.
+/// A whole plant of a species and stage, with its levels of detail.
 struct Hero {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
-    std::uint32_t instance = 0; // of the whole plant
+    std::uint32_t instance = 0; // index of the whole plant in the instances of the stage's cache
     Skeleton skeleton;
     DetailLevels levels;
     Bounds bounds;            // of level 0
-    std::vector<bool> in_use; // by level
+    std::vector<bool> in_use; // by level: some tree has it
     std::vector<Mesh> meshes; // of levels in use
     std::optional<Stop> stop;
 
-    /// Largest extent in m.
+    /// Largest side of the bounding box, in m.
     [[nodiscard]] float extent() const {
         const glm::vec3 size = bounds.high - bounds.low;
         return std::max({size.x, size.y, size.z});
@@ -56,7 +56,7 @@ void append(LargeVector<Item>& to, const LargeVector<Item>& from) {
     }
 }
 
-/// Adds the mesh of the next instance, in the order of materials.
+/// Appends `mesh` to `all` as the mesh of the next instance, parts in the order of materials.
 void add_instance(const Mesh& mesh, InstanceMeshes& all, LargeVector<std::uint32_t>& indices) {
     const auto first_vertex = static_cast<std::uint32_t>(all.mesh.positions.size());
     append(all.mesh.positions, mesh.positions);
@@ -111,7 +111,7 @@ plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project&
         }
     }
     MeshOptions alone = options;
-    alone.threads = 1; // as there are many heroes
+    alone.threads = 1; // heroes are meshed in parallel
     alone.max_bytes = project.limits.max_bytes;
     Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
         Hero& hero = heroes[number];
@@ -135,10 +135,11 @@ plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project&
     return step.done(std::move(heroes));
 }
 
-/// Place outside the outermost tree towards the viewer of the first picture of lsview.
+/// Viewpoint outside the forest, near the tree that is outermost in the direction of the initial
+/// camera of lsview.
 glm::vec3 edge_viewpoint(const Forest& forest, const std::vector<float>& heights) {
-    constexpr float kOutside = 3.5F; // heights
-    constexpr float kAbove = 2.0F;
+    constexpr float kOutside = 3.5F;           // horizontal distance / height of the tallest tree
+    constexpr float kAbove = 2.0F;             // vertical distance / height of the tallest tree
     const glm::vec2 outward(0.5665F, 0.8241F); // of length 1
     float farthest = -std::numeric_limits<float>::infinity();
     glm::vec3 edge(0.0F);
@@ -176,7 +177,7 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
         return step.end();
     }
     const Forest& forest = grown.forest;
-    // By species, stage and instance.
+    // Key: species, stage and instance.
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Hero*> hero_of;
     for (Hero& hero : heroes) {
         hero_of[{hero.species, hero.stage, hero.instance}] = &hero;
@@ -194,7 +195,8 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
     result.viewpoint = viewpoint.value_or(edge_viewpoint(forest, heights));
     result.forest.key = forest.key;
 
-    // Levels by distance. Kinds are numbered by species, stage and level.
+    // Choose levels by distance. Each combination of species, stage and level in use becomes a
+    // species of the result.
     constexpr float kLines = 1080.0F;
     constexpr float kHalfCotangent = 0.8660254F; // 1 / (2 tan 30 degrees)
     using KindKey = std::tuple<std::uint32_t, std::uint32_t, std::size_t>;
@@ -237,7 +239,7 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                                           : fmt::format("{} n{} LOD{}", from.name,
                                                         from.stages[stage].generations, level);
         to.height = from.height;
-        // The choices of trees, without what is drawn.
+        // Copy what TreeExpander needs to choose the instances of trees, without their geometry.
         const InstanceCache& cache = from.stages[stage].cache;
         ForestStage& only = to.stages.emplace_back();
         only.generations = from.stages[stage].generations;

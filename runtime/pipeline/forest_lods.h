@@ -18,16 +18,17 @@
 namespace lsys {
 
 struct ForestLods {
-    Forest forest;                                   // "pine LOD2", ... with the trees of each
+    Forest forest;                                   // a species per level: "pine LOD2", ...
     std::vector<std::vector<InstanceMeshes>> meshes; // by species and stage, as of mesh_forest()
-    glm::vec3 viewpoint{};                           // m
+    glm::vec3 viewpoint{};                           // m; distances are measured from it
 };
 
-/// Gives each tree the coarsest level whose DetailLevel::pixels its size takes in a view of 60 degrees
-/// from top to bottom with 1,080 lines, from `viewpoint` or else from outside the edge of the
-/// forest, 3.5 heights of the tallest tree from the outermost one and two above its foot. Trees are
-/// heroes as they are: `grown` is of instancing with rho 0, and has its trees. Levels are those of
-/// plan_detail_levels(), the last one an impostor. Stops as mesh_forest().
+/// Gives each tree the coarsest level whose DetailLevel::pixels its size on screen does not exceed,
+/// in a view with a vertical field of view of 60 degrees and 1,080 lines from `viewpoint`. The
+/// default viewpoint lies outside the forest: with h the height of the tallest tree, 3.5 h from the
+/// outermost tree and 2 h above its foot. Levels are those of plan_detail_levels(), the last one an
+/// impostor. Precondition: `grown` has been grown with rho 0, so that each tree is a hero, and its
+/// trees are placed. Stops as mesh_forest() does.
 [[nodiscard]] Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                                                    const MeshOptions& options,
                                                    std::optional<glm::vec3> viewpoint,

@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::string_view kModuleExtension = ".lsb";
 constexpr const char* kStandardInput = "<stdin>";
-/// Ends the path of standard input with a name; no path of a file has a NUL.
+/// Suffix of a path from standard_input_as(). It begins with NUL, which no path of a file contains.
 constexpr std::string_view kNamedInput("\0<stdin>", 8);
 
-/// `lsys, sys, ...`
+/// The names of all dialects: "lsys, sys, ...".
 std::string dialect_names() {
     std::string names;
     for (const DialectRow& row : dialects()) {
@@ -46,7 +46,7 @@ Error unknown_dialect(const std::string& path) {
                              path, dialect_names())};
 }
 
-/// The dialect asked for, else the detected one.
+/// The dialect named `dialect`, or the detected one if `dialect` is empty.
 Result<Dialect> dialect_of(const std::string& path,
                            const std::string& dialect,
                            std::string_view bytes,
@@ -60,7 +60,7 @@ Result<Dialect> dialect_of(const std::string& path,
         return unknown_dialect(path);
     }
     if (is_module_file(bytes)) {
-        return Dialect::Lsys; // the caller checks for module files
+        return Dialect::Lsys; // callers test is_module_file() themselves
     }
     const DetectedDialect detected = detect_dialect(shown_path(path), bytes);
     if (!detected.dialect) {
@@ -204,7 +204,7 @@ Result<CompiledText> compile_text(const std::string& path,
                                options.bug_compatible, options.system, &compiled.statements};
     Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
                             : parse_lsys_with_names(root, names, context);
-    apply_levels({}, *grammar.sources, compiled.diagnostics); // of comments
+    apply_levels({}, *grammar.sources, compiled.diagnostics); // `/* lsc: allow CODE */`
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
     const std::vector<Diagnostic>& found = compiled.diagnostics.all();
     const bool is_no_grammar =
@@ -229,13 +229,13 @@ Result<CompiledText> compile_text(const std::string& path,
     CompileOutcome outcome = compile(std::move(ast), grammar.names, *grammar.sources,
                                      compile_options, compiled.diagnostics);
     apply_levels({}, *grammar.sources, compiled.diagnostics);
-    // Fixes of options are only offers, because no file holds the options.
+    // Fixes in the text of options cannot be applied, because no file contains this text.
     compiled.diagnostics.offer_fixes_where([&](const Diagnostic& diagnostic) {
         return diagnostic.span.file != kNoFile &&
                static_cast<std::uint32_t>(diagnostic.span.file) >= first_option;
     });
     if (foreign) {
-        compiled.diagnostics.drop_repairs("`#"); // .lsys text, invalid in the dialect
+        compiled.diagnostics.drop_repairs("`#"); // they propose .lsys text, invalid in the dialect
     }
     grammar.program = std::move(outcome.program);
     if (grammar.program) {

@@ -22,16 +22,16 @@ namespace lsys {
 
 /// Options of reading and compiling a grammar.
 struct GrammarOptions {
-    std::string dialect; // name; empty: detected by contents, else by extension
+    std::string dialect; // name; empty: detected from the contents, else from the extension
     bool bug_compatible = false;
     std::string system; // name in a file of several systems; empty: the only one
     std::vector<Definition> definitions;
-    /// Definitions that are ignored if the grammar has no such constant.
+    /// Definitions for -D that are ignored if the grammar has no such constant.
     std::vector<Definition> optional_definitions;
-    /// Replace the `#set` statements of the same keys; each key at most once.
+    /// Values that replace the `#set` statements with the same keys; each key at most once.
     std::vector<SettingText> settings;
-    std::optional<std::uint32_t> generations; // instead of #n
-    bool part = false; // of other grammars; it is checked, and has no bytecode
+    std::optional<std::uint32_t> generations; // replaces #n
+    bool part = false; // the file is for `#include`: it is only checked, and gets no bytecode
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };
@@ -48,38 +48,38 @@ struct Grammar {
     Names names;
     std::optional<Program> program; // none for a .lsb file or after errors
     Bytecode bytecode;
-    SourceSpan height_span;      // of `height` in `#set height`; kNoFile: none, or a .lsb file
+    SourceSpan height_span;      // of `height` in `#set height`; kNoFile if missing or a .lsb file
     std::string translation;     // .lsys text of a grammar in another dialect
-    bool is_module_file = false; // read from a .lsb file; `sources` has only settings of options
+    bool is_module_file = false; // read from a .lsb file; `sources` then has only texts of --set
 };
 
 /// The result of compile_text(), also for a text with errors.
 struct CompiledText {
     Grammar grammar;
     Diagnostics diagnostics;
-    std::vector<SourceSpan> statements; // of all statements, including wrong ones
-    /// Number of syntax diagnostics, which come first until the diagnostics are sorted.
+    std::vector<SourceSpan> statements; // places of all statements, including those with errors
+    /// Number of syntax diagnostics. They come first in the diagnostics, which are not sorted yet.
     std::size_t syntax_diagnostic_count = 0;
-    bool has_bytecode = false;             // there are no errors
+    bool has_bytecode = false;             // false after errors
     std::optional<Error> definition_error; // a -D that names no constant
 };
 
-/// `path` in messages; `-` is standard input.
+/// `path` as messages show it. Standard input is shown as `<stdin>` or under its given name.
 [[nodiscard]] std::string shown_path(const std::string& path);
-/// The path of standard input as a grammar of `folder`, `FOLDER/<stdin>`: paths in the grammar are
-/// relative to the folder. Empty folder: `-`.
+/// A path that means standard input and makes paths in the grammar relative to `folder`:
+/// `FOLDER/<stdin>`. `-` if `folder` is empty.
 [[nodiscard]] std::string standard_input_in(const std::string& folder);
-/// The path of standard input as the grammar `name`: shown as `name`, whose folder is that of its
-/// paths. Empty name: `-`.
+/// A path that means standard input, is shown as `name`, and makes paths in the grammar relative to
+/// the folder of `name`. `-` if `name` is empty.
 [[nodiscard]] std::string standard_input_as(const std::string& name);
 /// Whether `path` is `-`, or one of standard_input_in() and standard_input_as().
 [[nodiscard]] bool is_standard_input(const std::string& path);
 
-/// A reader of files for #include, at most `max_bytes` in all.
+/// A reader of files for #include, which together may have at most `max_bytes` bytes.
 [[nodiscard]] FileLoader make_loader(const Project& project, std::uint64_t max_bytes);
 
-/// Reads a grammar. `dialect`: a name, or empty to detect it. Stop::Failed: the file cannot be
-/// read, or its dialect is unknown.
+/// Reads a grammar and finds its dialect. `dialect`: its name, or empty to detect it. Stop::Failed:
+/// the file cannot be read, or its dialect is unknown.
 [[nodiscard]] Outcome<GrammarText>
 read_grammar(const std::string& path, const std::string& dialect, const Project& project);
 
@@ -87,8 +87,8 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
 [[nodiscard]] Result<void>
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
-/// Compiles the `text` of `path`. Errors: those of check_system(); a setting that the dialect does
-/// not have.
+/// Compiles `text`, the contents of the file `path`. Errors: those of check_system(); --set of a
+/// key that the dialect does not have.
 [[nodiscard]] Result<CompiledText> compile_text(const std::string& path,
                                                 GrammarText text,
                                                 const GrammarOptions& options,

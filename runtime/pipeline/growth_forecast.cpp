@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// Larger programs take longer to predict than many runs take.
+/// Larger programs are not predicted: a prediction would take longer than many derivations.
 constexpr std::size_t kMaxProductions = 10'000;
 
 bool is_small(const Bytecode& bytecode) {
@@ -23,7 +23,7 @@ std::uint64_t saturated(const Count& count) {
     return count.at_most(kMax) ? count.value.low : kMax;
 }
 
-/// Whether no derivation of the program can end in an error, once its constants are drawn.
+/// Whether a derivation can only end in an error while it draws its constants.
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {

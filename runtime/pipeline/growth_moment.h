@@ -5,8 +5,8 @@
 
 namespace lsys {
 
-/// A moment of a growth: generation (or year) `generation`, and the fraction `part` of the way to
-/// the next one, 0 <= part < 1.
+/// A moment of a growth: the fraction `part`, 0 <= part < 1, of the way from generation (or year)
+/// `generation` to the next one.
 struct GrowthMoment {
     std::uint32_t generation = 0;
     double part = 0.0;

@@ -21,13 +21,14 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kNoBytes = std::numeric_limits<std::uint64_t>::max();
-// The default comes first: of equal choices the first is taken.
+// Values to try, the default first, since the first of equally good choices is taken.
 constexpr std::array<float, 9> kRhos{0.6F, 0.5F, 0.7F, 0.4F, 0.8F, 0.3F, 0.2F, 0.1F, 0.0F};
 constexpr std::array<std::uint32_t, 16> kHeroes{1,  2,  3,  4,  6,  8,   12,  16,
                                                 24, 32, 48, 64, 96, 128, 192, 256};
 static_assert(kHeroes.back() == kMaxChosenHeroes);
 constexpr std::array<std::uint32_t, 12> kCaps{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// The search ends after this many steps of kHeroes that give no more different trees.
+/// The search for one rho ends after this many consecutive entries of kHeroes without more
+/// different trees.
 constexpr int kIdleSteps = 4;
 
 struct Choice {
@@ -35,8 +36,8 @@ struct Choice {
     float rho = 0.0F;
     std::uint32_t cap = 0;
     std::uint64_t bytes = kNoBytes;
-    std::uint64_t different = 0; // trees
-    std::uint32_t most_variants = 0;
+    std::uint64_t different = 0;     // number of different trees
+    std::uint32_t most_variants = 0; // max number of recorded branches per key
 
     [[nodiscard]] bool is_set() const { return bytes != kNoBytes; }
 };
@@ -44,7 +45,7 @@ struct Choice {
 std::string size_text(std::uint64_t bytes) {
     constexpr double kKiB = 1024.0;
     const auto size = static_cast<double>(bytes);
-    // Rounded up, so that the number can be given to --memory.
+    // Round up, so that --memory with this number suffices.
     return size < kKiB * kKiB ? fmt::format("{:.1f}K", std::ceil(size / kKiB * 10.0) / 10.0)
                               : fmt::format("{:.1f}M", std::ceil(size / kKiB / kKiB * 10.0) / 10.0);
 }
@@ -75,7 +76,7 @@ public:
         }
     }
 
-    /// Fills `smallest`, `best_in_budget` and `best`. `budget`: max bytes of `best_in_budget`.
+    /// Sets `smallest`, `best_in_budget` and `best`. `budget`: max bytes of `best_in_budget`.
     /// `most_bytes`: max bytes of `smallest`.
     Outcome<void> run(std::uint64_t budget, std::uint64_t most_bytes) {
         Step step(project_);
@@ -96,7 +97,7 @@ public:
                 }
                 if (!choice.is_set() || choice.bytes >= smallest.bytes ||
                     choice.bytes > most_bytes || choice.different >= needed) {
-                    break; // more heroes take more memory
+                    break; // more heroes would only take more memory
                 }
                 idle = choice.different > shapes ? 0 : idle + 1;
                 shapes = std::max(shapes, choice.different);
@@ -117,14 +118,14 @@ public:
                     return step.end();
                 }
                 if (smallest.bytes < bytes) {
-                    break; // a larger cap takes more memory
+                    break; // a larger cap would only take more memory
                 }
             }
         }
         return step.done();
     }
 
-    /// Whether whole heroes of several seeds differ.
+    /// Whether heroes that are derived with different seeds, without instancing, differ.
     Outcome<bool> has_different_heroes() {
         Step step(project_);
         constexpr std::uint32_t kSeeds = 4;
@@ -146,14 +147,14 @@ public:
         return one_species_.scene.species.front().name;
     }
 
-    std::uint64_t needed = 0; // different trees
-    Choice smallest;          // of least memory with at least `needed` different trees
-    Choice best_in_budget;    // most different trees within the budget
-    Choice best;              // most different trees of all
+    std::uint64_t needed = 0; // min number of different trees
+    Choice smallest;          // the choice of least memory with at least `needed` different trees
+    Choice best_in_budget;    // the choice with most different trees within the budget
+    Choice best;              // the choice with most different trees
 
 private:
-    /// Fills `choice`, and keeps it if it is better than those before. Leaves it unset if a limit
-    /// of the project or the grammar does not allow it.
+    /// Sets the results of `choice`, and keeps it if it is better than earlier ones. Leaves it
+    /// unset if growing the heroes fails, for example at a limit of the project.
     Outcome<void> try_choice(Choice& choice, std::uint64_t budget) {
         Step step(project_);
         SceneSpecies& species = one_species_.scene.species.front();
@@ -196,10 +197,10 @@ private:
 
     const Project& project_;
     std::vector<Tree> trees_;
-    LoadedScene one_species_; // with this species alone, on flat ground
+    LoadedScene one_species_; // the scene reduced to this species, on flat ground
 };
 
-/// Min number of different trees that is the share `variety` of `count` trees.
+/// The share `variety` of `count` trees, rounded up.
 std::uint64_t share_of(double variety, std::uint64_t count) {
     return static_cast<std::uint64_t>(std::ceil(variety * static_cast<double>(count) - 1e-9));
 }
@@ -208,17 +209,18 @@ double part_of(std::uint64_t part, std::uint64_t all) {
     return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Places the trees, by species, with one hero each: places do not depend on heroes.
+/// The placed trees, by species. Grows only one hero per species, since places do not depend on
+/// heroes.
 Outcome<std::vector<std::vector<Tree>>>
 place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bool>& is_noted) {
     Step step(project);
     LoadedScene cheap = loaded;
     cheap.scene.goal = {};
     for (SceneSpecies& species : cheap.scene.species) {
-        species.cache.heroes = 1; // drops notes on variety
+        species.cache.heroes = 1; // with one hero there are no notes on variety
         species.rho = species.written.rho ? species.rho : 0.0F;
     }
-    Step quiet(project); // the forest itself gives these messages again
+    Step quiet(project); // messages are dropped: growing the forest gives them again
     GrownForest grown;
     if (!quiet.take(grow_species(cheap, project, {}), grown) ||
         !quiet.take(place_forest(cheap.scene, project, grown))) {
@@ -234,7 +236,7 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
     return step.done(std::move(trees));
 }
 
-/// The nearest goals that can be reached, as text for help.
+/// A help text that names the nearest goals that can be reached.
 std::string nearest_goals(const std::vector<Search>& searches, const InstancingGoal& goal) {
     std::uint64_t bytes = 0;
     bool all_least = true;
@@ -326,8 +328,8 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
                     wanted, species.name));
             }
         }
-        // With a goal of variety the search goes beyond the budget, so that the error can name the
-        // memory that is enough.
+        // With a goal of variety the search also tries choices beyond the budget, so that an error
+        // can name the memory that is enough.
         const std::uint64_t most_bytes = goal.variety > 0.0 ? kNoBytes : budget;
         if (!step.take(search.run(budget, most_bytes))) {
             return step.end();

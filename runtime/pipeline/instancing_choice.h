@@ -1,4 +1,4 @@
-// The choice of heroes, rho and cache cap for a wanted share of different trees in a limited memory
+// Chooses heroes, rho and cache cap for a wanted share of different trees in limited memory
 // (`--variety`, `--memory`).
 #pragma once
 
@@ -8,16 +8,16 @@
 
 namespace lsys {
 
-/// Max heroes of a species that choose_instancing() tries; a scene may set more.
+/// Max number of heroes per species that choose_instancing() tries; a scene may set more.
 inline constexpr std::uint32_t kMaxChosenHeroes = 256;
 
-/// Sets heroes, rho and cache cap of each species for `scene.goal`, if that is set. Keeps values
-/// that the scene or command line sets. Tries combinations for each species: with a goal of variety
-/// it takes the one of least memory whose placed trees reach that share of different ones, counted
-/// by count_different_trees(); else the one with most different trees in an equal part of the
-/// memory. Memory is that of skeletons and instance records. Depends on scene, grammars and key
-/// alone. If no combination reaches the goal, fails and names the nearest goals that can be
-/// reached.
+/// Sets heroes, rho and cache cap of each species to reach `scene.goal`, if that is set. Keeps
+/// values that the scene or command line sets. Tries combinations per species. With a goal of
+/// variety it takes the combination of least memory with which the share of different trees
+/// (count_different_trees()) among the placed trees reaches the goal; else the combination with
+/// most different trees in an equal part of the memory. Memory means skeletons and instance
+/// records. The result depends on scene, grammars and key alone. If no combination reaches the
+/// goal, fails and names the nearest goals that can be reached.
 [[nodiscard]] Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project);
 
 } // namespace lsys

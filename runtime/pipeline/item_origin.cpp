@@ -16,7 +16,8 @@ namespace lsys {
 
 namespace {
 
-/// The origins, of followed modules, of the items of one kind.
+/// By item of one kind: Origin::place is the position of the module that drew it, as set by
+/// Derivation::follow().
 const LargeVector<Origin>& origins_of(const Skeleton& skeleton, SkeletonItem::Kind kind) {
     switch (kind) {
     case SkeletonItem::Kind::Object:

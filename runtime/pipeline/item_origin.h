@@ -12,16 +12,16 @@
 namespace lsys {
 
 struct ItemOrigin {
-    std::string module;           // as words show it: "F(1.5)"
-    std::uint64_t number = 0;     // of the module in the word, from 0
-    std::uint64_t modules = 0;    // of the word
+    std::string module;           // text of the module as in a word: "F(1.5)"
+    std::uint64_t number = 0;     // position of the module in the word, from 0
+    std::uint64_t modules = 0;    // number of modules in the word
     std::string origin;           // "from p2 at tree.lsys:7:14, generation 3"
     std::uint32_t generation = 0; // of the word
 };
 
-/// Finds the module that draws `item` in the word of `generation`, which is at most
-/// `options.generations`. Folds the bytecode of `grammar`. The module is empty if the word does not
-/// draw the item. Fails as grow_plant() does.
+/// Finds the module that draws `item` in the word of `generation`. Folds the bytecode of `grammar`
+/// (fold_modules()). ItemOrigin::module is empty if the word does not draw the item. Fails as
+/// grow_plant() does. Precondition: `generation` is at most `options.generations`.
 [[nodiscard]] Outcome<ItemOrigin> origin_of_item(const PlantOptions& options,
                                                  std::uint32_t generation,
                                                  const SkeletonItem& item,

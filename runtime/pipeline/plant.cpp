@@ -20,7 +20,7 @@ namespace lsys {
 
 namespace {
 
-/// Derives, then draws the last word.
+/// Derives and stores the last word, then draws it.
 DerivationEnd
 draw_stored(const DeriveOptions& options, const Bytecode& bytecode, Turtle& turtle, Plant& plant) {
     const Stopwatch deriving;
@@ -38,7 +38,7 @@ draw_stored(const DeriveOptions& options, const Bytecode& bytecode, Turtle& turt
     return {};
 }
 
-/// Draws during the derivation, which stores no word.
+/// Draws modules as the derivation produces them, without storing the last word.
 DerivationEnd draw_streamed(const DeriveOptions& options,
                             const Bytecode& bytecode,
                             Turtle& turtle,
@@ -52,7 +52,7 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
     return turtle.end().stop ? DerivationEnd{} : std::move(outcome.end);
 }
 
-/// Gives the plant the widths and the height that settings or options ask for.
+/// Applies the pipe model and scales the plant to its height, as settings or options ask.
 std::optional<Stop>
 size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skeleton& skeleton) {
     const Settings& settings = grammar.bytecode.settings;
@@ -87,7 +87,7 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
     return Stop::Failed;
 }
 
-/// The warning that a solid has `pieces` which do not touch.
+/// The warning that a solid mesh has `pieces` separate parts.
 Diagnostic separate_pieces(std::uint64_t pieces) {
     Diagnostic diagnostic =
         make_diagnostic(DiagnosticCode::SeparatePieces, {},

@@ -17,22 +17,22 @@
 namespace lsys {
 
 struct PlantOptions {
-    std::string file;                         // path of the grammar, the base of files of `#object`
-    std::optional<std::uint32_t> generations; // none: those of #n
-    std::optional<std::uint64_t> seed;        // none: that of #set seed
-    std::optional<float> height;              // m; none: that of #set height
-    bool stream = false;                      // store no word
+    std::string file;                         // path of the grammar, base of files of `#object`
+    std::optional<std::uint32_t> generations; // unset: the value of #n
+    std::optional<std::uint64_t> seed;        // unset: the value of #set seed
+    std::optional<float> height;              // m; unset: the value of #set height
+    bool stream = false;                      // draw while deriving, store no word
     bool origins = false;                     // keep the origins of segments and objects
 };
 
 /// A plant and how long its steps took.
 struct Plant {
     Skeleton skeleton;
-    std::vector<UserMesh> user_meshes; // of skeleton.mesh_files
-    std::uint64_t modules = 0;         // of the derived word
+    std::vector<UserMesh> user_meshes; // the meshes of skeleton.mesh_files, in the same order
+    std::uint64_t modules = 0;         // number of modules of the derived word
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
-    double derive_seconds = 0.0; // includes drawing if no word is stored
+    double derive_seconds = 0.0; // with PlantOptions::stream includes drawing
     double draw_seconds = 0.0;
 };
 
@@ -44,25 +44,26 @@ derive_options(const PlantOptions& options, const Bytecode& bytecode, const Proj
 /// derives the same words faster, with other module codes.
 void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
 
-/// Derives and draws. Folds the bytecode of the grammar.
+/// Derives the grammar and draws its word. Folds the bytecode of the grammar (fold_modules()).
 [[nodiscard]] Outcome<Plant>
 grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project);
 
-/// Meshes `skeleton`, the skeleton of `plant` or a bent copy, with the threads and the memory limit
-/// of the project.
+/// Meshes `skeleton`, which is the skeleton of `plant` or a bent copy of it, with the threads and
+/// the memory limit of the project.
 [[nodiscard]] Outcome<Mesh> mesh_plant(const Plant& plant,
                                        const Skeleton& skeleton,
                                        const MeshOptions& options,
                                        const Project& project);
 
-/// Plans the levels of detail 0 to `last` of `skeleton`; `options` are those of level 0.
+/// Plans the levels of detail of `skeleton` that `chain` asks for. `options` are those of level 0.
 [[nodiscard]] Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                                       const Skeleton& skeleton,
                                                       const MeshOptions& options,
                                                       const DetailChain& chain,
                                                       const Project& project);
-/// Meshes level `number` of `skeleton`, the planned one or a pose of it, with the arrays that
-/// `options` ask for. Precondition: number < levels.levels.size().
+/// Meshes level `number` of `skeleton`, which is the skeleton that `levels` were planned for or a
+/// pose of it, with the vertex arrays that `options` ask for. Precondition: number <
+/// levels.levels.size().
 [[nodiscard]] Outcome<Mesh> mesh_plant_level(const Plant& plant,
                                              const Skeleton& skeleton,
                                              const DetailLevels& levels,
@@ -70,7 +71,7 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                              const MeshOptions& options,
                                              const Project& project);
 
-/// The diagnostic of a derivation that a Stop other than Stop::Cancelled ended.
+/// The diagnostic of a derivation that has stopped. Precondition: not with Stop::Cancelled.
 [[nodiscard]] Diagnostic
 derivation_diagnostic(const DerivationEnd& end, const Limits& limits, const Grammar& grammar);
 

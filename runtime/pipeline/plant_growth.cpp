@@ -27,15 +27,15 @@ struct PlantGrowth::State {
     TurtleOptions turtle;
     Plant plant;
     Derivation derivation;
-    Skeleton drawn;                       // of the current word, unless `growth` holds it
-    std::optional<SkeletonGrowth> growth; // from the previous word to the current one
-    std::vector<Origin> ancestors;        // of the modules of the current word
-    bool is_consistent = false;           // the drawings match the word; false after a stop
+    Skeleton drawn;                       // skeleton of the current word, if `growth` is unset
+    std::optional<SkeletonGrowth> growth; // skeletons of the previous and the current word
+    std::vector<Origin> ancestors;        // by current module: the previous one it comes from
+    bool is_consistent = false;           // the skeletons match the word; false after a stop
     bool noted_lost_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 
-    /// Draws the word. Only the drawing of the last generation reports warnings.
+    /// Draws the current word. Reports warnings only for the last generation.
     [[nodiscard]] std::optional<Stop> draw(Step& step) {
         const Stopwatch drawing;
         DerivationEnd derived;
@@ -111,7 +111,7 @@ struct PlantGrowth::State {
     [[nodiscard]] std::optional<Stop> go_to(const GrowthMoment& moment, Step& step) {
         const std::uint32_t wanted = moment.generation + (moment.part > 0.0 ? 1 : 0);
         LSYS_CHECK(wanted <= derive.generations, wanted, derive.generations);
-        // The stored drawings are those of age() - 1 and age().
+        // The stored skeletons are those of generations age() - 1 and age().
         if (!is_consistent || moment.generation + 1 < age() ||
             (moment.generation < age() && !growth)) {
             if (const std::optional<Stop> stop = start(step)) {

@@ -1,5 +1,5 @@
-// PlantGrowth: a plant at any moment of its generations. Derives once, forwards, and keeps the
-// drawings of two generations.
+// PlantGrowth: a plant at any moment between its generations. Derives forwards and keeps the
+// skeletons of two generations.
 #pragma once
 
 #include "runtime/pipeline/growth_moment.h"
@@ -14,9 +14,9 @@ namespace lsys {
 
 class PlantGrowth {
 public:
-    /// Starts with the axiom. Folds the bytecode of `grammar`, which outlives the growth. Of
-    /// `options`, `generations` is the last generation; `stream` and `origins` are ignored. Fails
-    /// like grow_plant().
+    /// Starts with the axiom. Folds the bytecode of `grammar` (fold_modules()), which must outlive
+    /// the growth. `options.generations` is the last generation; `options.stream` and
+    /// `options.origins` are ignored. Fails as grow_plant() does.
     [[nodiscard]] static Outcome<PlantGrowth>
     begin(const PlantOptions& options, Grammar& grammar, const Project& project);
     ~PlantGrowth();
@@ -24,11 +24,11 @@ public:
     PlantGrowth& operator=(PlantGrowth&&) noexcept;
 
     [[nodiscard]] std::uint32_t last_generation() const;
-    /// Derives up to `moment`, which is not after the last generation, and writes the plant of
-    /// `moment` to `out`. At whole generations the plant is exactly that of grow_plant(), if no
-    /// production reads the number of generations. Going back to an earlier generation starts again
-    /// at the axiom. Messages: those of drawing the last generation; a note if polygons lose
-    /// corners at once.
+    /// Derives up to `moment` and writes the plant of `moment` to `out`. At whole generations the
+    /// plant is exactly that of grow_plant(), unless a production calls steps(). An earlier
+    /// generation than before starts again at the axiom. Messages: those of drawing the last
+    /// generation; a note if polygons lose corners suddenly. Precondition: `moment` is not after
+    /// the last generation.
     [[nodiscard]] Outcome<void>
     pose(const GrowthMoment& moment, const Project& project, Skeleton& out);
     /// The plant without its skeleton: meshes, seed, times, and counts of the last derived word.

@@ -16,17 +16,17 @@ namespace lsys {
 
 /// Progress of a derivation.
 struct DerivationProgress {
-    std::uint32_t generation = 0;  // being written
-    std::uint32_t generations = 0; // to derive
-    std::uint64_t modules = 0;     // written of this generation
+    std::uint32_t generation = 0;  // generation being derived
+    std::uint32_t generations = 0; // number of generations to derive
+    std::uint64_t modules = 0;     // modules of `generation` written so far
     /// Expected number of modules per generation from 0 on; empty if unknown.
     const std::vector<double>& expected;
 };
 
 /// Limits of reading a file.
 struct ReadLimit {
-    std::uint64_t max_bytes = 0;              // for a file of its kind
-    std::uint64_t memory = ~std::uint64_t{0}; // bytes left; more is an ErrorKind::Limit
+    std::uint64_t max_bytes = 0;              // max size of a file of this kind
+    std::uint64_t memory = ~std::uint64_t{0}; // bytes of memory left; more is an ErrorKind::Limit
 };
 
 /// Services of the program that calls the pipeline. The functions may be called from any thread,
@@ -39,17 +39,17 @@ struct Host {
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
         read_named_file;
     std::function<bool(const std::string& path)> file_exists;
-    /// Becomes true when the result is no longer wanted; may be null.
+    /// The caller sets it to true to stop the call; may be null.
     const std::atomic<bool>* cancelled = nullptr;
-    /// May be empty.
+    /// Reports progress. May be empty.
     std::function<void(const DerivationProgress& progress)> progress;
 };
 
 struct Project {
     Host host;
-    Limits limits;             // modules per word; bytes per word, skeleton, mesh and file
+    Limits limits;             // max modules per word; max bytes per word, skeleton, mesh and file
     std::uint32_t threads = 0; // 0: as many as the machine has
-    MessageLevels levels;      // of --allow, --warn and --deny
+    MessageLevels levels;      // levels of diagnostics, from --allow, --warn and --deny
 
     [[nodiscard]] bool is_cancelled() const {
         return host.cancelled != nullptr && host.cancelled->load(std::memory_order_relaxed);

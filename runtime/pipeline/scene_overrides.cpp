@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kDiskTrees = 0.7; // poisson-disk trees per square of side `spacing`
+constexpr double kDiskTrees = 0.7; // trees that poisson-disk places per square of side `spacing`
 
 /// Replaces `target` if the option is set.
 template <typename Target, typename Value>
@@ -26,7 +26,7 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     };
     if (!overrides.ground_picture.empty()) {
         terrain.colour = absolute(overrides.ground_picture);
-        terrain.normals = {}; // of another picture
+        terrain.normals = {}; // they belong to the replaced picture
     }
     const char* const picture = "the ground has no picture; --ground-picture names one";
     if (!overrides.ground_normals.empty()) {
@@ -117,7 +117,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         if (overrides.height) {
             scene.placement.species[i].min_height = overrides.height->min;
             scene.placement.species[i].max_height = overrides.height->max;
-            species.height_span = {}; // no longer the value of the scene
+            species.height_span = {}; // the value does not come from the scene file
         }
         const auto found = overrides.species.find(species.name);
         if (found == overrides.species.end()) {

@@ -37,9 +37,9 @@ struct HeightRange {
 struct SpeciesOverrides {
     std::optional<double> share;
     std::optional<float> min_scale;
-    std::optional<float> max_scale;  // raised to min_scale where it is less
-    std::optional<float> min_height; // m, of a species that has heights
-    std::optional<float> max_height; // raised to min_height where it is less
+    std::optional<float> max_scale;  // raised to min_scale if it is less
+    std::optional<float> min_height; // m; ignored for a species without a range of heights
+    std::optional<float> max_height; // m; raised to min_height if it is less
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
 
@@ -49,23 +49,23 @@ struct SpeciesOverrides {
 struct SceneOverrides {
     GrammarOptions grammar; // for all species; `generations` replaces their stages by one
     std::optional<std::uint64_t> key;
-    std::optional<std::uint64_t> seed; // of the heroes
+    std::optional<std::uint64_t> seed; // seed of the first hero
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
     std::optional<std::uint32_t> cache_cap;
     std::optional<float> tolerance;
-    std::optional<HeightRange> height;   // of the trees of every species
+    std::optional<HeightRange> height;   // for the trees of every species
     std::optional<double> variety;       // InstancingGoal::variety
     std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
-    std::optional<float> size;          // m, side of a square with its corner at the origin
+    std::optional<float> size;          // m, side of a square region with a corner at the origin
     std::optional<double> spacing;      // m
-    std::optional<double> density;      // places per square metre
+    std::optional<double> density;      // trees per square metre
     std::string density_map;            // absolute, or relative to the working folder
-    std::optional<std::uint32_t> years; // Domination: years; others: stages grown since the start
-    std::vector<std::uint32_t> stages;  // for all species: generations, rising; empty: none
-    std::optional<StageStart> start;    // for all species
+    std::optional<std::uint32_t> years; // Domination: years; other methods: stages since the start
+    std::vector<std::uint32_t> stages;  // generations of each stage, ascending, for all species
+    std::optional<StageStart> start;    // first stage of trees, for all species
     std::optional<float> years_of_stage;
     std::optional<ForestTile> tile;
     std::optional<TerrainKind> terrain;
@@ -73,28 +73,30 @@ struct SceneOverrides {
     std::optional<double> hill_spacing; // m
     std::optional<std::uint64_t> hill_seed;
     std::string ground_picture;        // absolute, or relative to the working folder
-    std::string ground_normals;        // likewise
-    std::optional<double> ground_tile; // m, side of the pictures of the ground
-    /// Per species name; overrides the values for all species. Names missing in the scene are
-    /// ignored.
+    std::string ground_normals;        // absolute, or relative to the working folder
+    std::optional<double> ground_tile; // m, side of the square that a picture of the ground covers
+    /// By species name. These values win over the values for all species. Names that the scene does
+    /// not have are ignored.
     std::map<std::string, SpeciesOverrides> species;
 
     friend bool operator==(const SceneOverrides&, const SceneOverrides&) = default;
 
-    /// Whether trees may get other places, species or numbers (Tree::number) than in the scene.
+    /// Whether trees may get places, species or numbers (Tree::number) that differ from the
+    /// scene's.
     [[nodiscard]] bool changes_placement() const;
 };
 
-/// Replaces values of `scene`. To combine several overrides, apply one after the other, the
-/// strongest last. Errors: `tile` for a method that has no tiles; `ground_normals` or `ground_tile`
-/// without a picture of the ground; `start` or `years_of_stage` without stages.
+/// Replaces values of `scene`. To combine several overrides, apply one after the other, the one
+/// with the highest priority last. Errors: `tile` for a method that has no tiles; `ground_normals`
+/// or `ground_tile` without a picture of the ground; `start` or `years_of_stage` without several
+/// stages; `years_of_stage` without Domination; `stages` together with `grammar.generations`.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
-/// Sets `method`, and the values that `method` reads but the method of `scene` does not, for about
-/// as many trees as in `scene`.
+/// Sets `overrides.method`, and the values that this method reads and the method of `scene` does
+/// not, so that there are about as many trees as in `scene`.
 void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene);
 
-/// Whether a placement method reads PlacementOptions::count, spacing, density.
+/// Whether a placement method reads PlacementOptions::count, spacing or density.
 [[nodiscard]] bool reads_count(PlacementMethod method);
 [[nodiscard]] bool reads_spacing(PlacementMethod method);
 [[nodiscard]] bool reads_density(PlacementMethod method);

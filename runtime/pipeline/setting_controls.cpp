@@ -13,8 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Usual values of a setting. Settings whose scale depends on the grammar, such as lengths, have
-/// none.
+/// Usual values of a setting. Settings whose scale depends on the grammar, such as lengths, have no
+/// row.
 struct UsualRange {
     std::string_view key;
     float min;

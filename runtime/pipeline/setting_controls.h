@@ -21,26 +21,27 @@ enum class SettingKind : std::uint8_t {
 };
 
 struct SettingControl {
-    std::string_view key; // of `#set`
+    std::string_view key; // key in `#set`
     SettingKind kind = SettingKind::Number;
-    std::array<float, 4> numbers{};      // the value; only the first, except for Vector
+    std::array<float, 4> numbers{};      // the value; kinds other than Vector use only the first
     std::string_view word;               // the value of Word
     std::vector<std::string_view> words; // all values of Word
-    float lowest = 0.0F;                 // min value of Number and Count; less is an error
-    float highest = 0.0F;                // max value of Number and Count; more is an error
-    /// Range of a slider: usual values, may be narrower than the legal ones. None if `max` is not
-    /// above `min`.
+    float lowest = 0.0F;                 // min valid value of Number and Count
+    float highest = 0.0F;                // max valid value of Number and Count
+    /// Range of a slider: usual values, possibly narrower than the valid ones. No range if `max` is
+    /// not above `min`.
     float min = 0.0F;
     float max = 0.0F;
 };
 
-/// The settings of a grammar that options may replace, except `seed`. A .lsb file lacks the
-/// settings that are compiled in (is_compiled_in()); other dialects lack `names`.
+/// The settings of a grammar that --set may replace, except `seed`: of a .lsb file those that are
+/// not is_compiled_in(); of a grammar in another dialect all but `names`.
 [[nodiscard]] std::vector<SettingControl> setting_controls(const Grammar& grammar);
 
-/// Numbers as the values of a `#set`: `0.5 -1 0 0.2`. Reading the text gives the same numbers.
+/// Numbers as text for a `#set`: `0.5 -1 0 0.2`. Parsing the text gives the same numbers.
 [[nodiscard]] std::string setting_text(std::span<const float> numbers);
-/// The numbers of `values` if it is exactly `count` numbers; else none, as for names of constants.
+/// The numbers in `values`, or nothing if it is not exactly `count` numbers but, for example, the
+/// name of a constant.
 [[nodiscard]] std::optional<std::array<float, 4>> numbers_of(std::string_view values,
                                                              std::size_t count);
 

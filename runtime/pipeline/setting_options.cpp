@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kOption = "--set"; // the path of an option in messages
+constexpr std::string_view kOption = "--set"; // shown in messages as the path of an option's text
 constexpr std::string_view kBlanks = " \t";
 
 constexpr std::array<std::string_view, 6> kCompiledIn{"turtle", "names",   "rewriting",
@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// The first place in `values` that would end the statement or the line; npos: none.
+/// Offset of the first character of `values` that would end the statement or the line, or npos.
 std::size_t find_end_of_statement(std::string_view values) {
     return std::min({values.find_first_of(";#\n\r"), values.find("//"), values.find("/*")});
 }

@@ -1,5 +1,5 @@
-// Values of `#set` from options: pairs of key and text become statements, with files of their own
-// for the places of diagnostics.
+// Values of `#set` from options: each pair of key and text becomes a statement in a file of its
+// own, so that diagnostics have places.
 #pragma once
 
 #include "compiler/program/compile_options.h"
@@ -20,22 +20,22 @@ namespace lsys {
 /// Parses `KEY=VALUES` and trims both; whether the setting exists and fits is checked later.
 [[nodiscard]] Result<SettingText> parse_setting(std::string_view text);
 
-/// The values of a key; empty: `settings` lacks it.
+/// The values of a key; empty if `settings` does not have it.
 [[nodiscard]] std::string_view values_of(std::string_view key,
                                          std::span<const SettingText> settings);
 
-/// Whether a setting is compiled into the bytecode, which then fits no other value.
+/// Whether the bytecode depends on the setting, so that the setting of a .lsb file cannot change.
 [[nodiscard]] bool is_compiled_in(std::string_view key);
 
-/// One `#set` statement per setting. Diagnostics of a setting point into its own file of `sources`,
-/// which has the path `--set` and the text `KEY=VALUES`. None if `settings` is empty.
+/// Makes one `#set` statement per setting. Diagnostics of a setting point into its own file of
+/// `sources`, with the path `--set` and the text `KEY=VALUES`. Nothing if `settings` is empty.
 [[nodiscard]] std::optional<Ast> parse_settings(std::span<const SettingText> settings,
                                                 SourceMap& sources,
                                                 Names& names,
                                                 Diagnostics& diagnostics);
 
-/// Changes settings of a compiled grammar, read from `path`: numbers, `tropism`, `seed` and
-/// `at_depth`. Error: other keys, which are compiled in. Appends diagnostics, whose places are in
+/// Changes settings of a compiled grammar that was read from `path`: numbers, `tropism`, `seed` and
+/// `at_depth`. Error: a key that is_compiled_in(). Appends diagnostics with places in
 /// `grammar.sources`.
 [[nodiscard]] Result<void> change_compiled_settings(const std::string& path,
                                                     std::span<const SettingText> settings,

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// `bytes`, or its Error with the name of the file.
+/// Adds the name of the file to the Error of `bytes`, if it is an error.
 Result<std::string> with_file_name(Result<std::string> bytes, const std::string& path) {
     if (bytes) {
         return bytes;

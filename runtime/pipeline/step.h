@@ -1,4 +1,4 @@
-// Step: a call of the pipeline in progress: collects its messages and makes its Outcome.
+// Step: a pipeline call in progress. Collects the messages of the call and makes its Outcome.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -17,17 +17,18 @@ public:
 
     [[nodiscard]] const Project& project() const { return project_; }
 
-    /// Reads a file that the user names. The Error names the file.
+    /// Reads a file that the user names, with Host::read_file. The Error names the file.
     [[nodiscard]] Result<std::string> read(const std::string& path, const ReadLimit& limit) const;
-    /// Reads a file that another file names. The Error names the file.
+    /// Reads a file that another file names, with Host::read_named_file. The Error names the file.
     [[nodiscard]] Result<std::string> read_named(const std::string& path,
                                                  const ReadLimit& limit) const;
 
-    /// Adds diagnostics with the levels of the project. Returns whether there are no errors, so
-    /// that the step may go on.
+    /// Applies the levels of the project to the diagnostics and adds them to the messages. Returns
+    /// whether none is an error, so that the step may go on.
     bool diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     bool diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources);
-    /// Takes over messages and value of an inner step; returns whether there is a value.
+    /// Takes messages and value from the outcome of an inner step. Returns whether there is a
+    /// value.
     template <typename T>
     [[nodiscard]] bool take(Outcome<T> outcome, T& value) {
         messages.append(std::move(outcome.messages()));

@@ -17,7 +17,7 @@ namespace lsys {
 
 namespace {
 
-/// A copy without origins; none if there is no memory.
+/// A copy of a word without its origins; nothing if there is not enough memory.
 std::optional<Word> copy_of_word(const Word& word) {
     Word copy(word.code_width());
     if (!copy.resize(word.module_count(), word.parameter_count())) {
@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    /// Ends with the message of the derivation.
+    /// Reports why the derivation stopped, and ends the step with `stop`.
     Step::Ended end(const Derivation& derivation, Stop stop) {
         report(derivation, stop);
         return step_.end(stop);
@@ -117,15 +117,15 @@ private:
         }
     }
 
-    // --- words that are kept, so that the way back need not begin at the axiom each time
+    // --- stored words, so that following back need not derive from the axiom for each generation
 
     struct Kept {
         std::uint32_t age = 0;
         Word word;
     };
 
-    /// Keeps the word of every stride-th age, in a quarter of the memory. Where they take more,
-    /// every other one is dropped.
+    /// Stores a copy of the word if its age is a multiple of stride_. If the copies take more than
+    /// a quarter of the memory limit, doubles stride_ and drops every other copy.
     void keep(const Derivation& derivation) {
         if (!options_.back || derivation.age() % stride_ != 0) {
             return;
@@ -151,7 +151,7 @@ private:
         }
     }
 
-    /// Brings a derivation to the word of age `age`, from the last word kept before it.
+    /// Brings a derivation to the word of age `age`, starting from the last stored word up to it.
     [[nodiscard]] std::optional<Stop> go_to(Derivation& derivation, std::uint32_t age) {
         const auto after = std::find_if(kept_.begin(), kept_.end(),
                                         [age](const Kept& each) { return each.age > age; });
@@ -224,7 +224,7 @@ private:
         for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
             has_name[i] = bytecode_.symbols[i].name == module.name;
         }
-        std::vector<std::uint64_t> others; // of the name, with other values
+        std::vector<std::uint64_t> others; // positions of modules with the name and other values
         std::uint64_t parameter = 0;
         const std::uint64_t max_rows = exact ? 1 : options_.rows;
         for (std::uint64_t i = 0; i < word.module_count(); ++i) {
@@ -296,10 +296,11 @@ private:
         return positions;
     }
 
-    /// Hands the traces of each root to `take(place, trace)`, with parents within their place.
+    /// Calls `take(place, trace)` for each trace with the TracedPlace of its root.
+    /// ModuleTrace::parent becomes an index among the traces of that place.
     template <typename Take>
     void distribute(const StepTracer& tracer, const Take& take) {
-        std::vector<std::size_t> own(tracer.traces().size(), kNoTrace); // index in its place
+        std::vector<std::size_t> own(tracer.traces().size(), kNoTrace); // index within its place
         std::vector<std::size_t> counts(trace_.places.size(), 0);
         for (std::size_t i = 0; i < tracer.traces().size(); ++i) {
             ModuleTrace trace = tracer.traces()[i];
@@ -326,7 +327,7 @@ private:
         return stop;
     }
 
-    /// The passes of #interpret, which are made of the last word only.
+    /// Traces the passes of #interpret, which only the last word has.
     [[nodiscard]] std::optional<Stop> trace_drawing(const Word& word) {
         if (!trace_.is_last || !bytecode_.has(Stage::Interpret)) {
             return std::nullopt;
@@ -353,7 +354,7 @@ private:
         return stop;
     }
 
-    /// Runs `work` with the tracer; reports its end.
+    /// Runs `work` on a copy of the derivation `from` while `tracer` observes it. Reports a stop.
     template <typename Work>
     [[nodiscard]] std::optional<Stop>
     traced(const Derivation& from, StepTracer& tracer, const Work& work) {
@@ -398,8 +399,9 @@ private:
         }
     }
 
-    /// Follows a module generation by generation. The engine names the module that each came from;
-    /// the step from it is then traced.
+    /// Follows a module back to the axiom, generation by generation. The engine tells which module
+    /// of the previous word wrote it (Derivation::follow()); the step from that module is then
+    /// traced.
     [[nodiscard]] std::optional<Stop> follow_back(TracedPlace& place) {
         std::uint64_t position = place.position;
         for (std::uint32_t age = trace_.generation; age-- > 0;) {
@@ -483,7 +485,7 @@ private:
     TraceInputs inputs_;
     Trace trace_;
     std::vector<TracedModule> next_; // modules at StepTracer::places()
-    std::vector<Kept> kept_;         // ascending
+    std::vector<Kept> kept_;         // stored words, by ascending age
     std::uint32_t stride_ = 1;
 };
 

@@ -20,14 +20,14 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kSpaces = " \t";
 
-/// A text in place of the bytes [begin, end) of the file.
+/// Replaces the bytes [begin, end) of the file by a text.
 struct TextEdit {
     std::size_t begin = 0;
     std::size_t end = 0;
     std::string text;
 };
 
-/// The first line end after `offset`; if there is none, the first line end of the text.
+/// The first line end after `offset`; if there is none, the first line end in the text.
 std::string_view line_end_at(std::string_view text, std::size_t offset) {
     std::size_t newline = text.find('\n', offset);
     if (newline == std::string_view::npos) {
@@ -48,7 +48,7 @@ bool is_blank_or_comment(std::string_view rest) {
            is_blank_or_comment(rest.substr(end + 2));
 }
 
-/// Edits of one grammar.
+/// Collects and applies the edits of one grammar.
 class ValueWriter {
 public:
     ValueWriter(const std::string& path, const std::string& bytes, const FileLoader& load)
@@ -149,7 +149,7 @@ private:
         replace(join(first, last), "#set " + setting.key, setting.values);
     }
 
-    /// The words in the values of a setting, among them its constants.
+    /// The identifiers in the values of a setting, which include the constants that it uses.
     [[nodiscard]] static std::set<std::string, std::less<>> words_of(const SettingText& setting) {
         SourceMap sources;
         Names names;
@@ -208,7 +208,7 @@ private:
         add_before(text_.size(), line);
     }
 
-    /// The last `#include` of the root file before `statement`, which stands in an included file.
+    /// The `#include` of the root file through which `statement`, in an included file, was read.
     [[nodiscard]] const Statement* include_of(const Statement& statement) const {
         const Statement* include = nullptr;
         for (const Statement& each : ast_.statements) {

@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// Values for statements of a grammar.
+/// New values of statements of a grammar.
 struct StatementValues {
     std::optional<std::uint32_t> generations; // #n
     std::vector<Definition> definitions;      // #define and #param, which exist
@@ -25,11 +25,11 @@ struct StatementValues {
 };
 
 /// The `bytes` of the .lsys grammar `path` with `values` in place of the values of its statements.
-/// A setting without a statement becomes a new line after the last `#set`, else before the first
-/// statement; generations without `#n` become a new line before the first statement. Line ends and
-/// a byte order mark stay as they are. `load` reads included files, which never change. Errors: a
-/// syntax error; a constant that does not exist or is defined after its use; a statement that
-/// stands in an included file.
+/// Adds a line for a setting without a statement: after the last `#set`, or before the first
+/// statement if there is none. Adds a line for generations without `#n` before the first statement.
+/// Line ends and a byte order mark stay as they are. `load` reads included files, which never
+/// change. Errors: a syntax error; a constant that does not exist or is defined after its use; a
+/// statement that stands in an included file.
 [[nodiscard]] Result<std::string> with_values(const std::string& path,
                                               const std::string& bytes,
                                               const StatementValues& values,

@@ -44,7 +44,7 @@ bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     return false;
 }
 
-/// Growth in the open, m per year.
+/// Growth of the radius of a plant that is not dominated, m per year.
 float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
     return growth.rate * vigour * (1.0F - radius / growth.max_radius);
 }
@@ -90,7 +90,8 @@ public:
         plant.radius += plant.dominated ? growth_in_year * growth.tolerance : growth_in_year;
     }
 
-    /// Stress of a year in the shade, or recovery of a year in the open.
+    /// Adds the stress of a year as a dominated plant, or subtracts the recovery of a year as a
+    /// free one.
     void update_stress(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         const float harm = growth.rate * plant.vigour / (plant.radius * kShadeTolerance);

@@ -38,18 +38,19 @@ public:
     [[nodiscard]] static Result<Domination> begin(const PlacementOptions& options,
                                                   const Terrain& terrain);
 
-    /// Advances one year: seeds, growth, domination, death, in time about linear in the plants. The
-    /// result is the same for any number of threads. Errors: more than kMaxTrees plants and seeds,
-    /// more numbers than 32 bits hold, the end of kMaxYears; the forest is then unchanged.
+    /// Advances one year: seeds, growth, domination, death. Time is about linear in the number of
+    /// plants. The result is the same for any number of threads. Errors: more than kMaxTrees plants
+    /// and seeds, more plant numbers than 32 bits hold, more than kMaxYears years; the forest is
+    /// then unchanged.
     [[nodiscard]] Result<void> step();
 
     [[nodiscard]] std::uint32_t year() const { return year_; }
     /// The living plants by number. No two circles of plants that are not dominated meet.
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
-    /// The living plants as trees, in the same order. A tree's scale is the drawn one times the
+    /// The living plants as trees, in the same order. A tree's scale is its random scale times the
     /// ratio of its radius to that of a plant of its age and full vigour that was never dominated.
     /// A plant of year 0 may start at a later stage: its tree is older by the years of the stages
-    /// before. Seedlings start at the first stage.
+    /// that it skips. Seedlings start at the first stage.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 

@@ -1,6 +1,6 @@
-// Placement: the trees of a forest, with position, species, scale and yaw. Every
-// draw for a tree is a function of the forest's key and the tree's number, so results are the same
-// for any number of threads and on any machine. runtime/placement/README.md describes each method.
+// Placement: the trees of a forest, with position, species, scale and yaw. Every draw for a tree is
+// a function of the forest's key and the tree's number, so results are the same for any number of
+// threads and on any machine. runtime/placement/README.md describes each method.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -69,7 +69,7 @@ struct PlacementSpecies {
     float highest = std::numeric_limits<float>::infinity();  // m, altitude
     float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees
     SpeciesGrowth growth;
-    std::uint32_t stages = 1; // of different ages; 1: ages do not matter
+    std::uint32_t stages = 1; // number of stages of growth; 1: ages do not matter
     StageStart start = StageStart::Random;
     float years_of_stage = 0.0F; // Domination: above 0 where there are several stages
 };
@@ -85,7 +85,7 @@ struct PlacementOptions {
     const GreyMap* density_map = nullptr;
     std::optional<Region> map_region; // extent of the map, black outside; none: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t stages_passed = 0;  // other methods: since the start, by each tree
+    std::uint32_t stages_passed = 0;  // other methods: stages each tree has passed
     std::uint32_t threads = 0;        // 0: as many as the machine has
 };
 
@@ -106,7 +106,7 @@ struct Placement {
 [[nodiscard]] Result<Placement> place_trees(const PlacementOptions& options,
                                             const Terrain& terrain);
 
-/// The reason, for the user, why there are fewer trees than places; empty if there are not.
+/// The reason, for the user, why there are no trees, or fewer trees than places; else empty.
 [[nodiscard]] std::string placement_note(const PlacementReport& report);
 
 } // namespace lsys

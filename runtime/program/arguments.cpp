@@ -19,7 +19,7 @@ struct Parsed {
     T value{};
 };
 
-/// Parses the whole of `text` as a number.
+/// Parses `text` as a number without anything before or after it.
 template <typename T>
 Parsed<T> parse_all(std::string_view text) {
     Parsed<T> parsed;
@@ -123,7 +123,7 @@ Result<Definition> parse_definition(std::string_view text) {
     const std::string_view number = text.substr(equals + 1);
     const Parsed<float> parsed = parse_all<float>(number);
     if (parsed.error == std::errc::result_out_of_range) {
-        // Overflow is an error; underflow gives the nearest binary32, which may be zero.
+        // An underflow is no error: it gives the nearest binary32, which may be zero.
         const Parsed<double> wide = parse_all<double>(number);
         if (wide.error == std::errc() && std::abs(wide.value) < 1.0) {
             definition.value = static_cast<float>(wide.value);

@@ -21,14 +21,15 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// A number from `low` to `high`.
 [[nodiscard]] Result<float> parse_number(std::string_view text, float low, float high);
 
-/// `x,y,z` or `x,y,z,gust`: velocity in metres per second, and amplitude of gusts relative to it.
+/// `x,y,z` or `x,y,z,gust`: velocity in metres per second, and amplitude of gusts as a fraction of
+/// the velocity.
 [[nodiscard]] Result<Wind> parse_wind(std::string_view text);
 
 /// `X,Y,Z`: a place in metres.
 [[nodiscard]] Result<glm::vec3> parse_place(std::string_view text);
 
-/// Bytes: a whole number, or a number with a suffix K, M, G or T (powers of 1024; also `KiB`,
-/// `KB`).
+/// A number of bytes: a whole number, or a number with a suffix K, M, G or T, which may be followed
+/// by `B` or `iB`. All suffixes are powers of 1024.
 [[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);
 
 /// `NAME=number`.

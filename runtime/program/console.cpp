@@ -29,7 +29,7 @@ bool wants_colour(const Io& io, ColourMode mode) {
     return io.err_is_terminal && (no_colour == nullptr || *no_colour == '\0');
 }
 
-/// The diagnostics that --quiet prints.
+/// The errors among `diagnostics`, which are all that --quiet prints.
 Diagnostics errors_only(const Diagnostics& diagnostics) {
     Diagnostics errors;
     for (const Diagnostic& diagnostic : diagnostics.all()) {

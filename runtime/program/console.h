@@ -29,15 +29,15 @@ public:
 
     /// Prints `lsc: error: message`, or a JSON object.
     void error(std::string_view message) const;
-    /// Prints `lsc: help: message` after an error; nothing in JSON.
+    /// Prints `lsc: help: message` after an error. In JSON prints nothing.
     void help(std::string_view message) const;
-    /// Prints a note, for example about written files, unless quiet.
+    /// Prints a note, for example about written files, unless --quiet.
     void info(std::string_view message) const;
-    /// Prints a line, `file:line:col: ...`, unless quiet.
+    /// Prints a line to standard error without a prefix, `file:line:col: ...`, unless --quiet.
     void line(std::string_view text) const;
-    /// Prints lines of JSON, unless quiet.
+    /// Prints lines of JSON to standard error, unless --quiet.
     void records(std::string_view lines) const;
-    /// Prints a note about the work if verbose.
+    /// Prints a note about the progress of the work, only with --verbose.
     void detail(std::string_view message) const;
 
     /// Prints the messages of a step.
@@ -59,8 +59,8 @@ public:
     }
     /// Prints one diagnostic without a place; returns `status`.
     [[nodiscard]] ExitStatus show(Diagnostic diagnostic, ExitStatus status) const;
-    /// Sorts the diagnostics, applies levels and -q, and prints them. Returns AuthorErrors if there
-    /// are errors, Limit if one of them is a limit.
+    /// Sorts the diagnostics, applies the levels, and prints them, with --quiet only errors.
+    /// Returns AuthorErrors if there are errors, Limit if one of them is a limit, else Ok.
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;
 
@@ -69,7 +69,8 @@ public:
     /// Flushes standard output.
     [[nodiscard]] Result<void> flush() const;
 
-    /// Flushes standard output; returns the exit status of a command that ended with `status`.
+    /// Flushes standard output at the end of a command. Returns the exit status for a command that
+    /// ended with `status`.
     [[nodiscard]] ExitStatus finish(ExitStatus status) const;
 
 private:
@@ -80,7 +81,7 @@ private:
     MessageOptions options_;
 };
 
-/// The text that a Console of `program` prints for the messages, without colour.
+/// The text that a Console of the program `program` prints for the messages, without colour.
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 

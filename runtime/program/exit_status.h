@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// In ascending order of severity; Interrupted overrides all.
+/// Exit statuses in ascending order of severity.
 enum class ExitStatus : std::uint8_t {
     Ok = 0,
     AuthorErrors = 1,

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t kReadBytes = std::size_t{1} << 20;
 
-/// An Error if `size` bytes exceed the limit.
+/// Returns an Error if `size` bytes exceed the limit.
 Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
     if (size > limit.memory && limit.memory < limit.max_bytes) {
         return memory_error("it", limit.memory);
@@ -65,7 +65,8 @@ Result<std::string> read_descriptor(int descriptor,
     bytes.reserve(expected + 1);
     while (true) {
         const std::size_t size = bytes.size();
-        // One byte more than expected, so that the end of the file is found without growing.
+        // The capacity is one byte more than the expected size, so that read() finds the end of the
+        // file without a larger buffer.
         const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
         bytes.resize(size + std::min(room, kReadBytes));
         const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
@@ -90,12 +91,13 @@ Result<std::string> read_descriptor(int descriptor,
     }
 }
 
-/// Six unpredictable letters or digits.
+/// Six random letters or digits.
 std::string random_letters() {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::uint64_t bits = 0;
     if (::getrandom(&bits, sizeof bits, GRND_NONBLOCK) != sizeof bits) {
-        // With O_EXCL the name need not be secret, only different for each attempt.
+        // No random bytes are available. With O_EXCL the name need not be secret, only different
+        // for each attempt.
         static std::atomic<std::uint64_t> count{0};
         bits = (static_cast<std::uint64_t>(::getpid()) << 20) + ++count;
     }
@@ -110,7 +112,7 @@ std::string random_letters() {
 } // namespace
 
 std::string errno_text(int reason) {
-    if (reason == EBADF) { // a standard stream closed at the start of the process
+    if (reason == EBADF) { // a standard stream that was closed when the process started
         return "it is closed";
     }
     std::string text = std::strerror(reason);
@@ -161,7 +163,8 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // O_NONBLOCK: opening a pipe does not wait for its writer; pipes are refused below.
+    // With O_NONBLOCK open() does not wait for the writer of a pipe; refusal_reason() refuses
+    // pipes.
     const int mode = kind == FileKind::Regular ? O_NONBLOCK : 0;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
     struct stat facts {};
@@ -217,8 +220,8 @@ void Output::clear_temporary() {
     }
 }
 
-/// Makes an empty file beside target_. Its mode is `mode` if it replaces an existing file (0600
-/// until it is set), else that of the umask.
+/// Makes an empty file in the folder of target_. If the target exists, the file is made with mode
+/// 0600 and then gets `mode`; else its mode follows the umask.
 Result<void> Output::make_temporary(bool exists, unsigned mode) {
     constexpr int kAttempts = 100;
     const mode_t first_mode = exists ? 0600 : 0666;
@@ -329,7 +332,7 @@ Result<void> Output::commit() {
     const unsigned flags = must_be_new_ ? RENAME_NOREPLACE : 0;
     int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
     if (failed != 0 && flags != 0 && (errno == EINVAL || errno == ENOSYS)) {
-        failed = ::rename(temporary_.c_str(), target_.c_str()); // create() found no such file
+        failed = ::rename(temporary_.c_str(), target_.c_str()); // create() has found no such file
     }
     if (failed != 0) {
         return failure(errno);
@@ -338,8 +341,8 @@ Result<void> Output::commit() {
     return {};
 }
 
-/// Gives the file its name; the existing file gets the temporary name, from which unpublish()
-/// restores it.
+/// Gives the file its name. A file with that name gets the temporary name, from which unpublish()
+/// can restore it.
 Result<void> Output::publish() {
     struct stat facts {};
     const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
@@ -368,7 +371,7 @@ void Output::unpublish() {
 }
 
 Result<void> commit_all(std::vector<Output>& outputs) {
-    // Detects a full disk before any change.
+    // Finish all files first, to detect a full disk before any file is replaced.
     for (Output& output : outputs) {
         if (Result<void> finished = output.finish(); !finished) {
             return finished;
@@ -382,7 +385,7 @@ Result<void> commit_all(std::vector<Output>& outputs) {
             return published;
         }
     }
-    outputs.clear(); // removes the replaced files
+    outputs.clear(); // destructors remove the replaced files, which have the temporary names
     return {};
 }
 

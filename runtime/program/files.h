@@ -1,5 +1,5 @@
-// Complete files: read at once; written to a temporary file and renamed when complete. `-` is
-// standard input or output. Failures of the environment are Errors with the name of the file.
+// Reading and writing of whole files. A file is written under a temporary name and renamed when it
+// is complete. `-` is standard input or output. Errors name the file unless noted.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -22,19 +22,20 @@ read_file(const std::string& path, const ReadLimit& limit, const Console& consol
 
 /// The kinds of files that may be read.
 enum class FileKind : std::uint8_t {
-    Named,   // by the user; may be a pipe or a terminal
-    Regular, // named by another file; only a regular file or /dev/null, which never block
+    Named,   // a file that the user names; may be a pipe or a terminal
+    Regular, // a file that another file names; a regular file or /dev/null, which never block
 };
-/// The bytes of a file; its Error is only the reason. `cancelled` may be null.
+/// The bytes of a file. The Error is the reason without the name of the file. `cancelled` may be
+/// null.
 [[nodiscard]] Result<std::string> read_bytes(const std::string& path,
                                              FileKind kind,
                                              const ReadLimit& limit,
                                              const std::atomic<bool>* cancelled);
-/// The bytes of standard input; its Error is only the reason.
+/// The bytes of standard input. The Error is the reason without a name.
 [[nodiscard]] Result<std::string> read_standard_input(const ReadLimit& limit,
                                                       const Console& console);
 
-/// The text of an errno, in lower case.
+/// The text of an errno value, without a capital at its start.
 [[nodiscard]] std::string errno_text(int reason);
 
 /// The path of a numbered file: tree.0012.glb for tree.glb and 12.
@@ -77,9 +78,9 @@ private:
     void unpublish();
 
     const Console* console_;
-    std::string path_;              // as given by the user
-    std::string target_;            // with links resolved
-    std::string temporary_;         // beside target_; empty for devices and pipes
+    std::string path_;              // as the user gave it
+    std::string target_;            // path_ with symbolic links resolved
+    std::string temporary_;         // in the folder of target_; empty for devices and pipes
     TemporaryName* slot_ = nullptr; // registration of temporary_
     int descriptor_ = -1;           // -1: standard output, or finished
     bool is_finished_ = false;

@@ -12,8 +12,8 @@ namespace lsys {
 
 /// A host that reads files on disk. `cancelled` may be null.
 [[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled);
-/// A host that reads files on disk, and standard input for `-` and `standard_input`. `console`
-/// outlives it.
+/// A host that reads files on disk, and standard input for the paths `-` and `standard_input`.
+/// `console` must outlive it.
 [[nodiscard]] Host make_host(const Console& console, const std::string& standard_input);
 
 /// A project with make_host(), without progress.

@@ -12,7 +12,8 @@ struct Io {
     std::ostream& out;
     std::ostream& err;
     bool err_is_terminal = false; // enables colour and progress
-    /// True after Ctrl-C, which ends the run with status 130; may be null.
+    /// Becomes true after SIGINT, SIGTERM or SIGHUP; the run then ends with status 130. May be
+    /// null.
     const std::atomic<bool>* interrupted = nullptr;
     const char* program = "lsc"; // prefix of messages
 };

@@ -15,15 +15,16 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; kNoLimit for "max" and for a missing file.
+/// The number in a file; kNoLimit if the file is missing or contains "max".
 std::uint64_t limit_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t bytes = kNoLimit;
     return file >> bytes ? bytes : kNoLimit;
 }
 
-/// The min limit of a group and its parents. `base`: the folder of the topmost visible group, whose
-/// limit is the only one found if the group belongs to another cgroup namespace.
+/// The min limit of a cgroup and its parents. `base`: the folder of the topmost group that the
+/// process can see. In a cgroup namespace the folder of `group` may be missing; then only the limit
+/// of `base` counts.
 std::uint64_t min_limit(const fs::path& base, std::string_view group, const char* file) {
     fs::path folder = base;
     std::uint64_t min_bytes = limit_in(folder / file);

@@ -1,4 +1,4 @@
-// The options of messages.
+// The options that decide how messages are printed.
 #pragma once
 
 #include "grammar/base/message_levels.h"
@@ -15,8 +15,8 @@ struct MessageOptions {
     MessageFormat format = MessageFormat::Human;
     ColourMode colour = ColourMode::Auto;
     MessageLevels levels;
-    bool quiet = false;   // errors only, no progress
-    bool verbose = false; // steps and sizes too
+    bool quiet = false;   // print errors only, and no progress
+    bool verbose = false; // also print steps of the work and their sizes
 };
 
 } // namespace lsys

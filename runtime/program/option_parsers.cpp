@@ -309,7 +309,8 @@ std::string help_text(const CLI::App& app, const std::string& program) {
             text += c;
         }
     }
-    // CLI11 shows the value of a flag without one.
+    // For a flag with an optional value CLI11 shows the default value; show the other value
+    // instead.
     constexpr std::string_view kFlag = "{certain} ";
     if (const std::size_t at = text.find(kFlag); at != std::string::npos) {
         text.replace(at, kFlag.size(), "[=offered]");
@@ -326,7 +327,7 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         return error.get_exit_code() == static_cast<int>(code);
     };
     const std::vector<std::string> extras = app.remaining(true);
-    // CLI11 reports a missing file before an unknown option, which may be its cause.
+    // CLI11 reports a missing argument before an unknown option, which may be the cause of it.
     const auto unknown = std::find_if(extras.begin(), extras.end(), [](const std::string& extra) {
         return extra.starts_with('-');
     });

@@ -68,13 +68,13 @@ inline auto integer(std::uint64_t low, std::uint64_t high) {
     return [low, high](const std::string& text) { return parse_integer(text, low, high); };
 }
 
-/// A number from 0 to 1.
+/// Parses a number from 0 to 1.
 inline Result<float> fraction(const std::string& text) {
     return parse_number(text, 0.0F, 1.0F);
 }
 
-/// The mistake found by CLI11, worded like other messages, with the nearest option name. `command`:
-/// the words before the options of `app`, such as `lsc derive`.
+/// Words a mistake found by CLI11 like other messages, and suggests the nearest option name.
+/// `command`: the words before the options of `app`, such as `lsc dump`.
 [[nodiscard]] UsageError
 to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 
@@ -87,25 +87,25 @@ void add_messages(CLI::App& app, MessageOptions& options);
 void add_levels(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
-/// The folder of a grammar from standard input.
+/// The options --base and --stdin-name: folder or path of a grammar from standard input.
 void add_base(CLI::App& app, RunOptions& run);
-/// Gives standard input the folder of --base or the name of --stdin-name: changes each `-` of
-/// `files` to standard_input_in() or standard_input_as(). A mistake: one of them without a `-`.
+/// Applies --base or --stdin-name: replaces each `-` in `files` by the path of standard_input_in()
+/// or standard_input_as(). Returns a mistake if one of these options is given without a `-`.
 [[nodiscard]] std::optional<UsageError> apply_base(const RunOptions& run,
                                                    std::span<std::string> files);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
-/// The height of the plant, in m.
+/// The option for the height of the plant, in m.
 void add_height(CLI::App& app, std::optional<float>& height);
-/// Heights of the trees of a forest: METRES, or MIN,MAX.
+/// The option for heights of the trees of a forest: METRES, or MIN,MAX.
 void add_tree_height(CLI::App& app, std::optional<HeightRange>& height);
 /// The options of make_mesh().
 void add_mesh(CLI::App& app, MeshOptions& mesh);
-/// Describes `--level` of add_mesh() as a number of DetailLevels.
+/// Changes the help of `--level`, an option of add_mesh(), to describe a level of DetailLevels.
 void describe_detail_levels(CLI::App& app);
 void add_run_limits(CLI::App& app, RunOptions& run);
 
-/// Options that override a scene: key, placement, instances. `size`: the name of the option for the
-/// side of the ground.
+/// The options that replace values of a scene: key, placement, instances. `size`: the name of the
+/// option for the side of the ground.
 void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* size);
 
 } // namespace lsys

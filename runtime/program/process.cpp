@@ -18,17 +18,17 @@ namespace lsys {
 
 namespace {
 
-// The exit status of shells for a process ended by a signal: 128 plus its number.
+// Shells report a process that a signal ended with the status 128 plus the number of the signal.
 constexpr int kSignalStatus = 128;
 static_assert(kSignalStatus + SIGINT == static_cast<int>(ExitStatus::Interrupted));
 
-// Seconds from SIGTERM or SIGHUP to the end of a run, which may be blocked by a pipe.
+// Max seconds from SIGTERM or SIGHUP to the end of the process, which a full pipe may block.
 constexpr unsigned kShutdownSeconds = 2;
 
 std::atomic<bool> interrupted{false};
-std::atomic<int> first_signal{0}; // first signal received that ends the process
+std::atomic<int> first_signal{0}; // the first signal received by on_end_signal(); 0: none
 std::atomic<bool> has_alarm{false};
-// Required for use in a signal handler.
+// Only lock-free atomics may be used in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_end_signal(int signal) {
@@ -36,11 +36,12 @@ extern "C" void on_end_signal(int signal) {
     first_signal.compare_exchange_strong(none, signal);
     const bool again = interrupted.exchange(true);
     if (signal != SIGINT) {
-        // A second SIGTERM or SIGHUP means no more: timeout(1) and a closing terminal send two.
+        // A second SIGTERM or SIGHUP has no further effect, since timeout(1) and a closing terminal
+        // send two.
         if (!has_alarm.exchange(true)) {
             ::alarm(kShutdownSeconds);
         }
-    } else if (again) { // the second Ctrl-C ends at once
+    } else if (again) { // a second Ctrl-C ends the process at once
         remove_temporaries();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
@@ -59,26 +60,26 @@ void handle_signals() {
     for (const int signal : {SIGTERM, SIGHUP}) {
         struct sigaction inherited {};
         ::sigaction(signal, nullptr, &inherited);
-        if (inherited.sa_handler != SIG_IGN) { // SIG_IGN is set by nohup(1)
+        if (inherited.sa_handler != SIG_IGN) { // nohup(1) sets SIG_IGN, which stays in effect
             ::sigaction(signal, &action, nullptr);
         }
     }
     action.sa_handler = on_alarm;
     ::sigaction(SIGALRM, &action, nullptr);
-    // A write beyond `ulimit -f` then returns an error.
+    // Then a write beyond the file size limit (`ulimit -f`) returns an error instead of a signal.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Opens closed standard streams, so that no file of the run gets their descriptors. The streams
-/// opened can be neither read nor written, nor reopened as /dev/stdout; /dev/null would hide lost
-/// output.
+/// Opens standard streams that are closed, so that no other file gets their descriptors. The opened
+/// streams can be neither read nor written, nor reopened as /dev/stdout. They are not /dev/null,
+/// which would silently drop output.
 void fill_standard_streams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) {
             continue;
         }
         if (::open("/", O_PATH | O_DIRECTORY) != descriptor) {
-            ::_exit(static_cast<int>(ExitStatus::Failure)); // no stream for a message
+            ::_exit(static_cast<int>(ExitStatus::Failure)); // without a stream for a message
         }
     }
 }

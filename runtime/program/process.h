@@ -8,16 +8,16 @@
 
 namespace lsys {
 
-/// Calls `run` with the arguments after the program's name and the streams of the process; returns
-/// its exit status, or 130, 143 and 129 after SIGINT, SIGTERM and SIGHUP. At most once per process.
-/// `program`: the prefix of messages. Closed standard streams become files that cannot be read or
-/// written.
+/// Calls `run` with the arguments after the program's name and the streams of the process. Returns
+/// the exit status of `run`, or 130 after SIGINT, 143 after SIGTERM and 129 after SIGHUP. Call it
+/// at most once per process. `program`: the prefix of messages. Closed standard streams become
+/// files that cannot be read or written.
 [[nodiscard]] int run_process(int argc,
                               char** argv,
                               const char* program,
                               int (*run)(std::span<const std::string> arguments, const Io& io));
 
-/// Reports that memory ran out, without allocations; returns the exit status.
+/// Prints that memory has run out, without allocating any; returns the exit status.
 [[nodiscard]] int report_out_of_memory(const Io& io);
 
 } // namespace lsys

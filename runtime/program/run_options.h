@@ -11,9 +11,10 @@ namespace lsys {
 struct RunOptions {
     Limits limits;
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Folder of a grammar from standard input; empty: the current one.
+    /// Folder of a grammar from standard input; empty: the current folder.
     std::string base;
-    /// Path of a grammar from standard input, in messages and for its included files; empty: none.
+    /// Path that a grammar from standard input has in messages and for its included files; empty:
+    /// none.
     std::string stdin_name;
 };
 

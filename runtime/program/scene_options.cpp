@@ -36,7 +36,7 @@ Result<ForestTile> parse_tile(const std::string& text) {
     return tile;
 }
 
-/// Parses `1,2,3`: numbers of generations, rising.
+/// Parses `1,2,3`: numbers of generations in ascending order.
 Result<std::vector<std::uint32_t>> parse_stages(const std::string& text) {
     constexpr std::size_t kMaxStages = 256;
     std::vector<std::uint32_t> stages;
@@ -160,7 +160,7 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
         if (!parsed) {
             return parsed.error();
         }
-        return std::stod(fmt::format("{}", parsed.value())); // as written: 0.99 is not 0.99F
+        return std::stod(fmt::format("{}", parsed.value())); // 0.99 as written, not 0.99F
     };
     add_parsed(
         app, "--variety", overrides.variety, share,

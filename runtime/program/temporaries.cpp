@@ -8,13 +8,13 @@
 namespace lsys {
 
 struct TemporaryName {
-    std::atomic<char*> path{nullptr}; // owned by the thread that exchanges it for null
+    std::atomic<char*> path{nullptr}; // whoever exchanges it for null owns the text
     TemporaryName* next = nullptr;
 };
 
 namespace {
 
-// The list only grows at its head, so a handler can walk it at any time.
+// A list of all slots. It only grows at its head, so a signal handler can walk it at any time.
 std::atomic<TemporaryName*> first_name{nullptr};
 static_assert(std::atomic<char*>::is_always_lock_free);
 static_assert(std::atomic<TemporaryName*>::is_always_lock_free);

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A number with the digits of a binary32, or its name if it is not finite.
+/// A JSON number with the shortest digits of a binary32, or a string if it is not finite.
 Json number(float value) {
     if (!std::isfinite(value)) {
         return std::isnan(value) ? "nan" : value > 0.0F ? "infinity" : "-infinity";

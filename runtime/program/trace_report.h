@@ -8,9 +8,10 @@
 
 namespace lsys {
 
-/// One paragraph a decision, with lines of the grammar; about one screen for each module.
+/// The trace as text: one paragraph per decision, with lines of the grammar; about one screen per
+/// module.
 [[nodiscard]] std::string trace_text(const Trace& trace, const Grammar& grammar, bool colour);
-/// One JSON object and a line end.
+/// The trace as a JSON object with a line end.
 [[nodiscard]] std::string trace_json(const Trace& trace, const Grammar& grammar);
 
 } // namespace lsys

@@ -18,11 +18,11 @@ namespace lsys {
 
 namespace {
 
-/// Limits that keep a module within a screen.
+/// Max numbers of items shown, so that the report of a module fits one screen.
 constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
-constexpr std::size_t kMaxLater = 8; // modules of later passes that are explained in full
-constexpr std::size_t kMaxMet = 6;   // of a context
+constexpr std::size_t kMaxLater = 8; // modules of later passes
+constexpr std::size_t kMaxMet = 6;   // modules that a context met
 
 std::string value_text(float value) {
     if (!std::isfinite(value)) {
@@ -33,7 +33,7 @@ std::string value_text(float value) {
     return text;
 }
 
-/// "3 > 2 is true", "3 * 2 = 6".
+/// A step of an evaluation: "3 > 2 is true", "3 * 2 = 6".
 std::string part_text(const TracedPart& part) {
     return part.is_truth
                ? fmt::format("{} is {}", part.values, part.value != 0.0F ? "true" : "false")
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] const BytecodeProduction& production(ProductionId id) const {
         return bytecode_.productions[static_cast<std::size_t>(id)];
     }
-    /// The production of the program, for its places; null for a .lsb file.
+    /// The production in the Program, which has the places of its parts; null for a .lsb file.
     [[nodiscard]] const Production* source_of(ProductionId id) const {
         const bool known = grammar_.program &&
                            grammar_.program->productions.size() == bytecode_.productions.size();
@@ -84,7 +84,8 @@ private:
     [[nodiscard]] std::string name(ProductionId id) const {
         return fmt::format("`{}`", production(id).name);
     }
-    /// "`#decompose leaf`" where the stage needs to be said.
+    /// The name of a production, with the keyword of a stage other than rewriting: "`#decompose
+    /// leaf`".
     [[nodiscard]] std::string full_name(ProductionId id) const {
         const BytecodeProduction& named = production(id);
         return named.stage == Stage::Rewrite
@@ -125,7 +126,7 @@ private:
 
     // --- productions that were tried
 
-    /// The modules that a context met, as a label.
+    /// The text of a label with the modules that a context met.
     [[nodiscard]] std::string met_text(const ContextTrace& context) const {
         std::string text;
         const std::size_t shown = std::min(context.met.size(), kMaxMet);
@@ -184,7 +185,7 @@ private:
         return {};
     }
 
-    /// Marks of a production in its line, or lines of text for a .lsb file.
+    /// Notes on a production: labels in its source line, or lines of text for a .lsb file.
     struct Notes {
         std::vector<Label> labels;
         std::vector<std::string> texts;
@@ -203,7 +204,7 @@ private:
         }
     }
 
-    /// The marks of a production; those of the reason why it does not apply come first.
+    /// Prints the notes on a production that was tried, the reason why it does not apply first.
     void explain(const Attempt& attempt, const TracedModule& own) {
         const Production* const source = source_of(attempt.production);
         const BytecodeProduction& tried = production(attempt.production);
@@ -257,7 +258,7 @@ private:
         return is_truth ? (condition.value != 0.0F ? "true" : "false")
                         : fmt::format("{}", value_text(condition.value));
     }
-    /// The operations of a condition, if it has several.
+    /// Prints the operations of a condition, if it has several.
     void parts(const ExpressionTrace& condition) {
         if (condition.parts.size() < 2) {
             return;
@@ -318,7 +319,7 @@ private:
             line("{} matches too, and is not the one chosen by chance", who);
             break;
         case Verdict::NotTried:
-            return; // in one line below
+            return; // attempts() lists these in one line
         }
         explain(attempt, trace.module);
     }
@@ -416,7 +417,8 @@ private:
         }
     }
 
-    /// What became of the module in this pass. `word`: what the positions written are of.
+    /// Prints what became of the module in this pass. `word`: names the word that the positions
+    /// refer to, such as " of generation 3".
     void outcome(const ModuleTrace& trace, const std::string& word) {
         switch (trace.fate) {
         case Fate::Cut:
@@ -464,7 +466,8 @@ private:
         });
     }
 
-    /// "decomposition, pass 2: L(3) at position 5"; empty for the only pass of a generation.
+    /// The title of a trace, "decomposition, pass 2: L(3) at position 5"; empty if the generation
+    /// has only one pass.
     [[nodiscard]] std::string pass_head(const ModuleTrace& trace) const {
         const std::string where =
             fmt::format("{} at position {}", module(trace.module), trace.position);
@@ -483,7 +486,7 @@ private:
         return {};
     }
 
-    /// `start`: the position of the module that the list is of.
+    /// Prints the traces of one module. `start`: the position of the module.
     void
     traces(const std::vector<ModuleTrace>& list, std::uint64_t start, std::uint32_t generation) {
         std::size_t later = 0;
@@ -528,7 +531,8 @@ private:
         }
     }
 
-    /// Whether the trace is of a match that used up a traced module.
+    /// Whether the trace is that of a match which used up the traced module as a later part of its
+    /// predecessor.
     [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
                                        const ModuleTrace& trace) {
         return trace.parent != kNoTrace && list[trace.parent].fate == Fate::UsedUp;
@@ -564,7 +568,7 @@ private:
         }
     }
 
-    // --- the way back
+    // --- following a module back to the axiom
 
     /// Prints the generations in which a module was only copied.
     void copies(std::uint32_t first, std::uint32_t last) {
@@ -580,7 +584,7 @@ private:
             return;
         }
         out_ += '\n';
-        std::optional<std::uint32_t> copied; // the last generation of the copies being passed
+        std::optional<std::uint32_t> copied; // last generation of a run of copies; unset: no run
         std::uint32_t first_copy = 0;
         for (const TraceBack& each : place.back) {
             if (each.steps.empty()) {
@@ -630,7 +634,7 @@ private:
         }
     }
 
-    /// The line of the production with a mark under the module that it wrote.
+    /// Prints the line of the production with a label under the module that it wrote.
     void back_frame(const ModuleTrace& trace, std::uint64_t offset) {
         const Production* const source = source_of(trace.production);
         if (source == nullptr) {

@@ -1,5 +1,5 @@
-// Results of a command line that runs no command. Apart from option_parsers.h, because CLI11 takes
-// seconds to parse and readers of options need none of it.
+// Results of a command line that runs no command. Not part of option_parsers.h, because that
+// includes CLI11, which takes seconds to compile, and code that uses options does not need CLI11.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Reports of a plant under its weight: a table for `lsc stats --gravity`, and the warning that it
-// falls, with the widths or the stiffness that would hold it, of `lsc` and `lsview`.
+// Reports on a plant under its weight: the table of `lsc stats --gravity`, and the warning of `lsc`
+// and `lsview` that a plant falls, with the widths or the stiffness that would hold it.
 #pragma once
 
 #include "compiler/bytecode/settings.h"
@@ -14,15 +14,15 @@
 
 namespace lsys {
 
-/// A plant under its weight. For a plant that falls, also the values with which it would stand,
-/// rounded up to two digits; unset if none was found.
+/// A plant under its weight. For a plant that falls, also values with which it would stand, rounded
+/// up to two significant digits; unset if none was found.
 struct WeightReport {
     double gravity = 0.0; // m/s^2
     Stability stability;
-    double height_left = 1.0; // of the bent plant, relative to the unbent one
+    double height_left = 1.0; // height of the bent plant / height of the unbent plant
     std::optional<double> width_factor;
-    std::optional<double> elasticity; // Pa; if all springs are computed from it
-    std::optional<double> spring;     // N m/rad; if all joints have the same spring
+    std::optional<double> elasticity; // Pa; only if all springs are computed from it
+    std::optional<double> spring;     // N m/rad; only if all joints have the same spring
     [[nodiscard]] bool stands() const { return height_left >= kStandingHeight; }
 };
 
@@ -32,18 +32,20 @@ struct WeightReport {
 weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
 
 [[nodiscard]] std::string weight_text(const WeightReport& report);
-/// One JSON object and a line end.
+/// The report as a JSON object with a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);
 
-/// Max segments of a plant that is weighed only for a warning: each trial settles the plant.
+/// Max number of segments of a plant that is weighed only for a warning, since each trial settles
+/// the whole plant.
 inline constexpr std::size_t kMaxWeighedSegments = 20'000;
 /// The warning of a plant that falls; empty if it stands.
 [[nodiscard]] Diagnostics fall_warning(const WeightReport& report);
-/// fall_warning() of the plant under the gravity of `options` without their wind; empty for a plant
-/// that is too large to be weighed, and without gravity.
+/// fall_warning() of the plant under the gravity of `options`, without wind. Empty for a plant that
+/// is too large to be weighed, and without gravity.
 [[nodiscard]] Diagnostics
 weigh_for_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options);
-/// Prints the warning of a plant that falls. Returns AuthorErrors with --deny warnings.
+/// Prints the warning if the plant falls. Returns AuthorErrors if the warning counts as an error,
+/// as with --deny warnings.
 [[nodiscard]] ExitStatus
 warn_of_fall(const WeightReport& report, const Grammar& grammar, const Console& console);
 

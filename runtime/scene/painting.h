@@ -16,8 +16,8 @@
 
 namespace lsys {
 
-/// Painted trees have numbers from here on, derived from their position: the look of a tree does
-/// not depend on other painted trees.
+/// The lowest Tree::number of painted trees. The number is a hash of species and position, so that
+/// the look of a tree does not depend on other painted trees.
 inline constexpr std::uint32_t kFirstPainted = 0x8000'0000U;
 inline constexpr std::size_t kMaxPainted = 10'000'000;
 
@@ -42,15 +42,15 @@ struct Painting {
 /// The Tree of a painted tree, standing on the terrain.
 [[nodiscard]] Tree painted_tree(const PaintedTree& painted, const Terrain& terrain);
 
-/// Removes the erased trees and appends those painted within `region`.
+/// Removes the erased trees from `trees` and appends the painted trees within `region`.
 void apply_painting(const Painting& painting,
                     const Region& region,
                     const Terrain& terrain,
                     LargeVector<Tree>& trees);
 
 /// The text of a scene file with its painting replaced by `painting`. `species` holds the names of
-/// the scene's species. Error: the `[painted]` of the file is written in a way that cannot be
-/// replaced.
+/// the scene's species, in order. Errors: the file is not TOML; its `[painted]` is written in a way
+/// that cannot be replaced.
 [[nodiscard]] Result<std::string> with_painting(std::string_view scene,
                                                 const Painting& painting,
                                                 std::span<const std::string> species);

@@ -20,7 +20,7 @@
 
 namespace lsys {
 
-inline constexpr float kSceneRho = 0.6F; // as in Carey 2019
+inline constexpr float kSceneRho = 0.6F; // the default of `rho`, from Carey 2019
 inline constexpr std::uint32_t kMaxHeroes = 100'000;
 inline constexpr std::uint32_t kMaxSceneSpecies = 65'536; // range of Tree::species
 
@@ -48,8 +48,8 @@ struct SceneTerrain {
     std::uint32_t map_rows = 0;
     HeightMapOptions height_map;
     SceneFile colour;        // picture of the surface; empty: grass and earth
-    SceneFile normals;       // its relief; only with `colour`
-    double tile_width = 4.0; // m, of the pictures along X
+    SceneFile normals;       // normal map of the surface; only with `colour`
+    double tile_width = 4.0; // m along X that one copy of the pictures covers
     double tile_depth = 4.0; // m, along Z
     /// m, a corner of a tile: `origin` of the scene file. Overrides of the region do not move it.
     double tile_x = 0.0;
@@ -91,7 +91,7 @@ struct SceneSpecies {
     std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
-    /// Domination: age per stage; 0: one stage, or unset.
+    /// Domination: years per stage; 0: one stage, or unset.
     float years_of_stage = 0.0F;
     std::optional<StageStart> start; // none: First with domination, else Random
     float rho = kSceneRho;
@@ -112,18 +112,18 @@ struct Scene {
     SourceSpan span;       // of `[placement]`; kNoFile if missing
 };
 
-/// Copies number of stages, start and years per stage of each species to `scene.placement`. Called
-/// after the last change of `scene`. Domination without years per stage divides its years evenly
-/// among the stages.
+/// Copies the number of stages, the start and the years per stage of each species to
+/// `scene.placement`. Called after the last change of `scene`. Domination without years per stage
+/// divides its years evenly among the stages.
 void copy_stages_to_placement(Scene& scene);
-/// Age per stage of trees of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
+/// Years per stage of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
 [[nodiscard]] float years_of_stage(const Scene& scene, std::size_t index);
-/// Stages or years that a forest grows: the years of domination; else the steps from the first
-/// stage to the last of the species with the most of them, 0 without stages.
+/// The last point in time of a growing forest: with domination its years; else the number of stages
+/// after the first one, of the species with the most stages.
 [[nodiscard]] std::uint32_t last_year(const Scene& scene);
 
-/// Reads `file` as a scene. Reports each mistake once, in order of place; a file that is not TOML
-/// has one. Returns none if there is a mistake.
+/// Reads `file` as a scene. Reports each mistake once, in order of place; of a file that is not
+/// TOML only the first syntax error. Returns none if there is a mistake.
 [[nodiscard]] std::optional<Scene>
 parse_scene(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
-/// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000.
+/// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000 in this distance.
 constexpr double kSlopePart = 1.0 / 32.0;
 // In m; far from the origin binary32 cannot resolve a smaller step.
 constexpr double kMinSlopeStep = 0.05;
-/// Generation of the draws of terrains, beyond those of derivations.
+/// Generation number of the random draws of terrains; no derivation reaches it.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
 
 bool within(double value, double min, double max) {
@@ -61,7 +61,7 @@ Result<void> check_altitude(std::string_view name, double altitude) {
     return {};
 }
 
-/// `cells` within the period of the noise.
+/// `cells` modulo the period of the noise.
 float wrapped(double cells) {
     return static_cast<float>(cells - kPeriod * std::floor(cells / kPeriod));
 }
@@ -92,7 +92,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     double amplitude = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
-        // each octave is shifted within the noise: otherwise their zeros would coincide
+        // each octave is shifted: otherwise the zeros of all octaves would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
         terrain.octaves_.push_back({frequency, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),

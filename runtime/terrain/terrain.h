@@ -50,10 +50,11 @@ class Terrain {
 public:
     /// Makes a level ground. Errors: a bad region; an altitude not within kMaxCoordinate.
     [[nodiscard]] static Result<Terrain> flat(const Region& region, double altitude = 0.0);
-    /// Makes ground of noise, which continues beyond `region` and does not depend on it. Errors:
-    /// also a bad option, named.
+    /// Makes ground of noise, which continues beyond `region` and does not depend on it. Errors: a
+    /// bad region; an option out of range, named in the message.
     [[nodiscard]] static Result<Terrain> noise(const Region& region, const NoiseOptions& options);
-    /// Makes ground from a map, level beyond its border. Errors: also fewer than 2 by 2 pixels.
+    /// Makes ground from a map, level beyond its border. Errors: a bad region or altitude; fewer
+    /// than 2 by 2 pixels.
     [[nodiscard]] static Result<Terrain>
     height_map(const Region& region, GreyMap map, const HeightMapOptions& options);
 
@@ -96,7 +97,7 @@ inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9
 /// Pictures of the surface of the ground, as tiles side by side. Columns run along X, rows along Z.
 struct GroundPictures {
     std::shared_ptr<const Texture> colour;  // null: no pictures
-    std::shared_ptr<const Texture> normals; // as bark_normals(); may be null
+    std::shared_ptr<const Texture> normals; // normal map, as of bark_normals(); may be null
     double origin_x = 0.0;                  // m, a corner of a tile
     double origin_z = 0.0;
     double width = 4.0; // m, of a tile along X
@@ -109,8 +110,8 @@ struct TerrainMeshOptions {
     std::uint32_t rows = 256;
     double texture_size = 0.0; // m of ground per texture; 0: one texture for all
     std::uint32_t threads = 0; // 0: as many as the machine has
-    GroundPictures pictures;   // with a colour: `texture_size` is not read
-    bool tangents = false;     // along X
+    GroundPictures pictures;   // if its colour is set, `texture_size` is ignored
+    bool tangents = false;     // whether to make Mesh::tangents, along X
 };
 
 /// Meshes the terrain's region with two triangles per cell. Vertices have height() and normal() of

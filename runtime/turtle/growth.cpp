@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// A value before (0) and after (1).
+/// A value in the earlier drawing (0) and in the later drawing (1).
 template <typename T>
 using Ends = std::array<T, 2>;
 
@@ -28,7 +28,7 @@ struct Joint {
 struct Motion {
     Ends<glm::quat> turn;
     Ends<glm::vec3> offset;            // from the parent's tip, in its frame
-    std::uint32_t parent = kNoSegment; // index among the segments to write
+    std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from nothing or shrinks to nothing
 };
 
@@ -37,7 +37,7 @@ struct MovingSegment {
     Ends<float> length{};
     Ends<float> base_radius{};
     Ends<float> tip_radius{};
-    bool is_apart = false; // linked in `after` only: between the two it has a gap to its parent
+    bool is_apart = false; // linked in `after` only, so until then it has a gap to its parent
 };
 
 struct MovingObject {
@@ -71,7 +71,7 @@ void use_shorter_turn(Ends<glm::quat>& turn) {
     }
 }
 
-/// Eases `part` in and out.
+/// Smoothstep of `part`.
 double eased(double part) {
     return part * part * (3.0 - 2.0 * part);
 }
@@ -89,7 +89,7 @@ struct SkeletonGrowth::State {
     Skeleton before;
     Skeleton after;
     GrowthCounts counts;
-    LargeVector<MovingSegment> segments; // those of `after`, then those that shrink
+    LargeVector<MovingSegment> segments; // segments of `after`, then those that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
     LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in its frame
@@ -97,13 +97,13 @@ struct SkeletonGrowth::State {
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;
     // Used only by the constructor.
-    LargeVector<Ends<Joint>> joints;    // by segment
-    LargeVector<std::uint32_t> written; // by segment of `before`: the written one that continues it
+    LargeVector<Ends<Joint>> joints;    // by index in `segments`
+    LargeVector<std::uint32_t> written; // by segment of `before`: index in `segments`, or none
 
     [[nodiscard]] Joint joint(std::uint32_t segment, std::size_t end) const {
         return segment == kNoSegment ? Joint{} : joints[segment][end];
     }
-    /// The written segment that continues a segment of `before`.
+    /// The index in `segments` that continues a segment of `before`.
     [[nodiscard]] std::uint32_t written_of(std::uint32_t segment) const {
         return segment == kNoSegment ? kNoSegment : written[segment];
     }
@@ -117,8 +117,9 @@ struct SkeletonGrowth::State {
         motion.turn[end] = glm::quat(back * frame);
         motion.offset[end] = glm::vec3(back * (place - from.tip));
     }
-    /// Sets the end at which an item has size 0, after the other end is set: at the parent's tip,
-    /// with the same turn relative to the parent. An item without a parent stays in its place.
+    /// Sets the pose in the drawing `end`, in which the item has size 0, from the pose in the other
+    /// one: at the parent's tip, with the same turn relative to the parent. An item without a
+    /// parent stays in its place.
     static void set_vanished(Motion& motion, std::size_t end) {
         motion.turn[end] = motion.turn[1 - end];
         motion.offset[end] = motion.parent == kNoSegment ? motion.offset[1 - end] : glm::vec3(0.0F);
@@ -168,7 +169,7 @@ struct SkeletonGrowth::State {
             } else if (segment.linked) {
                 moving.motion.offset = {};
             }
-            written[piece.of] = index; // the last piece
+            written[piece.of] = index; // in the end, the last piece
             ++counts.kept;
         }
         use_shorter_turn(moving.motion.turn);
@@ -239,14 +240,14 @@ struct SkeletonGrowth::State {
         }
     }
 
-    /// The corner of a polygon relative to the parent.
+    /// The corner of a polygon relative to the parent's tip, in its frame.
     [[nodiscard]] glm::vec3
     local_corner(const glm::vec3& corner, std::uint32_t parent, std::size_t end) const {
         const Joint from = joint(parent, end);
         return {glm::conjugate(from.frame) * (glm::dvec3(corner) - from.tip)};
     }
 
-    /// Adds the corners at one end of time; at the other end all corners are one point.
+    /// Adds the corners in the drawing `end`; in the other drawing all corners are one point.
     void add_corners(const glm::vec3* first,
                      std::uint32_t count,
                      std::uint32_t parent,
@@ -277,7 +278,8 @@ struct SkeletonGrowth::State {
                 const Polygon& old = before.polygons[old_of[i]];
                 set_end(moving.motion, 0, {}, old.frame);
                 for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
-                    // With more corners than before, adjacent corners begin at the same point.
+                    // If the polygon has more corners than the old one, adjacent corners begin at
+                    // the same point.
                     const auto at = static_cast<std::uint32_t>(std::uint64_t{k} * old.corner_count /
                                                                polygon.corner_count);
                     corners[moving.first_corner + k][0] =

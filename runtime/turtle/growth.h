@@ -1,7 +1,7 @@
-// SkeletonGrowth: a plant between two generations, as a function of the time between them. New
-// parts grow from nothing, parts that are no longer drawn shrink to nothing, and other parts move
-// from their old pose to the new one. Made by runtime/pipeline from drawings of two words whose
-// modules were followed (Derivation::follow()).
+// SkeletonGrowth: a plant between two generations, as a function of time. New parts grow from
+// nothing, parts that are no longer drawn shrink to nothing, and other parts move from their old
+// pose to the new one. Made by runtime/pipeline from drawings of two words whose modules were
+// followed (Derivation::follow()).
 //
 // Pairs of old and new parts:
 // - A module that is copied draws the same parts again: they correspond one to one.
@@ -36,9 +36,9 @@ struct GrowthCounts {
 
 class SkeletonGrowth {
 public:
-    /// `before` and `after`: drawings with origins, whose places are indexes of modules in their
-    /// words. `ancestors`: the followed origin of each module of the later word. May throw
-    /// std::bad_alloc.
+    /// `before` and `after`: drawings with origins; Origin::place is the index of the module in the
+    /// word of the drawing. `ancestors`: for each module of the later word its origin after
+    /// Derivation::follow(). May throw std::bad_alloc.
     SkeletonGrowth(Skeleton before,
                    Skeleton after,
                    std::uint32_t generation, // of `after`
@@ -48,8 +48,8 @@ public:
     SkeletonGrowth& operator=(SkeletonGrowth&&) noexcept;
 
     /// Writes the plant at time `part`, 0 to 1, to `out`. 0 and 1 give exactly the skeletons before
-    /// and after, without origins. Between them the segments of `after` come first, with its
-    /// springs, masses, colours and sides; then the shrinking ones.
+    /// and after, without origins. In between, the segments of `after` come first, with its
+    /// springs, masses, colours and sides; then the shrinking segments of `before`.
     void pose(double part, Skeleton& out) const;
 
     [[nodiscard]] const Skeleton& before() const;

@@ -61,8 +61,8 @@ float spring_of(const Segment& segment, double elasticity) {
                           to_double(segment.tip_radius), elasticity);
 }
 
-/// Calls change(segment), and computes its mass and spring again unless the author gave them:
-/// unless they differ from those of the shape.
+/// Calls change(segment), and computes its mass and spring again. Values given by the author stay:
+/// they are those that differ from the values of the shape.
 template <typename Change>
 void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
     const bool mass_follows = segment.mass == mass_of(segment, material.density);

@@ -12,13 +12,14 @@
 
 namespace lsys {
 
-/// kg: the volume of a truncated cone times `density` (kg/m^3), at most the largest binary32.
-/// Lengths in m.
+/// Mass in kg: the volume of a truncated cone times `density` (kg/m^3), at most the largest
+/// binary32. Lengths in m.
 [[nodiscard]] float
 mass_of_cone(double length, double base_radius, double tip_radius, double density);
 
-/// N m/rad: E I / length of a beam of the mean diameter d, I = pi d^4 / 64. At most the largest
-/// binary32, also for a beam without length, which is rigid. Lengths in m, `elasticity` E in Pa.
+/// Spring constant in N m/rad: E I / length of a beam of the mean diameter d, I = pi d^4 / 64. At
+/// most the largest binary32, also for a beam without length, which is rigid. Lengths in m,
+/// `elasticity` E in Pa.
 [[nodiscard]] float
 spring_of_beam(double length, double base_radius, double tip_radius, double elasticity);
 
@@ -38,8 +39,8 @@ struct StemMaterial {
 /// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
 /// once; tips: the number of its descendants without children, 1 if it has no children. Masses and
 /// springs that follow from shape and `material` are computed again. Returns Stop::Limit if the
-/// counts do not fit into `max_bytes` beside the skeleton, or Stop::OutOfMemory; the skeleton is
-/// then unchanged.
+/// numbers of tips do not fit into `max_bytes` beside the skeleton, or Stop::OutOfMemory; the
+/// skeleton is then unchanged.
 [[nodiscard]] std::optional<Stop> apply_pipe(const Pipe& pipe,
                                              const StemMaterial& material,
                                              std::uint64_t max_bytes,

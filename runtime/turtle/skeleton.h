@@ -33,8 +33,8 @@ struct Segment {
     std::uint16_t colour = 0;          // index into the palette
     std::uint8_t sides = 0;            // corners of its cross-section, set by the author
     bool linked = false;               // begins where its parent ends
-    bool forked = false;               // branches that are drawn elsewhere begin at its end
-    bool cut = false;                  // it begins within its parent, with a surface of its own
+    bool forked = false;               // branches that the skeleton leaves out begin at its tip
+    bool cut = false;                  // begins within its parent, with a closed surface of its own
 };
 
 /// An item of the object library, drawn from `position` along the frame's +Y.
@@ -51,7 +51,7 @@ struct PlacedObject {
 
 inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
 
-/// Corners first_corner ... in Skeleton::corners, at least three.
+/// A filled polygon. Its corners are `corner_count` items, at least three, of Skeleton::corners.
 struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0;
@@ -68,11 +68,11 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
-    bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
-    bool box_segments = false;           // boxes, unless another method is asked for
-    float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
-    // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
-    // had origins.
+    bool l3d_compatible_surface = false; // surfaces as in runtime/meshing/impl/l3d_shapes.h
+    bool box_segments = false;           // meshed as boxes by MeshMethod::Default
+    float leaf_droop = 0.0F;             // value of MeshOptions::droop if that is not set
+    // Origins of the modules that drew the items, in the order of the items; for a polygon, of its
+    // `{`. Empty unless the words had origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;
     LargeVector<Origin> polygon_origins;

@@ -174,7 +174,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
     return end.stop;
 }
 
-/// Draws the modules that `#interpret` makes of others.
+/// Rewrites the modules by the productions of `#interpret` and draws the result.
 template <typename C>
 std::optional<Stop> Turtle::State::interpret(std::span<const C> codes,
                                              std::span<const float> parameters,

@@ -45,7 +45,7 @@ inline constexpr std::uint32_t kMaxSides = 64;
 
 struct TurtleFault {
     std::uint64_t count = 0;    // occurrences
-    std::uint64_t position = 0; // number of the first module with the fault; 0 at the end of a word
+    std::uint64_t position = 0; // index of the first module with the fault; 0 at the end of a word
     Code code = 0;              // code of that module; 0 at the end of a word
 };
 
@@ -60,10 +60,10 @@ struct DrawingEnd {
 struct TurtlePlace {
     glm::dvec3 position{}; // m
     glm::dquat frame{1.0, 0.0, 0.0, 0.0};
-    float width = 0.0F;
-    float taper = 1.0F;
-    float step = 0.0F;
-    float angle = 0.0F;
+    float width = 0.0F;          // m, diameter; or radius / length (width_is_relative)
+    float taper = 1.0F;          // tip radius / base radius
+    float step = 0.0F;           // m
+    float angle = 0.0F;          // degrees
     float second_heading = 0.0F; // degrees from the first heading to the left
     std::uint32_t sides = 0;
     std::uint32_t colour = 0;
@@ -117,8 +117,8 @@ struct TurtleOptions {
 };
 
 /// Draws a word, given in pieces, after the productions of `#interpret` have rewritten it.
-/// Positions of faults count the modules drawn. Functions that return a Stop return none on
-/// success; end() has the facts.
+/// Positions of faults are indexes in the rewritten word. Functions that return a Stop return none
+/// on success; end() has the facts.
 class Turtle {
 public:
     /// `bytecode` outlives the turtle.
@@ -127,20 +127,20 @@ public:
     Turtle(const Turtle&) = delete;
     Turtle& operator=(const Turtle&) = delete;
 
-    /// Reserves room for the drawing of these codes; optional.
+    /// Reserves room for the drawing of `word`; optional.
     [[nodiscard]] std::optional<Stop> reserve(const Word& word);
-    /// Draws the next modules of the word; nothing after a Stop. With `origins` of the codes, or a
-    /// word that keeps them, the drawing has origins too; all pieces must then have them.
+    /// Draws the next modules of the word; nothing after a Stop. If `origins` are given, or the
+    /// word keeps them, the drawing has origins too; all pieces must then have origins.
     [[nodiscard]] std::optional<Stop> feed(const Word& word);
     [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
                                            std::span<const float> parameters);
     [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
                                            std::span<const float> parameters,
                                            std::span<const Origin> origins);
-    /// Ends the word. The last call for it.
+    /// Ends the word; called once, after its last piece.
     [[nodiscard]] std::optional<Stop> finish();
     /// Begins another word, derived with `seed`: from the same start, into the same skeleton.
-    /// Precondition: finish().
+    /// Precondition: finish() was called, and no Stop was returned.
     void begin_word(std::uint64_t seed);
     [[nodiscard]] TurtlePlace place() const;
     [[nodiscard]] DrawnCounts drawn() const;

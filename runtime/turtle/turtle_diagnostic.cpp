@@ -13,7 +13,7 @@ namespace {
 
 struct Wording {
     DiagnosticCode code;
-    const char* what; // text after "module N of the word, a `X`, "; at the end, the whole text
+    const char* what; // text after "module N of the word, a `X`, "; empty for UnclosedBranch
     const char* help; // may be empty
 };
 

@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 
 def import_forest(path):
-    """The collection of the forest. OSError, lsys_plants.gltf.GltfError: nothing is made."""
+    """Makes and returns the collection of the forest. Raises OSError or lsys_plants.gltf.GltfError."""
     import bpy
     from lsys_plants import scene
 

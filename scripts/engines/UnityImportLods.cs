@@ -1,7 +1,7 @@
 // Makes a prefab with an LODGroup of the levels of detail of a plant, for Unity 2021 or later. Put this file into a folder
 // `Editor`, and tree.lods.json with the files that it names into the project (GLB needs the package glTFast; OBJ and others
 // Unity reads itself). Select the list and use Assets > Make LOD prefab. The files are written by
-// `lsc export --lods N --lod-files`. Written by the documentation of LODGroup and MeshCollider.
+// `lsc export --lods N --lod-files`. Based on the documentation of LODGroup and MeshCollider, not tried in Unity.
 using System;
 using System.IO;
 using System.Linq;
@@ -23,7 +23,7 @@ public static class UnityImportLods
         public Level[] levels = new Level[0];
     }
 
-    private const int MaxLevels = 8; // of an LODGroup
+    private const int MaxLevels = 8; // max number of levels of an LODGroup
 
     [MenuItem("Assets/Make LOD prefab", true)]
     private static bool CanMake()
@@ -38,7 +38,7 @@ public static class UnityImportLods
         string folder = Path.GetDirectoryName(path).Replace('\\', '/');
         string name = Path.GetFileName(path).Replace(".lods.json", "");
         Level[] levels = JsonUtility.FromJson<LevelList>(File.ReadAllText(path)).levels;
-        if (levels.Length > MaxLevels) // the first ones and the last
+        if (levels.Length > MaxLevels) // keep the first levels and the last one, the impostor
         {
             levels = levels.Take(MaxLevels - 1).Append(levels.Last()).ToArray();
         }
@@ -57,7 +57,7 @@ public static class UnityImportLods
             child.name = name + "_LOD" + i;
             Renderer[] all = child.GetComponentsInChildren<Renderer>();
             Renderer[] shapes = all.Where(each => each.name.Contains("_collider_")).ToArray();
-            foreach (Renderer shape in shapes) // of --collision-names unity
+            foreach (Renderer shape in shapes) // collision shapes, named by --collision-names unity
             {
                 shape.enabled = false;
                 var collider = shape.gameObject.AddComponent<MeshCollider>();

@@ -1,7 +1,7 @@
-# Makes a scene of the levels of detail of a plant, for Godot 4: each level is visible within its distances.
+# Makes a scene of the levels of detail of a plant, for Godot 4: each level is visible within a range of distances.
 # Copy tree.lods.json and the files that it names into the project, set LIST, and run this with File > Run of the script
-# editor. The files are written by `lsc export --lods N --lod-files`. Written by the documentation of
-# GeometryInstance3D.visibility_range_begin.
+# editor. The files are written by `lsc export --lods N --lod-files`. Based on the documentation of
+# GeometryInstance3D.visibility_range_begin, not tried in Godot.
 @tool
 extends EditorScript
 
@@ -27,7 +27,7 @@ func _run() -> void:
 		root.add_child(node)
 		node.owner = root
 		var begin: float = levels[number]["distance"]
-		# 0 is no end.
+		# The last level has no end, which Godot expresses by 0.
 		var end: float = levels[number + 1]["distance"] if number + 1 < levels.size() else 0.0
 		root.set_editable_instance(node, true)
 		for mesh in node.find_children("*", "GeometryInstance3D", true, false):

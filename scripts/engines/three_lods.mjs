@@ -2,13 +2,13 @@
 // `lsc export -o tree.glb --lods N`, whose node has MSFT_lod and MSFT_screencoverage.
 //
 //     import * as THREE from 'three';
-//     loader.register(lods(THREE)); // or lods(THREE, 45): degrees of the camera's view
+//     loader.register(lods(THREE)); // or lods(THREE, 45): vertical field of view in degrees
 //
-// The node becomes a THREE.LOD, whose renderer shows the level for the distance of the camera.
+// The node becomes a THREE.LOD, of which three.js shows the level for the distance of the camera.
 
-/// Degrees of the view from top to bottom.
+/// Default vertical field of view in degrees.
 const VIEW = 60;
-/// Of the screen that coverages are for.
+/// Width / height of the screen for which the file gives coverages.
 const ASPECT = 16 / 9;
 
 export function lods(THREE, view = VIEW) {
@@ -25,7 +25,8 @@ export function lods(THREE, view = VIEW) {
             return Promise.all(levels).then(objects => {
                 const size = new THREE.Box3().setFromObject(objects[0]).getSize(new THREE.Vector3());
                 const face = size.y * Math.max(size.x, size.z);
-                // A level begins where the box covers less than the one before asks for.
+                // A level begins at the distance where the box covers less of the screen than the
+                // coverage of the level before it.
                 const coverages = node.extras.MSFT_screencoverage;
                 const lod = new THREE.LOD();
                 lod.name = node.name;

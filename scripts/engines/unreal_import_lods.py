@@ -10,7 +10,7 @@ import os
 import sys
 
 
-# Of a static mesh.
+# Max number of levels of a static mesh.
 MAX_LEVELS = 8
 
 
@@ -20,7 +20,7 @@ def fitting(levels):
 
 
 def screen_sizes(levels):
-    """Part of the screen's height at which each level begins; the finest from 1 on."""
+    """By level: fraction of the screen's height at which it begins; 1 for the finest."""
     return [level["screen_height"] for level in levels]
 
 
@@ -51,7 +51,7 @@ def import_levels(unreal, list_path, folder):
         part = import_mesh(unreal, os.path.join(beside, level["file"]), f"{folder}/{name}/LOD{number}")
         if number == 0:
             mesh = part
-        # Slots of its own, since a level may lack materials of the finest one.
+        # The last argument, False, gives the level its own material slots, since it may lack materials of level 0.
         elif editor.set_lod_from_static_mesh(mesh, number, part, 0, False) != number:
             raise RuntimeError(f"{level['file']}: not accepted as level {number}")
     if not editor.set_lod_screen_sizes(mesh, screen_sizes(levels)):

@@ -12,7 +12,7 @@ renderer.toneMapping = THREE.ACESFilmicToneMapping;
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const kMargin = 1.06;
 
-/** The nearest camera in that direction that sees all of the box. */
+/** The nearest camera that sees all of the box, on the ray from the centre of the box along `direction`. */
 function frame(box, direction) {
   const camera = new THREE.PerspectiveCamera(26, canvas.width / canvas.height, 1, 1000);
   const centre = box.getCenter(new THREE.Vector3());

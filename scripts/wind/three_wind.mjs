@@ -2,10 +2,10 @@
 //
 //     const { scene } = await new GLTFLoader().loadAsync('tree.glb');
 //     const wind = addWind(scene);
-//     wind.windVector.value.set(0.5, 0, 0);              // direction and strength, 1: a storm
+//     wind.windVector.value.set(0.5, 0, 0);              // direction; its length is the strength, 1 a storm
 //     wind.windTime.value = clock.getElapsedTime();      // in every frame
 //
-// The wind is in the axes of the plant.
+// The direction of the wind is in the axes of the plant.
 import * as THREE from 'three';
 
 const declarations = `
@@ -48,9 +48,9 @@ function change(material, uniforms) {
     material.needsUpdate = true;
 }
 
-/// Changes the materials of all meshes of `object`, and the depth materials of their shadows.
-/// Returns the uniforms. `sway`: parts of the height by which the top and the most flexible bough
-/// move in a wind of 1.
+/// Changes the materials of all meshes of `object`, and the depth materials of their shadows. Returns
+/// the uniforms. `sway`: how far the top and the most flexible bough move in a wind of strength 1, as
+/// fractions of the height.
 export function addWind(object, { sway = [0.1, 0.05] } = {}) {
     const box = new THREE.Box3().setFromObject(object);
     const uniforms = {

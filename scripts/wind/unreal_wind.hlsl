@@ -1,13 +1,15 @@
-// Wind for plants of `lsc export --wind-data` in Unreal 5. README.md has the formulas. Written by
+// Wind for plants of `lsc export --wind-data` in Unreal 5. README.md has the formulas. Based on
 // Unreal's documentation, not tried.
 //
 // Body of a Custom node with output type CMOT Float 3, for World Position Offset. Inputs:
 //   At       LocalPosition (of the instance), in cm; Unreal is +Z up
-//   UV1, UV2 TexCoord[1] and TexCoord[2]: TEXCOORD_1 in m, TEXCOORD_2
-//   Wind     a vector parameter: direction and strength in the axes of the instance, 1: a storm
-//   Height   a scalar parameter: of the plant, in cm
-//   Sway     a vector parameter: x of the top and y of a bough, parts of the height: 0.1, 0.05
-//   Seconds  Time
+//   UV1, UV2 TexCoord[1] and TexCoord[2]: TEXCOORD_1, in m, and TEXCOORD_2 of the file
+//   Wind     a vector parameter: direction in the axes of the instance; its length is the strength,
+//            1 is a storm
+//   Height   a scalar parameter: height of the plant, in cm
+//   Sway     a vector parameter: how far the top (x) and a bough (y) move, as fractions of the
+//            height: 0.1, 0.05
+//   Seconds  the node Time, in s
 // Transform the result with TransformVector from local to world space. Turn on "Use Full Precision
 // UVs" of the static mesh: heights and distances are in metres.
 float turn = 6.283185307;

@@ -1,10 +1,10 @@
-// Derivation beside hand-written programs for the same six systems (tests/bench/limits.h), and
-// whole runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's JSON if
-// asked for
+// Compares derivation with hand-written programs for the same six systems (tests/bench/limits.h),
+// and times whole runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's
+// JSON if asked for
 // (--benchmark_out=FILE). Asserts nothing about time.
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
-// again with the memory of the time before.
+// again and reuses the memory of the previous derivation.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/fold_reached.h"
 #include "tests/bench/limits.h"
@@ -49,7 +49,7 @@ struct Workload {
     LimitProgram limit;
 };
 
-/// W1 to W6.
+/// The benchmark systems W1 to W6 (tests/README.md).
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;
@@ -106,7 +106,7 @@ double peak_bytes() {
     return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
-/// One derivation as a process sees it.
+/// Measures of one derivation in a process of its own.
 struct Run {
     double seconds = 0.0;
     double modules = 0.0;
@@ -127,12 +127,12 @@ lsys::DeriveOptions options_for(const Workload& workload, std::uint32_t threads)
     return options;
 }
 
-/// What `lsc` derives; part of the time of a derivation.
+/// The folded bytecode, which is what `lsc` derives; folding counts as time of the derivation.
 lsys::Bytecode folded(const lsys::Bytecode& bytecode, const Workload& workload) {
     return lsys::fold_reached(bytecode, 0, workload.generations).value_or(bytecode);
 }
 
-/// `derive_bench --child WORKLOAD THREADS`: derives once, prints the numbers of Run.
+/// `derive_bench --child WORKLOAD THREADS`: derives once and prints the values of Run.
 int derive_as_child(const std::string& name, const std::string& threads) {
     for (const Workload& workload : workloads()) {
         if (workload.name != name) {
@@ -236,7 +236,8 @@ struct WholeRun {
     std::string name;
     std::string grammar;
     std::string arguments; // % stands for the file
-    double bytes = 0.0;    // that it writes, if that is what counts
+    // Bytes that the run writes, for the throughput in the table; 0: none is shown.
+    double bytes = 0.0;
 };
 
 std::vector<WholeRun> whole_runs(const std::vector<Workload>& all) {
@@ -311,7 +312,7 @@ public:
             const double limit = time(name + "/limit cold");
             const std::map<std::string, double>& counters = counters_[name + "/lsc cold 1"];
             if (limit == 0.0 || counters.empty()) {
-                continue; // filtered out
+                continue; // --benchmark_filter leaves the workload out
             }
             fmt::print("{:<9} {:>15.3f}", name, limit);
             for (const char* kind : {"limit cold huge", "limit warm", "lsc cold 1", "lsc cold 2",
@@ -320,7 +321,7 @@ public:
                 fmt::print(" {:>15}", fmt::format("{:.3f} [{:.2f}]", spent, spent / limit));
             }
             const double best = std::min(time(name + "/lsc cold 1"), time(name + "/lsc cold 2"));
-            // W6 rewrites a word of one length again and again
+            // The word of W6 does not grow, so each generation rewrites as many modules.
             const double modules =
                 counters.at("modules") * (name.starts_with("W6") ? workload.generations : 1.0);
             fmt::print(" {:>15.0f} {:>15.2f} {:>15.2f}\n", modules / best / 1000.0,

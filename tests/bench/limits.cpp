@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::size_t kStore = 32;
 
-/// A successor for every code, each stored with one copy of fixed length.
+/// A successor for every code, padded so that one copy of fixed length stores it.
 struct Templates {
     alignas(32) std::uint8_t text[256][kStore]{};
     std::uint8_t length[256]{};
@@ -203,7 +203,7 @@ struct TurtleFrame {
     Vector up{0.0F, 0.0F, 1.0F};
 };
 
-/// Calls draw(frame, end) for every F.
+/// Interprets the word with a turtle; calls draw(frame, end) for every F.
 template <typename Draw>
 void walk(const std::uint8_t* word, std::size_t count, float degrees, Draw draw) {
     const float angle = degrees * 3.14159265358979F / 180.0F;

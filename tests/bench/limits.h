@@ -1,5 +1,6 @@
-// Hand-written programs for one L-system each: what the machine can do when nothing is general.
-// Each derives into buffers that it gets and returns the number of modules.
+// Hand-written programs for one L-system each: an upper bound of the speed that a general program
+// can reach on the machine. Each derives into the buffers of the caller and returns the number of
+// modules. tests/README.md names the systems W1 to W6.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@ namespace lsys::bench {
 
 enum class PageSize : std::uint8_t { Small, Huge };
 
-/// Anonymous pages that no one has touched; releases them at its end. Huge: advised for huge pages.
+/// Anonymous memory whose pages have not been touched yet; released by the destructor.
+/// PageSize::Huge: the kernel is advised to use huge pages.
 class FreshPages {
 public:
     FreshPages(std::size_t bytes, PageSize size);
@@ -26,7 +28,8 @@ private:
     std::size_t bytes_;
 };
 
-/// Context-free systems of one-byte modules without parameters: `successors[c]` or null for a copy.
+/// Context-free systems of one-byte modules without parameters: `successors[c]` is null if the
+/// module is copied.
 struct PlainSystem {
     const char* axiom;
     const char* successors[256];
@@ -36,21 +39,21 @@ struct PlainSystem {
 [[nodiscard]] std::size_t
 derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::uint8_t* b);
 
-/// W3: codes and a float for each.
+/// Derives W3: a code and a float per module.
 [[nodiscard]] std::size_t derive_w3(
     int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b);
-/// W5.
+/// Derives W5: a code and a float per module.
 [[nodiscard]] std::size_t derive_w5(
     int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b);
-/// W4 with a cheap hash in place of Philox.
+/// Derives W4; draws random numbers by a cheap hash instead of Philox.
 [[nodiscard]] std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b);
-/// W6 on `count` modules; returns the index of the one `b`.
+/// Derives W6 on `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 
-/// Turtles over a word of F + - [ ] for one angle in the plane of two axes. Each writes its
-/// vertices to `out` and returns their number: 2 of 3 floats a segment, or two rings of 8 with
-/// normals, 6 floats.
+/// Turtles in a plane over a word of F + - [ ] with one angle. Each writes vertices to `out` and
+/// returns their number. Per segment, turtle_lines() writes 2 vertices of 3 floats, turtle_tubes()
+/// 2 rings of 8 vertices of 6 floats (position, normal).
 [[nodiscard]] std::size_t
 turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 [[nodiscard]] std::size_t

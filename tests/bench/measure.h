@@ -1,5 +1,5 @@
-// What the benchmarks share: time, medians, and grammars compiled from text. A mistake ends the
-// program.
+// Shared helpers of the benchmarks: time, medians, and grammars compiled from text. A mistake in a
+// grammar ends the program.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,9 +10,9 @@
 
 namespace lsys::bench {
 
-/// How long `work` takes.
+/// Wall time of `work`, s.
 [[nodiscard]] double seconds(const std::function<void()>& work);
-/// Precondition: there are values.
+/// Precondition: `values` is not empty.
 [[nodiscard]] double median(std::vector<double> values);
 [[noreturn]] void fail(const std::string& what);
 [[nodiscard]] Bytecode compile_text(const std::string& text);

@@ -1,4 +1,4 @@
-// Grammars as text through parser and compiler, for tests: what is said about them, and where.
+// Parses and compiles grammars from text, for tests of the diagnostics and their places.
 #pragma once
 
 #include "compiler/compile.h"
@@ -29,7 +29,7 @@ struct Compiled {
         }
         return result;
     }
-    /// The same of errors only.
+    /// "code line:column" of every error, in order of place.
     [[nodiscard]] std::vector<std::string> errors() const {
         std::vector<std::string> result = said();
         for (std::size_t i = result.size(); i-- > 0;) {
@@ -48,7 +48,7 @@ struct Compiled {
         }
         return nullptr;
     }
-    /// What the first diagnostic with this code points at.
+    /// The text under the span of the first diagnostic with this code.
     [[nodiscard]] std::string at(DiagnosticCode code) const {
         const Diagnostic* found = find(code);
         return found == nullptr ? "nothing" : std::string(sources.text(found->span));
@@ -77,8 +77,8 @@ struct Compiled {
     }
 };
 
-/// Compiles files["main.lsys"]; the others can be included. Generations are given, so that a
-/// grammar needs no `#n`.
+/// Compiles files["main.lsys"], which may include the other files. The number of generations is
+/// set, so that the grammar needs no `#n`.
 inline Compiled compile_files(const std::map<std::string, std::string>& files,
                               CompileOptions options) {
     Compiled compiled;

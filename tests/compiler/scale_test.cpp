@@ -1,4 +1,5 @@
-// Sizes at which a quadratic step would show, still small enough for every run of the tests.
+// Inputs so large that a quadratic step would exceed the time limit, yet small enough for every
+// test run.
 #include "tests/compiler/compile_text.h"
 
 #include <catch2/catch.hpp>
@@ -7,7 +8,8 @@ using namespace lsys;
 using test::compile_text;
 
 TEST_CASE("a name made to be costly to split ends the search, not the patience") {
-    // Every prefix matches a known name, and no row of them reaches the end.
+    // Every prefix of the long name is a known name, but no sequence of known names reaches its
+    // end.
     std::string text = "#w : F;\n";
     for (int length = 1; length <= 1'500; ++length) {
         text += "#module " + std::string(static_cast<std::size_t>(length), 'a') + ";\n";

@@ -1,4 +1,4 @@
-// A small Bytecode that uses every table: what the lowering would make of
+// A small Bytecode that uses every table: the result of lowering
 //   #define s {1, 2};
 //   #ignore : f;
 //   #w : A(s) f(0.5) f(0.5);

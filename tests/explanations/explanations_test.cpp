@@ -1,4 +1,5 @@
-// Every diagnostic is explained, in order, and the examples do what they say.
+// Checks that every diagnostic is explained, in order, and that the examples yield the diagnostics
+// of their sections.
 #include "grammar/base/diagnostic.h"
 #include "runtime/cli/explanations.h"
 #include "runtime/scene/scene.h"

@@ -218,7 +218,7 @@ def errors(bench):
     with open(os.path.join(bench.folder, "direct.glb"), "rb") as whole, open(cut, "wb") as file:
         file.write(whole.read()[:-1000])
     bench.fails(lambda: bpy.ops.lsys.import_forest(filepath=cut), "by its header")
-    # Wrong in its last mesh, when others have been made.
+    # A file whose last mesh is wrong: the import fails after other meshes were made.
     late = os.path.join(bench.folder, "late.glb")
     with open(os.path.join(bench.folder, "direct.glb"), "rb") as file:
         data = file.read()
@@ -248,8 +248,8 @@ def layouts(bench):
     path = os.path.join(bench.folder, "layouts.glb")
     corners = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3), (1, 0, 3), (0, 2, 3)]
     binary = b"".join(struct.pack("<3f", *corner) for corner in corners)
-    binary += bytes([255, 0, 0, 255, 0, 255, 0, 255, 51, 0, 255, 255])  # at 72
-    binary += struct.pack("<4B4H", 0, 1, 2, 0, 0, 1, 2, 0)  # at 84 and 88
+    binary += bytes([255, 0, 0, 255, 0, 255, 0, 255, 51, 0, 255, 255])  # at byte 72
+    binary += struct.pack("<4B4H", 0, 1, 2, 0, 0, 1, 2, 0)  # at bytes 84 and 88
     views = [{"buffer": 0, "byteOffset": at, "byteLength": size} for at, size in ((0, 72), (72, 12), (84, 3), (88, 6))]
     accessors = [{"bufferView": 0, "byteOffset": 36 * i, "componentType": 5126, "count": 3, "type": "VEC3"}
                  for i in range(2)]
@@ -368,7 +368,7 @@ def main():
         print("Blender is not here")
         return 77
     user = os.path.join(folder, "user")
-    # A Blender without a Python of its own takes the modules of the first python3 in PATH.
+    # A Blender without its own Python uses the modules of the first python3 in PATH.
     environment = dict(os.environ, PATH=f"/usr/bin:{os.environ['PATH']}",
                        BLENDER_USER_SCRIPTS=os.path.join(user, "scripts"),
                        BLENDER_USER_CONFIG=os.path.join(user, "config"), PYTHONDONTWRITEBYTECODE="1")

@@ -10,7 +10,7 @@ import time
 import bpy
 import numpy
 
-numpy.bool = bool  # Blender 3.4 asks for it; newer numpy has none
+numpy.bool = bool  # Blender 3.4 uses numpy.bool, which newer numpy versions lack
 
 
 def main(path):

@@ -1,12 +1,13 @@
-// Compressed glTF files beside the plain file of the same plant, by the accessors of glTF-Transform.
+// Compares compressed glTF files with the plain file of the same plant, by the accessors of
+// glTF-Transform.
 
 /// Items of an accessor as arrays of numbers, normalised ones as fractions.
 export function itemsOf(accessor) {
     return Array.from({ length: accessor.getCount() }, (_, i) => accessor.getElement(i, []));
 }
 
-/// Primitives with their arrays; positions where the nodes put them, texture coordinates where the
-/// texture is read.
+/// Primitives with their arrays; positions with the transform of their node, texture coordinates
+/// with the transform of their texture.
 export function primitivesOf(document) {
     const found = [];
     for (const node of document.getRoot().listNodes()) {
@@ -22,7 +23,8 @@ export function primitivesOf(document) {
                 material.getNormalTextureInfo()?.getExtension('KHR_texture_transform');
             found.push({
                 primitive,
-                // As floats, by which the file was written; its text has fewer digits.
+                // Rounded to floats, because lsc quantised by floats; the text in the file has
+                // fewer digits.
                 scale: Math.fround(scale),
                 shift: shift.map(Math.fround),
                 material,
@@ -35,15 +37,17 @@ export function primitivesOf(document) {
                 TEXCOORD_2: items('TEXCOORD_2'),
                 TEXCOORD_0: items('TEXCOORD_0')?.map(uv => transform === null || transform === undefined
                     ? uv : uv.map((x, i) => transform.getOffset()[i] + transform.getScale()[i] * x)),
-                tiles: Math.max(...transform?.getScale() ?? [1]), // that texture coordinates span
+                // Number of tiles that the texture coordinates span.
+                tiles: Math.max(...transform?.getScale() ?? [1]),
             });
         }
     }
     return found;
 }
 
-/// Triangles of a primitive by the cells of a grid that their corners are in, beginning with the
-/// first in order: the same triangles of two files have the same keys, in any order of vertices.
+/// Triangles of a primitive by key. The key lists the grid cells of the three corners, rotated so
+/// that the smallest comes first: equal triangles of two files have equal keys, in any order of
+/// vertices.
 function trianglesByKey(primitive, cellOf) {
     const found = new Map();
     const cells = primitive.POSITION.map(cellOf);
@@ -58,8 +62,8 @@ function trianglesByKey(primitive, cellOf) {
     return found;
 }
 
-/// Compares two primitives triangle by triangle. `tolerances`: by attribute. Returns the count of
-/// triangles that only one has, and of those whose numbers are off.
+/// Compares two primitives triangle by triangle. `tolerances`: by attribute. Returns the counts of
+/// triangles that only one file has, and of triangles that differ by more than the tolerances.
 export function comparePrimitives(one, other, cellOf, tolerances) {
     const found = trianglesByKey(one, cellOf);
     const wanted = trianglesByKey(other, cellOf);

@@ -1,4 +1,5 @@
-// What an instanced forest is for readers of others: branches, triangles and bounds in the world.
+// Reads an instanced forest by readers of other projects: branches, triangles and bounds in world
+// space.
 
 class Extent {
     low = [Infinity, Infinity, Infinity];
@@ -37,7 +38,8 @@ export function composed([tx, ty, tz], [x, y, z, w], [sx, sy, sz]) {
             tx, ty, tz, 1];
 }
 
-/// As three.js has loaded it. An instance is counted once, whatever its primitives.
+/// Measures of a forest as three.js loads it. An instance counts once, however many primitives it
+/// has.
 export async function instancedForest(three, gltf) {
     const extent = new Extent();
     let branches = 0;
@@ -70,7 +72,7 @@ export async function instancedForest(three, gltf) {
             const vertices = [...new Set(index.array)];
             const own = new three.Box3().setFromPoints(vertices.map(
                 vertex => new three.Vector3().fromBufferAttribute(attributes.position, vertex)));
-            if (!own.equals(geometry.boundingBox)) { // of the accessor
+            if (!own.equals(geometry.boundingBox)) { // bounds of the accessor
                 throw new Error(`node ${n} has the bounds of more than its vertices`);
             }
             for (let i = 0; i < count; ++i) {
@@ -99,7 +101,8 @@ function turned([x, y, z, w], [a, b, c]) {
             c + w * t[2] + x * t[1] - y * t[0]];
 }
 
-/// As glTF-Transform reads it, with or without instances. `bytes`: of an instance's attributes.
+/// Measures of a forest as glTF-Transform reads it, with or without instances. `bytes`: size of the
+/// attributes of an instance.
 export async function readAccessors(io, file) {
     const document = await io.readBinary(new Uint8Array(file));
     const root = document.getRoot();
@@ -124,7 +127,8 @@ export async function readAccessors(io, file) {
     const place = (mesh, translation, rotation, scale) => {
         found.triangles += mesh.listPrimitives().reduce(
             (sum, primitive) => sum + primitive.getIndices().getCount() / 3, 0);
-        found.wrong += Math.abs(Math.hypot(...rotation) - 1) < 5e-5 ? 0 : 1; // of 16 bits at least
+        // Tolerance of a unit quaternion with 16 bits per component.
+        found.wrong += Math.abs(Math.hypot(...rotation) - 1) < 5e-5 ? 0 : 1;
         for (const vertex of verticesOf(mesh)) {
             extent.add(turned(rotation, vertex.map((x, k) => x * scale[k])).map(
                 (x, k) => x + translation[k]));

@@ -1,5 +1,6 @@
-// A forest as each reader in JavaScript has it: seconds and memory of reading, number of instances, and the box of the
-// trees by the reader's own positions and matrices. Pictures are not decoded, because Node has no browser to do it.
+// Reads a forest with each reader in JavaScript: seconds and memory of reading, number of
+// instances, and the bounding box of the trees by the reader's own positions and matrices. Pictures
+// are not decoded, because Node has no browser to do it.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -12,7 +13,8 @@ function product(a, b) {
         (sum, k) => sum + a[4 * k + i % 4] * b[4 * (i >> 2) + k], 0));
 }
 
-// Memory when reading has ended: that of the box does not count.
+// started() and measured() enclose the reading of a file, so the memory and time for the bounding
+// box are not included.
 function started() {
     return { at: performance.now(), processor: process.cpuUsage() };
 }
@@ -23,7 +25,7 @@ function measured(start) {
              megabytes: process.resourceUsage().maxRSS / 1024 };
 }
 
-// What browsers have and Node does not, as far as readers look for it.
+// Defines the browser objects that readers look for and Node lacks.
 function pretendBrowser() {
     const element = () => ({
         style: {}, width: 64, height: 64, getContext: () => null, addEventListener() {}, removeEventListener() {},
@@ -59,7 +61,7 @@ export const forestReaders = {
         const { scene } = await loader.parseAsync(bytes, '');
         const found = { ...measured(start), instances: 0 };
         const box = new Box();
-        const trees = new Set(); // of which a tree is a mesh for each material
+        const trees = new Set(); // parent nodes: a tree has a mesh for each material
         scene.updateMatrixWorld(true);
         scene.traverse(object => {
             if (!object.isMesh || isGround(object.name)) {
@@ -86,7 +88,7 @@ export const forestReaders = {
         const babylon = await moduleAt(modules, '@babylonjs/core/index.js');
         await moduleAt(modules, '@babylonjs/loaders/glTF/index.js');
         const decoder = await meshoptDecoder(modules);
-        babylon.MeshoptCompression._Default = { // its own comes from the network
+        babylon.MeshoptCompression._Default = { // its built-in decoder is loaded from the network
             decodeGltfBufferAsync: async (source, count, stride, mode, filter) => {
                 const target = new Uint8Array(count * stride);
                 decoder.decodeGltfBuffer(target, count, stride, source, mode, filter);
@@ -173,7 +175,8 @@ export const forestReaders = {
         return { ...found, instances: trees.size, ...box };
     },
 
-    // It gives arrays of numbers as they are stored; fractions and nodes are up to its user.
+    // loaders.gl returns arrays of numbers as they are stored; normalised numbers and node
+    // transforms are left to the caller.
     async 'loaders.gl'(modules, file) {
         const require = createRequire(join(modules, 'none.js'));
         const { parse } = require('@loaders.gl/core');
@@ -216,7 +219,7 @@ export const forestReaders = {
         return { ...found, ...box };
     },
 
-    // It places no copies; its layer has the arrays of instances.
+    // tinyusdz does not instantiate; the arrays of instances are read from its layer.
     async tinyusdz(modules, file) {
         const { open, layer } = await tinyUsdz(path => moduleAt(modules, path), modules);
         const bytes = readFileSync(file);
@@ -242,7 +245,8 @@ async function meshoptDecoder(modules) {
     return MeshoptDecoder;
 }
 
-// Nodes whose fields `mesh`, `primitives` and accessors are objects; `arrayOf(accessor)` has `value`.
+// Number of instances and bounding box of a glTF document in which references are objects.
+// `arrayOf(accessor).value` is the array of an accessor.
 function boxOfDocument(document, arrayOf) {
     const numbers = accessor => {
         const { value } = arrayOf(accessor);

@@ -62,7 +62,7 @@ def main():
     if blender is None:
         print("Blender is not here")
         return 77
-    # A Blender without a Python of its own takes the modules of the first python3 in PATH.
+    # A Blender without its own Python uses the modules of the first python3 in PATH.
     environment = dict(os.environ, PATH=f"/usr/bin:{os.environ['PATH']}")
     run = subprocess.run(
         [blender, "--background", "--factory-startup", "--python-exit-code", "1",

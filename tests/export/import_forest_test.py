@@ -42,7 +42,7 @@ def check_forest(gltf, path, facts):
         assert placement.is_single == (placement.cell == "ground"), placement.cell
         branches += 0 if placement.is_single else len(placement)
         triangles += faces * len(placement)
-        # Some vertices of the mesh are enough to bound what is turned.
+        # Some vertices of a mesh suffice to compare the bounds of the rotated mesh.
         for i in range(len(placement)):
             turn = placement.rotations[4 * i : 4 * i + 4]
             for point in points:

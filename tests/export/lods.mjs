@@ -1,4 +1,4 @@
-// The plugin for three.js of scripts/engines on levels of detail in one file.
+// Tests the plugin for three.js of scripts/engines with levels of detail in one file.
 // Usage: node lods.mjs MODULES PLUGIN FILE.glb FILE.lods.json
 // The list has the triangles and the distance of each level, as lsc states them.
 import { readFileSync } from 'node:fs';

@@ -1,4 +1,4 @@
-// Holds an animated glTF file against the frames of the same motion, each a PLY of its own.
+// Compares an animated glTF file with the frames of the same motion, one PLY each.
 
 /// Vertices of a binary PLY as lsc writes it: positions and normals first.
 export function readPlyPositions(bytes) {
@@ -14,7 +14,8 @@ export function readPlyPositions(bytes) {
     return positions;
 }
 
-/// Where three.js has each vertex of `gltf` at rest and at `time`, and how many joints move it.
+/// For each vertex of `gltf` by three.js: its place at rest, its place at `time` (s), and the
+/// number of joints that move it.
 export function posedVertices(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
@@ -40,7 +41,7 @@ export function posedVertices(three, gltf, time) {
     return vertices;
 }
 
-/// Where three.js has each corner of the triangles that a film shows at `time`.
+/// Place by three.js of each corner of the triangles that a film shows at `time` (s).
 export function shownCorners(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
@@ -51,7 +52,8 @@ export function shownCorners(three, gltf, time) {
     gltf.scene.updateMatrixWorld(true);
     const corners = [];
     gltf.scene.traverse(object => {
-        if (!object.isMesh || object.matrixWorld.elements[0] === 0) { // its node has scale 0
+        // Its node has scale 0: the mesh is hidden.
+        if (!object.isMesh || object.matrixWorld.elements[0] === 0) {
             return;
         }
         const { index } = object.geometry;

@@ -1,5 +1,5 @@
-// Readers of OFF+, of the part of USDA that is written here, and of the archives of USDZ. They know
-// the formats from their descriptions only.
+// Readers of OFF+, of the part of USDA that lsc writes, and of USDZ archives. They are written from
+// the specifications of the formats.
 
 function assert(condition, message) {
     if (!condition) {
@@ -153,7 +153,8 @@ class Parser {
         return values;
     }
     property() {
-        // `uniform` or `custom`, the type and the name: what has no value ends there.
+        // `uniform` or `custom`, the type and the name; a property without a value ends after the
+        // name.
         const words = [];
         do {
             assert(this.kind === 'name', `no property: ${this.value}`);
@@ -174,7 +175,7 @@ class Parser {
     }
 }
 
-// File names of the pictures of a material at `path`; all that is connected is there.
+// File names of the pictures of a material at `path`. Checks that all connected shaders exist.
 function readPictures(material, path) {
     const output = (connection, type) => {
         const [prim, name] = connection.split('.');
@@ -251,7 +252,7 @@ function readMesh(mesh, root) {
     const [low, high] = value('extent');
     assert(value('points').every(p => p.every((x, i) => x >= low[i] && x <= high[i])), 'extent');
 
-    // Subsets share out all faces, and each names a material that is there.
+    // Each face is in exactly one subset, and each subset names an existing material.
     const pictures = new Set();
     const owned = new Uint8Array(triangles);
     const subsets = Object.values(mesh.children);
@@ -312,7 +313,8 @@ export function readUsdz(bytes) {
         const name = bytes.toString('utf8', at + 46, at + 46 + nameBytes);
         const header = bytes.readUInt32LE(at + 42);
         assert(bytes.readUInt32LE(header) === 0x04034b50, `header of ${name}`);
-        // Version to flags, method, time, date, checksum, sizes, length of the name.
+        // These bytes are version, flags, method, time, date, checksum, sizes and length of the
+        // name.
         assert(bytes.subarray(header + 4, header + 28).equals(bytes.subarray(at + 6, at + 30)),
                `${name}: two headers`);
         assert(bytes.readUInt16LE(header + 8) === 0, `${name} is compressed`);
@@ -336,13 +338,13 @@ function turned([w, x, y, z], [a, b, c]) {
             c + w * t[2] + x * t[1] - y * t[0]];
 }
 
-// The nearest half float, as a reader of quath stores it.
+// The nearest half float: USD stores quath values in them.
 function halfFloat(x) {
     const step = 2 ** (Math.max(Math.floor(Math.log2(Math.abs(x) || 1e-9)), -14) - 10);
     return Math.round(x / step) * step;
 }
 
-/// A ground and a PointInstancer for each kind of plant; what they put where.
+/// Reads a ground and a PointInstancer for each kind of plant; returns counts, pictures and bounds.
 export function readUsdaForest(text) {
     const { root, data } = readLayer(text);
     const found = { branches: 0, triangles: 0, pictures: new Set(),
@@ -377,7 +379,7 @@ export function readUsdaForest(text) {
         assert(!('orientationsf' in prim.properties), 'orientations in two arrays');
         const count = value('protoIndices').length;
         const widths = { positions: 3, orientations: 4, scales: 3 };
-        const scaled = 'scales' in prim.properties; // else all are 1
+        const scaled = 'scales' in prim.properties; // without scales, all are 1
         for (const [name, width] of Object.entries(widths).slice(0, scaled ? 3 : 2)) {
             assert(value(name).length === count &&
                    value(name).every(t => t.length === width && t.every(Number.isFinite)), name);

@@ -1,8 +1,9 @@
 // Reads exported files with assimp and compares them, triangle by triangle, with the PLY of the
 // same name, whose plain binary layout is read here. Usage: read_assimp FOLDER
 //
-// assimp keeps the vertices of PLY and OFF, and must find as many as counts.txt says. Of OBJ, STL
-// and glTF it makes vertices of its own; there each corner must lie where the PLY has it.
+// assimp keeps the vertices of PLY and OFF, and must find as many as counts.txt says. For OBJ, STL
+// and glTF assimp makes its own vertices; there each corner of a triangle must lie where the PLY
+// has it.
 //
 // --forest: FOLDER has expanded.glb and expanded.gltf, whose nodes put triangles where baked.ply
 // has them, in another order.
@@ -44,7 +45,7 @@ void fail(const std::filesystem::path& path, const std::string& what) {
     ++failures;
 }
 
-/// The number behind `key` in a header.
+/// The number after `key` in a header.
 std::uint64_t number_after(const std::string& text, const std::string& key) {
     return std::stoull(text.substr(text.find(key) + key.size()));
 }
@@ -114,7 +115,7 @@ void sort_triangles(Triangles& triangles) {
     }
 }
 
-/// The greatest distance of corners, as a part of the extent.
+/// The greatest distance of corresponding corners, as a fraction of the extent.
 double difference(const Triangles& a, const Triangles& b) {
     double extent = 0.0;
     double worst = 0.0;
@@ -144,7 +145,7 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
         fail(path, std::to_string(found.vertices) + " vertices instead of " +
                        std::to_string(expected.vertices));
     }
-    // assimp reads decimal numbers by a quick way that loses the last bits.
+    // assimp's fast parser of decimal numbers loses the last bits.
     const double allowed = extension == ".obj" || extension == ".off" ? 1e-6 : 0.0;
     if (extension == ".glb" || extension == ".gltf") {
         Triangles sorted = expected;
@@ -158,7 +159,8 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
     }
 }
 
-/// Bounds of the corners, and what the areas of the triangles and their corners add up to.
+/// Bounds of the corners, sum of the corners, total area and number of triangles: independent of
+/// their order.
 struct Whole {
     std::array<double, 3> low{1e30, 1e30, 1e30};
     std::array<double, 3> high{-1e30, -1e30, -1e30};
@@ -194,7 +196,7 @@ Whole whole_of(const aiScene& scene) {
         pending.pop_back();
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
-            // Vertices without faces too: they are what readers bound and upload.
+            // Include vertices without faces, because readers bound and upload them.
             for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
                 whole.bound(matrix * mesh.mVertices[v]);
             }

@@ -1,4 +1,4 @@
-// Holds exported files against readers in JavaScript. Usage:
+// Checks exported files with readers in JavaScript. Usage:
 //   node read_files.mjs MODULES (validator | three | compressed | motion | growth | obj | svg | off+ | usda |
 //                              usdz | usd-three | usd-motion | tinyusdz |
 //                              forest-three | forest-transform | forest-usda) FOLDER
@@ -36,14 +36,14 @@ function expect(file, what, found, expected) {
     }
 }
 
-// Pictures of ours have 256 texels a side; those of mesh files keep their size, which is 64 in the
-// only sample that has one, samples/teach-picture.
+// Pictures made by lsc have 256 texels a side; pictures of mesh files keep their size, which is 64
+// in the only sample with one, samples/teach-picture.
 function expectSize(file, name, png) {
     const side = /maple/.test(name) ? 64 : 256;
     expect(file, `size of ${name}`, `${png.width} x ${png.height}`, `${side} x ${side}`);
 }
 
-// A PNG in the folder, or these bytes.
+// Checks the size of a picture: a PNG in the folder, or `bytes`.
 function expectPicture(file, name, bytes = readFileSync(join(folder, name))) {
     const { PNG } = require('pngjs');
     expectSize(file, name, PNG.sync.read(bytes));
@@ -54,7 +54,8 @@ function counts() {
         .map(line => {
             const [name, ...numbers] = line.split(' ');
             const [vertices, triangles, parts] = numbers.map(Number);
-            const [frames, fps, metres] = numbers.map(Number); // of those that move
+            // The same columns for meshes that move.
+            const [frames, fps, metres] = numbers.map(Number);
             return { name, vertices, triangles, parts, frames, fps, metres };
         });
 }
@@ -78,7 +79,8 @@ function facts() {
     return JSON.parse(readFileSync(join(folder, 'facts.json'), 'utf8'));
 }
 
-// Metres by which bounds may differ: those of compressed trees by a step of positions or so.
+// Max difference of bounds, m; positions of compressed trees are off by about one quantisation
+// step.
 function roundingOf(file) {
     return file.includes('meshopt') || file.includes('quantize') ? 3e-3 : 1e-3;
 }
@@ -101,7 +103,8 @@ async function threeAndLoader() {
     return { three, GLTFLoader };
 }
 
-// glTF-Transform with every extension, and the validator for files and for what it has decoded.
+// glTF-Transform with every extension, and functions that validate a file and the document decoded
+// from it.
 async function transformer() {
     const core = await module('@gltf-transform/core/dist/index.js');
     const { ALL_EXTENSIONS } = await module('@gltf-transform/extensions/dist/index.js');
@@ -166,7 +169,7 @@ const checks = {
         await eachMesh(['glb', 'gltf'], async (file, mesh) => {
             const loader = new GLTFLoader();
             let textures = 0;
-            // There is no browser to decode images.
+            // Node cannot decode images, so load empty textures.
             loader.register(parser => ({
                 name: 'images',
                 async loadTexture(index) {
@@ -189,7 +192,8 @@ const checks = {
                     const { count } = attributes.position;
                     vertices += count;
                     triangles += index.count / 3;
-                    // One material may stand for many that differ in colour only.
+                    // A merged material counts as the materials that it replaces; they differ only
+                    // in colour.
                     const merged = /, (\d+) colours$/.exec(object.material.name);
                     parts += Number(merged?.[1] ?? 1);
                     expect(file, 'colours of a merged material', !merged || !!attributes.color, true);
@@ -214,13 +218,15 @@ const checks = {
         });
     },
 
-    // Compressed files hold the numbers of the plain one within half a step, files with a buffer of
-    // their own exactly; decoded by glTF-Transform they are valid without any extension.
+    // Compressed files hold the numbers of the plain file within half a quantisation step, files
+    // with a separate buffer exactly. Decoded by glTF-Transform, they are valid without any
+    // extension.
     async compressed() {
         const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
         const { three, GLTFLoader } = await threeAndLoader();
-        // Tolerances: positions in parts of the extent, directions, texture coordinates in tiles;
-        // where these span more than 128 tiles, half of their 16-bit step, at most 2 of 256 texels.
+        // File ending, then tolerances: positions as a fraction of the extent, directions, texture
+        // coordinates in tiles. Texture coordinates that span more than 128 tiles may be off by
+        // half of their 16-bit step, at most 2 of 256 texels.
         const forms = [
             ['separate.gltf', 0, 0, 0],
             ['quantize.glb', 0.5001 / 65535, 0.5001 / 127, 1 / 1024 + 1e-5],
@@ -242,13 +248,13 @@ const checks = {
                 found.forEach((one, i) => {
                     const other = plain[i];
                     const tolerances = {
-                        // A float of the node's scale and shift rounds too.
+                        // The node's scale and shift are floats, which adds a rounding error.
                         POSITION: positionStep * extent + (positionStep > 0 ? 3e-7 * largest : 0),
                         NORMAL: directionStep + (directionStep > 0 ? 5e-4 : 0),
                         TANGENT: directionStep + (directionStep > 0 ? 5e-4 : 0),
                         TEXCOORD_0: textureStep === 0 ? 0
                             : Math.min(Math.max(textureStep, 0.5001 * one.tiles / 65535), 2 / 256) +
-                                3e-7 * one.tiles, // floats round too
+                                3e-7 * one.tiles, // rounding of floats
                         COLOR_0: 0,
                     };
                     for (const attribute of Object.keys(tolerances)) {
@@ -258,7 +264,8 @@ const checks = {
                         expect(file, `${attribute} in primitive ${i}`, one[attribute] !== undefined,
                                other[attribute] !== undefined && !unread);
                     }
-                    // The place in the grid of steps, or of the file's floats.
+                    // The cell of a position in the quantisation grid; for exact files, the
+                    // position itself.
                     const cellOf = position => position.map((x, axis) => positionStep === 0
                         ? x : Math.floor((x - one.shift[axis]) / one.scale + 0.5)).join(',');
                     const { missing, off } = comparePrimitives(one, other, cellOf, tolerances);
@@ -288,9 +295,9 @@ const checks = {
         }
     },
 
-    // At each key a skin has its vertices where the mesh of that frame has them: those of cylinders
-    // exactly, so that every tip of a segment is right; those of joined tubes and boxes within what
-    // their rings turn and smooth.
+    // At each key, a skin has its vertices where the mesh of that frame has them. Vertices of
+    // cylinders agree exactly, so every tip of a segment is right; vertices of joined tubes and
+    // boxes may be off as far as their rings turn and smooth.
     async motion() {
         const { three, GLTFLoader } = await threeAndLoader();
         await eachMesh(['glb', 'gltf'], async (file, mesh) => {
@@ -339,7 +346,8 @@ const checks = {
                 }
             }
         });
-        // Compressed, each vertex moves as the plain one, and wind data are within their rounding.
+        // In a compressed file each vertex moves as in the plain file, and wind data agree within
+        // their rounding.
         const { io, MeshoptDecoder, expectValid, expectValidDecoded } = await transformer();
         await eachMesh(['quantize.glb', 'meshopt.glb'], async (file, mesh) => {
             const load = name => {
@@ -371,7 +379,8 @@ const checks = {
                 const found = posedVertices(three, gltf, number / mesh.fps);
                 const off = leastOff(found, expected, (a, b) => distance(a.at, b.at));
                 expect(file, `frame ${number}: off by ${off}, steps are ${step}`,
-                       off <= 0.87 * step + 1e-5, true); // half a step along each axis
+                       // Half a step along each of three axes: sqrt(3) / 2 = 0.87.
+                       off <= 0.87 * step + 1e-5, true);
             }
             const small = primitivesOf(document);
             for (const [attribute, most] of [['TEXCOORD_1', meshopt ? 0.5 * step : 0],
@@ -392,7 +401,7 @@ const checks = {
         });
     },
 
-    // assimp counts what is in an OBJ; this is about its materials.
+    // read_assimp counts vertices and triangles of an OBJ; this check is about its materials.
     async obj() {
         const { OBJLoader } = await module('three/examples/jsm/loaders/OBJLoader.js');
         const { MTLLoader } = await module('three/examples/jsm/loaders/MTLLoader.js');
@@ -552,7 +561,8 @@ const checks = {
         });
     },
 
-    // As `motion`, for the corners of triangles, because three.js splits the vertices of USD.
+    // The check of `motion`, by corners of triangles instead of vertices, because three.js splits
+    // the vertices of USD.
     async 'usd-motion'() {
         const { three, load } = await usdLoader(module);
         await eachMesh(['usda', 'usdz'], (file, mesh) => {
@@ -562,7 +572,8 @@ const checks = {
                    Math.round(group.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
             const frame = number => readFileSync(
                 join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`));
-            const corners = readPlyTriangles(frame(0)); // bent boxes have other diagonals
+            // From the first frame: bent boxes split their faces along other diagonals.
+            const corners = readPlyTriangles(frame(0));
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const positions = readPlyPositions(frame(number));
                 const expected = corners.map(vertex => positions[vertex]);
@@ -608,7 +619,8 @@ const checks = {
         });
     },
 
-    // Instances: as many as there are branches, where the forest as one mesh has its vertices.
+    // There are as many instances as branches, and their bounds are those of the forest as one
+    // mesh.
     async 'forest-three'() {
         const { three, GLTFLoader } = await threeAndLoader();
         const { MeshoptDecoder } = await transformer();
@@ -629,7 +641,7 @@ const checks = {
             const found = await readAccessors(io, readFileSync(join(folder, file)));
             expectFacts(file, found, roundingOf(file));
             expect(file, 'accessors with wrong numbers', found.wrong, 0);
-            // Compressed rotations are of 16 bits.
+            // Compressed rotations have 16 bits per component.
             expect(file, 'bytes of an instance', found.bytes,
                    file.startsWith('expanded') ? 0 : file.includes('meshopt') ? 32 : 40);
             if (file.includes('meshopt')) {

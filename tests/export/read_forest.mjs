@@ -1,12 +1,14 @@
-// Has readers of others read a forest: their time and memory, and whether each has the trees and their box.
-// Usage: node read_forest.mjs MODULES LSC [--times N] [--levels] [--assimp READ_ASSIMP] [--blender BLENDER] FOREST...
+// Measures time and memory of readers of other projects for a forest, and checks that each has all
+// trees and their bounding box. Usage: node read_forest.mjs MODULES LSC [--times N] [--levels]
+// [--assimp READ_ASSIMP] [--blender BLENDER] FOREST...
 //   MODULES: node_modules of package.json beside this file; LSC: the program
 //   FOREST...: a scene or grammars with options of `lsc forest`, without -o
-// LSC writes the forest with `--preset web`, with `--expand --instances trees` and as USDA, with --levels also as USDA
-// of levels of detail, and each reader reads the file that suits it, each time in a process of its own. A table has
-// the medians: seconds that pass, seconds of processor, and the most memory of the process. The box of the trees, by
-// the reader's own positions and matrices, is compared with that of the file without compression; the table has the
-// greatest difference as a part of the shortest side. Fails where it is more than 0.1 %, or a tree is missing.
+// LSC writes the forest with `--preset web`, with `--expand --instances trees` and as USDA, with
+// --levels also as USDA of levels of detail, and each reader reads the file that suits it, each
+// time in a process of its own. A table shows the medians: wall time and processor time in s, and
+// peak memory of the process. The box of the trees, by the reader's own positions and matrices, is
+// compared with that of the file without compression; the table has the greatest difference as a
+// part of the shortest side. Fails if it is more than 0.1 %, or if a tree is missing.
 //
 // As its own helper: node read_forest.mjs MODULES --reader NAME FILE prints what one reader finds as JSON.
 import { execFileSync } from 'node:child_process';
@@ -16,7 +18,7 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { boxOfPlainGlb, forestReaders } from './forest_readers.mjs';
 
-const kMost = 1e-3; // difference of a box
+const kMost = 1e-3; // max difference of a box as a fraction of its shortest side
 const own = fileURLToPath(import.meta.url);
 const [given, ...rest] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
@@ -51,7 +53,8 @@ for (const name of ['three', '@babylonjs/core', '@loaders.gl/gltf', 'playcanvas'
 const folder = mkdtempSync(join(tmpdir(), 'read-forest-'));
 process.on('exit', () => rmSync(folder, { recursive: true }));
 
-// Whole trees and branches are different forests, so each has a plain file of its own to compare with.
+// Instances of whole trees and of branches make different forests, so each form has its own plain
+// file to compare with.
 const forms = {
     plain: { file: 'plain.glb', options: ['--instances', 'trees'] },
     branches: { file: 'branches.glb', options: [] },
@@ -101,7 +104,7 @@ if (settings.assimp !== undefined) {
     readers.push(['expanded', { name: 'assimp', read: path => execFileSync(settings.assimp, ['--box', path]) }]);
 }
 if (settings.blender !== undefined) {
-    // A Blender without a Python of its own takes the modules of the first python3 in PATH.
+    // A Blender without its own Python uses the modules of the first python3 in PATH.
     const env = { ...process.env, PATH: `/usr/bin:${process.env.PATH}` };
     const script = join(dirname(own), 'box_in_blender.py');
     readers.push(['expanded', { name: 'blender', read: path => execFileSync(settings.blender,

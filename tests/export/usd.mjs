@@ -1,4 +1,4 @@
-// Readers of USD by other people: three.js, with motion, and tinyusdz.
+// Readers of USD from other projects: three.js, with motion, and tinyusdz.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Box, composed } from './forest.mjs';
@@ -15,7 +15,7 @@ export async function usdLoader(module) {
     return { three, load: bytes => new USDLoader().parse(bytes, '') };
 }
 
-/// Where three.js has each corner of the triangles of `group` at `time`.
+/// Place by three.js of each corner of the triangles of `group` at `time` (s).
 export function posedCorners(three, group, time) {
     const mixer = new three.AnimationMixer(group);
     const action = mixer.clipAction(group.animations[0]);
@@ -54,9 +54,9 @@ export function readPlyTriangles(bytes) {
     return corners;
 }
 
-/// Functions that read the bytes of a file: `open` its meshes, `layer` what it says, as text,
-/// `composed` the same with its variants selected.
-/// tinyusdz is built for workers of browsers, and this looks like one.
+/// Functions that read the bytes of a file: `open` returns its meshes, `layer` its text, `composed`
+/// its text with the variants selected.
+/// tinyusdz is built for web workers, so the function defines the objects of one.
 export async function tinyUsdz(module, modules) {
     process.type = 'renderer';
     globalThis.WorkerGlobalScope ??= class {};
@@ -92,8 +92,8 @@ export async function tinyUsdz(module, modules) {
     };
 }
 
-/// Number of instances and box of a forest: points of `loader`, instances of the layer's `text`.
-/// tinyusdz shows no instances by itself.
+/// Number of instances and bounding box of a forest. `loader` has the points, `text` of the layer
+/// the instances, which tinyusdz does not expand.
 export function instancedBox(loader, text, { ground = true } = {}) {
     const meshes = new Map();
     for (let i = 0; i < loader.numMeshes(); ++i) {
@@ -112,7 +112,7 @@ export function instancedBox(loader, text, { ground = true } = {}) {
             const q = turns.slice(4 * i, 4 * i + 4);
             const length = Math.hypot(...q);
             const [w, x, y, z] = q.map(part => part / length);
-            const size = sizes?.slice(3 * i, 3 * i + 3) ?? [1, 1, 1]; // none: all are 1
+            const size = sizes?.slice(3 * i, 3 * i + 3) ?? [1, 1, 1]; // without scales, all are 1
             box.add(prototypes[prototype], composed(at.slice(3 * i, 3 * i + 3), [x, y, z, w], size));
             ++instances;
         });

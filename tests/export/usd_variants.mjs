@@ -1,6 +1,6 @@
-// Variants in USD: levels of detail and values of a parameter, as tinyusdz composes them and as a
-// reader without variants shows them (three.js), against a file of each. The maple has six levels.
-// Usage: node usd_variants.mjs MODULES LSC FOLDER
+// Variants in USD: levels of detail and values of a parameter. Compares tinyusdz, which composes
+// variants, and three.js, which ignores them, with a separate file of each variant. The maple has
+// six levels. Usage: node usd_variants.mjs MODULES LSC FOLDER
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -55,7 +55,8 @@ const inTiny = (file, bytes) => {
     loader.delete();
     return sum(triangles);
 };
-/// Triangles and names of materials of the layer with a variant: those of active meshes.
+/// Number of triangles and names of materials of the active meshes, with variant `name` of `set`
+/// selected.
 const composed = (file, bytes, set, name) => {
     const text = bytes.toString('latin1').replace(new RegExp(`string ${set} = "\\w+"`),
                                                   `string ${set} = "${name}"`);
@@ -93,7 +94,7 @@ for (const { set, options, of } of sets) {
     });
     const archive = write(`${set}.usdz`, ...options);
     expect(`${set}.usdz in tinyusdz`, inTiny(`${set}.usdz`, archive), alone[0]);
-    // The pictures that the layer names are in the archive.
+    // The archive contains the pictures that the layer names.
     const text = archive.toString('latin1');
     for (const [, name] of text.matchAll(/asset inputs:file = @\.\/([^@]+)@/g)) {
         expect(`entries ${name} of ${set}.usdz`, text.split(name).length > 3, true);

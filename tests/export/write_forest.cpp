@@ -1,6 +1,6 @@
 // Writes a small forest in every form. Usage: write_forest FOLDER
-// Two species, one of two stages, on a hilly ground. facts.json in the folder says what is in it,
-// found out from the same forest as one mesh (baked.ply); counts.txt has a line
+// Two species, one of two stages, on a hilly ground. facts.json in the folder has its counts and
+// bounds, measured on the same forest as one mesh (baked.ply); counts.txt has a line
 // `NAME VERTICES TRIANGLES PARTS` for each glTF file that needs no extension.
 #include "compiler/instancing/instance.h"
 #include "runtime/export/export_forest.h"
@@ -110,7 +110,7 @@ int main(int argument_count, char** arguments) {
     fs::create_directories(folder);
 
     Forest forest;
-    forest.key = 0xFFFFFFFFFFFFFFFF; // no number that every reader of JSON takes
+    forest.key = 0xFFFFFFFFFFFFFFFF; // too large for readers that store JSON numbers as doubles
     std::vector<std::vector<InstanceMeshes>> meshes(2);
     forest.species.resize(2);
     forest.species[0].name = "bush \"one\"";

@@ -1,5 +1,5 @@
-// Writes the meshes of tests/support and a drawing in every format. Usage: write_meshes FOLDER
-// counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
+// Writes the meshes of tests/support/meshes.h and a drawing in every format. Usage: write_meshes
+// FOLDER counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 
@@ -51,7 +51,7 @@ bool write_buffer(const std::filesystem::path& path, const Mesh& mesh, const Exp
     return written.ok() && file.good();
 }
 
-/// Pictures that lie beside a file of the format.
+/// Writes the pictures that lie beside a file of the format.
 bool write_pictures(const std::filesystem::path& folder,
                     const Mesh& mesh,
                     ExportFormat format,
@@ -66,7 +66,7 @@ bool write_pictures(const std::filesystem::path& folder,
     return fine;
 }
 
-/// A crooked line with a branch, a polygon, and widths that fall.
+/// A crooked line with a branch and a polygon; its widths decrease.
 Skeleton drawing() {
     Skeleton skeleton;
     glm::vec3 at(0.0F);

@@ -1,7 +1,7 @@
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
 // motion, and a PLY for every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME
-// FRAMES FPS METRES` for each plant: how far a light skeleton may take a vertex from its place, 0 for
-// a skin of all segments. FOLDER/growth has plants that grow, in the same manner.
+// FRAMES FPS METRES` for each plant. METRES: max error of a vertex that a light skeleton moves; 0
+// for a skin of all segments. FOLDER/growth has plants that grow, in the same form.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 
@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 using lsys::tests::LscRun;
 using lsys::tests::run_lsc;
 
-// Nothing lies near a bend where a mesh gets more rings, so that all frames have the same vertices.
+// No joint is near an angle at which the mesh would get more rings, so all frames have the same
+// vertices.
 const char* const kTree =
     "#n = 4; #set angle 25; #set spring 30; #object L LEAF; #w : !(0.06) F(1) X;"
     "#p : X : * : !(0.06) F(0.6, 400) [ +(35) X L(0.3) ] /(120) [ &(30) X ] /(120)"
@@ -49,7 +50,7 @@ const std::array kCases{
 constexpr const char* kFrames = "13";
 constexpr const char* kRate = "10";
 
-/// From an axiom that draws something, since a series begins after one that does not.
+/// Axioms that draw something, because a series skips the generations before the first drawing.
 const std::array kGrowths{
     Case{"tree", kTree, {"--grow", "-n", "3"}},
     Case{"boxes", kTree, {"--grow", "-n", "2", "--method", "boxes", "--subdivisions", "1"}},
@@ -68,7 +69,7 @@ bool write_file(const Case& motion, const fs::path& path, const std::vector<std:
     return run.status == 0;
 }
 
-/// Options of files that hold the motion. Light skeletons come with wind data.
+/// Options for formats that store motion. Light skeletons are exported with wind data.
 std::vector<std::string> options_for(const Case& motion, const lsys::FormatTraits& traits) {
     std::vector<std::string> options;
     if (traits.motion) {

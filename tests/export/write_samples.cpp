@@ -1,6 +1,6 @@
 // Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER
 // counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants with more
-// than kMaxVertices are exported after as many generations as have no more.
+// than kMaxVertices are exported after the largest number of generations that does not exceed it.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 

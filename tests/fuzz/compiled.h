@@ -1,4 +1,4 @@
-// One compilation of a text, as the fuzz targets want it: nothing is read from files.
+// Compilation of a text for the fuzz targets; no files are read.
 #pragma once
 
 #include "compiler/compile.h"
@@ -8,15 +8,16 @@
 #include <string>
 #include <string_view>
 
-/// What a text became.
+/// Result of a compilation.
 struct CompiledText {
     bool has_errors = false;
     std::optional<lsys::Bytecode> bytecode;
-    std::string translation; // of another dialect
+    std::string translation; // the .lsys text, if the text is in another dialect
 };
 
 [[nodiscard]] CompiledText
 compile_text(std::string text, lsys::Dialect dialect, std::string_view system);
 
-/// The word after up to four generations as text, within small limits; else how it ended.
+/// The word after up to four generations as text, within small limits; else the reason why there is
+/// no word.
 [[nodiscard]] std::string derived_text(const lsys::Bytecode& bytecode);

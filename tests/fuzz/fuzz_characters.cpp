@@ -1,6 +1,6 @@
-// Text with characters beyond ASCII to word. The text is tried with a few of them put into it, at
-// places that only the text decides: typographic ones, letters, invisible ones and damaged UTF-8.
-// Nothing that is written without an error may keep one where it has a meaning.
+// Text with characters beyond ASCII to word. A few characters are inserted into the text, at places
+// that depend on the text alone: typographic characters, letters, invisible characters and damaged
+// UTF-8. Output written without an error may contain none of them where a character has a meaning.
 #include "grammar/base/source.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 48> kCharacters{
     "\u00a0", "\u200b", "\ufeff", "\u00ad", "\u0301", "\xff",   "\xc3",   "\xe2\x88",
 };
 
-/// A sequence of numbers that a text begins (xorshift).
+/// A pseudo-random sequence (xorshift) whose seed is a hash of a text.
 class Choices {
 public:
     explicit Choices(std::string_view text) {
@@ -77,7 +77,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         put_characters(changed, choices);
         try_text(changed);
     }
-    // A statement of its own, where each character counts.
+    // Also try a short part of the text alone, where each inserted character matters.
     std::string statement = text.substr(choices.below(text.size() + 1), 1 + choices.below(40));
     put_characters(statement, choices);
     try_text(statement);

@@ -1,5 +1,5 @@
-// Text to word: whatever the bytes are, the compiler ends with diagnostics or with bytecode that
-// verifies, and that bytecode derives under small limits.
+// Text to word: for any bytes, the compiler returns diagnostics or bytecode that verifies, and the
+// bytecode derives under small limits.
 #include "compiler/bytecode/verify.h"
 #include "compiler/compile.h"
 #include "grammar/lsys/parse.h"

@@ -1,5 +1,5 @@
-// Text of every other dialect to word. What `lsc import` would write is right .lsys and derives the
-// same word, or there is an error.
+// Text of every other dialect to word. Either there is an error, or the output of `lsc import`
+// compiles and derives the same word.
 #include "grammar/dialects/cpfg/curves.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
@@ -28,7 +28,7 @@ void try_system(const std::string& text, lsys::Dialect dialect, const std::strin
     }
 }
 
-/// A view file of cpfg, and every file that it names.
+/// Reads `text` as a view file of cpfg, and as every file that it names.
 void try_view(const std::string& text) {
     const lsys::CpfgView view =
         lsys::read_view(text, [&](std::string_view) { return std::optional<std::string>(text); });

@@ -1,4 +1,4 @@
-// Text to text: formatting whatever parses is idempotent, and what it writes parses again.
+// Text to text: for every text that parses, formatting is idempotent, and its output parses.
 #include "grammar/format/format.h"
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // Bytes to word: a .lsb is refused, or it verifies and derives under small limits. The checksum is
-// set right first, so that the reader's and the verifier's own checks are reached.
+// corrected first, so that the other checks of reader and verifier are reached.
 #include "compiler/bytecode/disassemble.h"
 #include "compiler/bytecode/module_file.h"
 #include "runtime/derive/derive.h"

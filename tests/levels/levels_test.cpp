@@ -1,5 +1,5 @@
-// Levels of detail of samples: fewer and fewer triangles that look like the plant from as far as
-// they are made for. Pictures are drawn here, with opacity and without light.
+// Levels of detail of samples: each has fewer triangles than the last and looks like the plant at
+// its distance. The test draws its own pictures, with opacity and without light.
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/meshing/impl/impostor.h"
 #include "runtime/meshing/impl/thinning.h"
@@ -27,17 +27,19 @@ namespace lsys {
 
 namespace {
 
-// Directions between those in which the levels are fitted: turns about +Y and heights of the eye, in
-// radians.
+// View directions between those for which the levels are fitted: turns about +Y and elevations of
+// the eye, radians.
 constexpr std::array<float, 8> kTurns{0.39F, 1.18F, 1.96F, 2.75F, 3.53F, 4.32F, 5.11F, 5.89F};
 constexpr std::array<float, 2> kTilts{0.0F, 0.5F};
-// Samples along the largest extent, at least; those of small levels are finer than their pixels.
+// Limits of samples along the largest extent. Levels shown in few pixels have more samples than
+// pixels.
 constexpr int kMinSamples = 192;
 constexpr int kMaxSamples = 512;
 constexpr double kMaxColourDifference = 0.02;
-constexpr double kMinFactor = 2.0; // of the triangles of a level and the next
+constexpr double kMinFactor = 2.0; // ratio of the triangles of a level to those of the next
 constexpr double kMaxFactor = 3.0;
-// Without an impostor, few branches of many triangles each are left at the end.
+// Without an impostor, the last level has few branches of many triangles each, so the ratio may be
+// larger.
 constexpr double kMaxLastFactor = 3.3;
 constexpr double kManyTriangles = 150.0;
 constexpr double kMaxImpostorDistance = 5.0; // pixels
@@ -142,7 +144,8 @@ Picture draw(const Drawing& drawing, const Bounds& frame, int samples, float tur
     const float largest = std::max({half.x, half.y, half.z});
     const float scale = 0.5F * static_cast<float>(samples) / largest;
     const int size = static_cast<int>(std::ceil(2.0F * scale * reach)) + 1;
-    // Each view lies between samples in its own way, as a stem in the middle of all would not.
+    // Shift each view by another part of a sample; a stem in the middle of all views would
+    // otherwise always meet samples alike.
     const float number = 1.0F + 8.0F * turn + 16.0F * tilt;
     const glm::vec3 shift(glm::fract(0.618F * number), glm::fract(0.414F * number), 0.0F);
     std::vector<glm::vec3> places;
@@ -227,15 +230,16 @@ Picture draw(const Drawing& drawing, const Bounds& frame, int samples, float tur
     return picture;
 }
 
-/// Mean distance in samples from what `from` covers to what `to` covers: along rows, then along
-/// columns (Felzenszwalb and Huttenlocher 2012, by direct search).
+/// Mean distance in samples from the covered samples of `from` to the nearest covered sample of
+/// `to`: along rows, then along columns (Felzenszwalb and Huttenlocher 2012, by direct search).
 double mean_distance(const Picture& from, const Picture& to) {
     const int size = to.size;
     const auto at = [size](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
                static_cast<std::size_t>(x);
     };
-    std::vector<float> along(to.covered.size(), static_cast<float>(size)); // in the row
+    // Distance to the nearest covered sample in the row.
+    std::vector<float> along(to.covered.size(), static_cast<float>(size));
     for (int y = 0; y < size; ++y) {
         for (const bool forwards : {true, false}) {
             auto last = static_cast<float>(size);
@@ -275,14 +279,15 @@ double silhouette_distance(const Picture& a, const Picture& b) {
     return std::max(mean_distance(a, b), mean_distance(b, a));
 }
 
-/// How a mesh differs from the finest one, over all views.
+/// Difference of a mesh from the finest one, over all views.
 struct Difference {
     double silhouette = 0.0; // mean over views, pixels
     double area = 0.0;       // ratio of the covered areas
-    double colour = 0.0;     // largest difference of a channel, a part of the brightest one
+    double colour = 0.0;     // largest difference of a channel as a fraction of the brightest one
 };
 
-/// Compares at `samples` along the largest extent, `pixels` of which are seen.
+/// Compares two meshes with `samples` samples along the largest extent, which takes `pixels` pixels
+/// where the level is shown.
 Difference compare(
     const Drawing& fine, const Drawing& coarse, const Bounds& frame, int samples, float pixels) {
     Difference result;
@@ -350,9 +355,9 @@ const std::array<const char*, 10> kSamplesOfLevels{
 struct LevelResult {
     std::uint64_t planned = 0; // triangles
     std::uint64_t triangles = 0;
-    double factor = 1.0; // of the level before
+    double factor = 1.0; // ratio to the triangles of the previous level
     float pixels = 0.0F;
-    Difference difference; // the silhouette in pixels where the level is shown
+    Difference difference; // silhouette in pixels at the distance where the level is shown
 };
 
 std::vector<LevelResult> measure_levels(const std::string& name) {
@@ -382,7 +387,7 @@ std::vector<LevelResult> measure_levels(const std::string& name) {
 } // namespace
 
 TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[levels]") {
-    // The others take longer; the table has them too.
+    // The other samples take longer; only the table of levels measures them.
     const std::string name = GENERATE("carey-type-0", "carey-type-1", "carey-3-2-2", "abop-1-24f",
                                       "abop-2-8a", "abop-2-6-monopodial", "abop-lychnis");
     const std::vector<LevelResult> results = measure_levels(name);
@@ -461,7 +466,8 @@ TEST_CASE("levels fitted later are those fitted at once", "[levels]") {
             CHECK(level.cover == all.levels[k].cover);
         }
     }
-    // The coarsest level is always fitted, as it is what --level asks for beyond the end.
+    // The coarsest level is always fitted, because --level uses it for all numbers beyond the last
+    // level.
     DetailLevels coarsest;
     REQUIRE(plan_detail_levels(plant.skeleton, plant.user_meshes, options,
                                {.pictures = true, .first_fitted = kMaxDetailLevel},
@@ -483,7 +489,8 @@ TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]"
         REQUIRE(few.levels.size() == expected);
         CHECK_FALSE(few.levels.front().impostor);
         CHECK(few.levels.back().impostor == (count > 1));
-        // Each is one of the chain; steps differ by one level at most.
+        // Each level is one of the whole chain; the numbers of skipped levels differ by at most
+        // one.
         std::size_t at = 0;
         std::set<std::size_t> steps;
         for (std::size_t k = 1; k < expected; ++k) {
@@ -509,7 +516,7 @@ TEST_CASE("cards have as many triangles as asked for", "[levels]") {
         const ImpostorBaker baker(finest, 60.0F, triangles);
         const Mesh cards = baker.make(1.0, glm::vec3(1.0F));
         CHECK(triangles_of(cards) == triangles);
-        // Cards lie within the ball around the box of the plant, and their fronts look the way of
+        // Cards lie within the bounding sphere of the box of the plant, and their fronts face along
         // their normals.
         const Bounds frame = bounds_of(finest);
         const glm::vec3 middle = 0.5F * (frame.low + frame.high);
@@ -551,7 +558,7 @@ TEST_CASE("what a level keeps, all finer levels keep", "[levels]") {
     const Plant plant = grown("carey-3-2-2");
     const DetailLevels levels = planned(plant, {.threads = 1});
     const ThinningOrder order = thinning_order(plant.skeleton);
-    // Paths come after their parents.
+    // In the order, a path comes after its parent.
     for (std::size_t i = 0; i < plant.skeleton.segments.size(); ++i) {
         const std::uint32_t parent = plant.skeleton.segments[i].parent;
         if (parent < i) {
@@ -594,7 +601,7 @@ TEST_CASE("leaves that stay have the area of all leaves", "[levels]") {
             by_colour[leaf.colour] += own;
         }
         CHECK(left == Approx(area).epsilon(1e-4));
-        if (kept >= 3) { // each colour keeps its part
+        if (kept >= 3) { // each colour keeps its share of the area
             CHECK(by_colour.size() == 3);
             for (const auto& [colour, part] : by_colour) {
                 CHECK(part == Approx(area / 3.0).epsilon(0.05));

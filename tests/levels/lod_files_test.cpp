@@ -53,7 +53,7 @@ TEST_CASE("a GLB holds all levels of detail as MSFT_lod") {
     CHECK(run.err.find("the plant has " + std::to_string(count) + " levels of detail") !=
           std::string::npos);
     REQUIRE(document["nodes"].size() == count);
-    // Only the finest is in the scene; the others are reached through it.
+    // Only the finest level is in the scene; the others are reached through its MSFT_lod.
     CHECK(document["scenes"][0]["nodes"] == nlohmann::json::array({0}));
     const nlohmann::json& plant = document["nodes"][0];
     const nlohmann::json& coverage = plant["extras"]["MSFT_screencoverage"];
@@ -69,7 +69,7 @@ TEST_CASE("a GLB holds all levels of detail as MSFT_lod") {
         CHECK(before / now >= 2.0);
         CHECK(before / now <= 3.0);
     }
-    // Every level is the mesh that --level writes alone.
+    // Every level is the mesh that --level writes to a file of its own.
     for (std::size_t level = 0; level < count; ++level) {
         REQUIRE(run_lsc({"export", "-", "-o", folder / "b.glb", "--level", std::to_string(level)},
                         kTree)
@@ -126,8 +126,8 @@ TEST_CASE("the last levels are impostors with colour, opacity and normals") {
             CHECK(material.contains("normalTexture"));
         }
         CHECK(impostors >= 2);
-        // Pictures that levels share are there once: bark and its normals, the leaf. An impostor
-        // has its own and normals. Equal materials are one.
+        // Pictures that levels share are stored once: bark, its normals, the leaf. An impostor has
+        // its own picture and normals. Equal materials are stored once.
         CHECK(document["images"].size() == 3 + 2 * impostors);
         const std::size_t materials = document["materials"].size();
         for (std::size_t i = 0; i < materials; ++i) {
@@ -234,7 +234,7 @@ TEST_CASE("trees of a forest have levels of detail by distance") {
     CHECK(whole.first == 60);
     CHECK(usual.first == 60);
     CHECK(far.first == 60);
-    CHECK(far.second <= 60 * 24); // all are impostors
+    CHECK(far.second <= 60 * 24); // all trees are impostors
     CHECK(far.second < usual.second);
     CHECK(usual.second < whole.second / 2);
 

@@ -1,5 +1,5 @@
-// Citations of documents in sources, scripts and documents: `docs/language.md section 5` names a
-// file that is there, and a section that it has.
+// Citations of documents in sources, scripts and documents: `docs/language.md section 5` names an
+// existing file and one of its sections.
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
 
@@ -32,12 +32,12 @@ struct Citation {
     std::vector<std::string> sections;
 };
 
-/// Where a text goes on behind blanks, line ends and the signs with which comments go on.
+/// Offset of the next word after blanks, line ends and the signs that begin comment lines.
 std::size_t next_word(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(" \t\r\n/#*|`", at), text.size());
 }
 
-/// `5`, `5.1`; empty: none is there. `at` is put behind it.
+/// The number at `at`, `5` or `5.1`; empty if there is none. Moves `at` past it.
 std::string number_at(std::string_view text, std::size_t& at) {
     std::size_t end = at;
     while (end < text.size() && (std::isdigit(static_cast<unsigned char>(text[end])) != 0 ||
@@ -50,7 +50,7 @@ std::string number_at(std::string_view text, std::size_t& at) {
     return number;
 }
 
-/// `section 5`, `sections 4 to 6`, `sections 6 and 9`: the numbers that stand there.
+/// `section 5`, `sections 4 to 6`, `sections 6 and 9`: returns the numbers.
 std::vector<std::string> sections_behind(std::string_view text, std::size_t at) {
     at = next_word(text, at);
     if (text.substr(at, 7) != "section") {
@@ -87,10 +87,10 @@ std::vector<Citation> citations_in(std::string_view text) {
             --begin;
         }
         const bool is_url = begin > 0 && text[begin - 1] == ':' && text[begin] == '/';
-        if (begin > 0 && text[begin - 1] == '$') { // a variable of a script
+        if (begin > 0 && text[begin - 1] == '$') { // the path begins with a variable of a script
             begin = std::min(text.find('/', begin), at);
         }
-        begin += text[begin] == '/' ? 1U : 0U; // behind a variable
+        begin += text[begin] == '/' ? 1U : 0U; // skip the `/` after a variable
         const bool is_name =
             begin < at && is_word(text[at - 1]) && (end == text.size() || !is_word(text[end]));
         const bool is_pattern = begin > 0 && (text[begin - 1] == '*' || text[begin - 1] == '>');
@@ -115,7 +115,7 @@ std::set<std::string> sections_of(const std::filesystem::path& document) {
     return numbers;
 }
 
-/// Folders and files that the project is written in.
+/// All sources, scripts and documents of the project.
 std::vector<std::filesystem::path> all_sources() {
     constexpr std::array<std::string_view, 13> kExtensions{".h",  ".cpp",  ".in",    ".def", ".ll",
                                                            ".yy", ".glsl", ".cmake", ".txt", ".md",
@@ -139,7 +139,7 @@ std::vector<std::filesystem::path> all_sources() {
     return sources;
 }
 
-/// The document that a file cites; empty: there is none.
+/// Path of the document that a file cites; empty if it does not exist.
 std::filesystem::path cited(const std::filesystem::path& source, const std::string& path) {
     for (const std::filesystem::path& folder : {source_root(), source.parent_path()}) {
         if (std::filesystem::exists(folder / path)) {

@@ -99,8 +99,7 @@ std::vector<SessionStep> steps_of(const std::vector<std::string>& lines) {
 }
 
 bool shows(const std::vector<std::string>& expected, const std::vector<std::string>& output) {
-    // reached[k]: the first k lines of the output can be what the lines of `expected` so far stand
-    // for.
+    // reached[k]: the lines of `expected` so far match the first k lines of the output.
     std::vector<bool> reached(output.size() + 1);
     reached[0] = true;
     for (const std::string& line : expected) {
@@ -157,7 +156,7 @@ std::string Session::run(const SessionStep& step) {
     if (words[0] == "lsc") {
         return run_lsc(step, {words.begin() + 1, words.end()});
     }
-    if (words[0] == "lsview") { // it needs OpenGL, and its pictures are tested elsewhere
+    if (words[0] == "lsview") { // lsview needs OpenGL, and tests/viewer tests its pictures
         const std::string wrong = check_options(words);
         return wrong.empty() ? "" : command + wrong;
     }
@@ -170,7 +169,7 @@ std::string Session::finish() const {
                               "; show it by `$ echo $?`";
 }
 
-/// A file that is not there is written, one that is there must hold what is shown.
+/// Runs `cat`: writes a missing file; an existing one must have the shown text.
 std::string Session::show_file(const SessionStep& step, const std::string& name) const {
     const std::filesystem::path path = folder_ / name;
     if (!std::filesystem::exists(path)) {

@@ -1,4 +1,4 @@
-// Commands that documents show: read as a shell does, run in-process.
+// Commands in documents: parsed as by a shell, run in-process.
 #pragma once
 
 #include <filesystem>
@@ -11,23 +11,24 @@ namespace lsys::tests {
 /// The words of a command line: '...' and "..." keep blanks, a word that begins with # ends it.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view command);
 
-/// A command of a block `console`, and what the terminal shows for it.
+/// A command of a `console` block and its output.
 struct SessionStep {
     std::size_t line = 0; // within the block, from 0
     std::string command;
     std::vector<std::string> output;
 };
-/// Lines that begin with "$ " are commands; one that ends with \ goes on in the next line.
+/// Lines that begin with "$ " are commands; a line that ends with \ continues on the next.
 [[nodiscard]] std::vector<SessionStep> steps_of(const std::vector<std::string>& lines);
 
-/// The shell of a document: its commands run one after the other in a folder of its own, in which
-/// `samples` is that of the project.
+/// The shell of a document: its commands run one after the other in a folder of its own, which
+/// contains the project's `samples`.
 class Session {
 public:
     explicit Session(std::filesystem::path folder);
-    /// A message that begins with the command, or an empty one.
+    /// Runs a command. Returns a message that begins with the command, or empty if its output is as
+    /// expected.
     [[nodiscard]] std::string run(const SessionStep& step);
-    /// The same at the end of the document.
+    /// Checks the end of the document. Returns a message, or empty if there is no mistake.
     [[nodiscard]] std::string finish() const;
 
     struct Result {
@@ -47,12 +48,11 @@ private:
     std::string last_;
 };
 
-/// What is wrong with the options of `lsc ...` or `lsview ...`, which does not run; empty: nothing.
-/// Commands of other programs are fine.
+/// Checks the options of `lsc ...` or `lsview ...` without running it. Returns a message; empty for
+/// correct options and for other programs.
 [[nodiscard]] std::string check_options(const std::vector<std::string>& words);
 
-/// Whether a terminal shows `output` where a document shows `expected`: a line `...` stands for any
-/// lines.
+/// Whether `expected` of a document matches `output`; a line `...` matches any lines.
 [[nodiscard]] bool shows(const std::vector<std::string>& expected,
                          const std::vector<std::string>& output);
 

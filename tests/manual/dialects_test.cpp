@@ -1,4 +1,4 @@
-// The manual of dialects has what the table of dialects has.
+// Compares the manual of dialects with the table of dialects.
 #include "grammar/dialects/dialect.h"
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
@@ -13,7 +13,7 @@ namespace lsys::tests {
 
 namespace {
 
-/// The line of a table that names `name` as code; empty: none.
+/// The row of a table with `name` as code; empty if there is none.
 std::string table_row(const std::string& document, const std::string& name) {
     std::istringstream lines(document);
     for (std::string line; std::getline(lines, line);) {

@@ -1,5 +1,5 @@
-// docs/documents.md: every feature of the documents has a row, and its commands print what stands
-// behind them.
+// docs/documents.md: every feature of the documents has a row, and its commands print the output
+// given after them.
 #include "tests/manual/commands.h"
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
@@ -42,10 +42,11 @@ std::vector<DocumentRow> rows_of(const std::string& document) {
 
 struct ShownCommand {
     std::string command;
-    std::string expected; // a part of what is printed, or empty
+    std::string expected; // part of the output; may be empty
 };
 
-/// Commands are code that begins with `lsc` or `lsview`; code behind an arrow is expected.
+/// Commands are code that begins with `lsc` or `lsview`; code after an arrow is the expected
+/// output.
 std::vector<ShownCommand> commands_of(const std::string& cell) {
     static const std::regex code("(``.*?``|`[^`]*`)(?: → (``.*?``|`[^`]*`))?");
     const auto text_of = [](std::string span) {
@@ -91,7 +92,7 @@ TEST_CASE("the commands in the table of the documents print what it says") {
     Session session(folder.path());
     for (const Fence& fence : fences_of(document)) {
         for (const SessionStep& step : steps_of(fence.lines)) {
-            CHECK(session.run(step).empty()); // writes the grammars of the page
+            CHECK(session.run(step).empty()); // the blocks write the grammars of the page
         }
     }
     std::size_t count = 0;
@@ -100,7 +101,7 @@ TEST_CASE("the commands in the table of the documents print what it says") {
             INFO(kDocument << ":" << row.line << ": " << shown.command);
             const std::vector<std::string> words = words_of(shown.command);
             CHECK(check_options(words).empty());
-            if (words[0] != "lsc") { // lsview needs OpenGL, and its pictures are tested elsewhere
+            if (words[0] != "lsc") { // lsview needs OpenGL, and tests/viewer tests its pictures
                 continue;
             }
             const Session::Result result = session.result_of({words.begin() + 1, words.end()});

@@ -1,6 +1,6 @@
 // Every block of a document that begins with ```lsys ARGUMENTS is a grammar: `lsc ARGUMENTS` on it
-// must succeed, say nothing on standard error, and print the ```text block that follows, if one
-// does.
+// must succeed, write nothing to standard error, and print the ```text block that follows, if there
+// is one.
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
 
@@ -31,7 +31,7 @@ void check_example(const Fence& fence, const Fence* output, const ScratchFolder&
     if (output != nullptr) {
         CHECK(run.out == output->text());
     }
-    // Laid out as `lsc fmt` does it.
+    // The example is formatted as by `lsc fmt`.
     CHECK(run_lsc({"fmt", "--check", file}, "").status == 0);
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("the examples of the documents print what they say") {
     const ScratchFolder folder;
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {
-        if (document == "grammar/explanations.md") { // has a test of its own
+        if (document == "grammar/explanations.md") { // tests/explanations tests it
             continue;
         }
         const std::vector<Fence> fences = fences_of(read_text(source_root() / document));

@@ -1,4 +1,4 @@
-// Links of documents: files, folders and headings that they name are there. Lines of prose in
+// Links of documents: the files, folders and headings that they name exist. Lines of prose in
 // README.md and docs/ are short enough to be read in any editor.
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
@@ -19,7 +19,7 @@ bool is_elsewhere(std::string_view target) {
     return target.find("://") != std::string_view::npos || target.starts_with("mailto:");
 }
 
-/// What is wrong with a link; empty: nothing.
+/// The mistake in a link; empty if it is correct.
 std::string wrong_with(const std::filesystem::path& document, const std::string& target) {
     const std::size_t hash = target.find('#');
     const std::string name = target.substr(0, hash);

@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(std::string_view document) {
     return lines;
 }
 
-/// By line: whether it is within a fence, its ``` included.
+/// For each line, whether it is within a fence; the lines with ``` count.
 std::vector<bool> fenced(const std::vector<std::string>& lines) {
     std::vector<bool> is_code(lines.size());
     bool open = false;
@@ -40,7 +40,7 @@ std::string without_code(std::string_view line) {
         const std::size_t end = std::min(text.find_first_not_of('`', at), text.size());
         const std::string ticks = text.substr(at, end - at);
         std::size_t close = text.find(ticks, end);
-        // A longer row of back quotes is another one.
+        // A longer sequence of back quotes does not close the code.
         while (close != std::string::npos && close + ticks.size() < text.size() &&
                text[close + ticks.size()] == '`') {
             close = text.find(ticks, text.find_first_not_of('`', close));
@@ -57,7 +57,7 @@ std::string without_code(std::string_view line) {
 
 std::string anchor_of(std::string_view heading) {
     std::string anchor;
-    bool in_target = false; // of a link, which is not shown
+    bool in_target = false; // in the target of a link, which GitHub does not show
     for (std::size_t i = 0; i < heading.size(); ++i) {
         const char c = heading[i];
         if (c == ']' && i + 1 < heading.size() && heading[i + 1] == '(') {

@@ -1,4 +1,4 @@
-// The documents of the project as text: which there are, and what the tests read of Markdown.
+// The documents of the project, and the parts of Markdown that the tests read.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace lsys::tests {
 /// A block between two lines ```.
 struct Fence {
     std::size_t line = 0; // of its first ```, from 1
-    std::string info;     // what stands behind it: "lsys check", "console"
+    std::string info;     // text after the ```: "lsys check", "console"
     std::vector<std::string> lines;
 
     [[nodiscard]] std::string text() const;
@@ -36,7 +36,7 @@ struct Link {
     std::size_t line = 0;
     std::string target;
 };
-/// Links and pictures, those of HTML tags too. Code has none.
+/// Links and pictures, also in HTML tags, but not in code.
 [[nodiscard]] std::vector<Link> links_of(std::string_view document);
 
 /// Lines of prose: no code, no table, no heading.

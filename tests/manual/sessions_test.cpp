@@ -1,6 +1,6 @@
-// What documents show of a terminal. A block ```console is a session: lines that begin with "$ "
-// are commands, and behind each stands what it prints. Blocks ```sh are commands without their
-// output, of which only the options are checked.
+// Terminal sessions in documents. A block ```console is a session: lines that begin with "$ " are
+// commands, followed by their output. Blocks ```sh have commands without output; only their options
+// are checked.
 #include "tests/manual/commands.h"
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"

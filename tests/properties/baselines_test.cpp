@@ -1,5 +1,5 @@
-// The benchmark systems W1 to W6: numbers of modules, of each symbol, and digests, as they were
-// found with several independent programs.
+// The benchmark systems W1 to W6: counts of modules and of each symbol, and digests, as computed by
+// several independent programs.
 #include "tests/support/lsc_run.h"
 #include "tests/support/sha256.h"
 
@@ -43,7 +43,7 @@ std::string dump(const std::string& grammar, std::vector<std::string> options) {
     return run.out;
 }
 
-/// The names of the modules alone, without blanks.
+/// The names of the modules without parameters and blanks.
 std::string symbols(const std::string& word) {
     std::string names;
     int depth = 0;

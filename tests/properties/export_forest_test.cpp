@@ -1,4 +1,4 @@
-// Forests as files: counts, limits, and bytes that do not depend on threads.
+// Exported forests: counts, limits, and equal bytes for any number of threads.
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"
 #include "tests/support/forest.h"
@@ -24,7 +24,7 @@ namespace {
 const std::string kLeafyBush = "#set names letters; #object l LEAF; #w : A;"
                                "#p : A : ~ 0.5 : F[+Al][-A]/A; #q : A : ~ 0.5 : F[+A]//Al;";
 
-/// A forest with its surfaces.
+/// A forest with its meshes.
 struct Wood {
     Forest forest;
     std::vector<std::vector<InstanceMeshes>> meshes;
@@ -60,7 +60,7 @@ struct Wood {
 constexpr std::string_view kNothing = "the forest has nothing to draw, so no file is written";
 
 struct Exported {
-    std::optional<Stop> stop; // none: it was written
+    std::optional<Stop> stop; // nullopt: the file was written
     std::string error;
     std::string bytes;
     json document; // of a GLB
@@ -222,7 +222,7 @@ Primitive read_primitive(const Exported& file, const json& primitive) {
     return read;
 }
 
-/// Corners of all triangles, summed up, and their bounds: what does not depend on an order.
+/// Sum and bounds of the corners of all triangles, which do not depend on their order.
 struct Shape {
     glm::dvec3 sum{0.0};
     Bounds bounds;
@@ -253,7 +253,7 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
     CHECK(one.document["extensionsUsed"] == json::array({"EXT_mesh_gpu_instancing"}));
     CHECK(one.document["extensionsRequired"] == json::array({"EXT_mesh_gpu_instancing"}));
     std::uint64_t without = 0;
-    for (const auto& of_species : wood.meshes) { // indices alone
+    for (const auto& of_species : wood.meshes) { // bytes of the indices, 16 bits each
         without += of_species[0].mesh.indices.size() * 2;
     }
     CHECK(one.buffer().size() > without + 40 * branches);
@@ -263,7 +263,7 @@ TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
         CHECK(instances_in(cells.document) == branches);
         CHECK(cells.buffer().size() == one.buffer().size());
         CHECK(cells.document["nodes"][0]["children"].size() > 1);
-        // A cell has the trees that stand in it.
+        // No cell is empty.
         for (const json& node : cells.document["nodes"]) {
             const std::string name = node.value("name", "");
             if (name.rfind("cell ", 0) == 0) {
@@ -334,7 +334,7 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     double last_bytes = 1e9;
     struct Form {
         ExportCompression compression;
-        float most;           // metres by which bounds may differ
+        float most;           // max difference of bounds, m
         std::uint64_t window; // instances whose transforms are compressed together
     };
     // Positions are off by at most half a step along each axis: a tree is less than 10 m wide.
@@ -394,7 +394,8 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     wood.add_species(kLeafyBush, 6);
     wood.add_species("#set names letters; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : FA;",
                      7);
-    wood.add_species("#set names letters; #w : F; #p : F : * : F+F;", 13, 0.0F); // has wide slices
+    // Its primitives need 32-bit indices.
+    wood.add_species("#set names letters; #w : F; #p : F : * : F+F;", 13, 0.0F);
     wood.add_trees(900);
     const Exported file = exported(wood.scene(), ExportFormat::Glb);
     REQUIRE(!file.stop);
@@ -402,7 +403,7 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     std::uint64_t wide = 0;
     std::uint64_t nested = 0;
     for (const json& drawn : file.document["meshes"]) {
-        // "species S I": instance I
+        // The name is "species S I": instance I of species S.
         const std::string name = drawn["name"];
         const std::size_t species = std::stoul(name.substr(8)) - 1;
         const auto instance = static_cast<std::uint32_t>(std::stoul(name.substr(name.rfind(' '))));
@@ -438,7 +439,8 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     }
     CHECK(wide > 0);
     CHECK(nested > 20);
-    // Nested instances share their vertices in the file: it has few more than the heroes.
+    // Nested instances share their vertices in the file: the file has few more than the heroes
+    // have.
     std::uint64_t in_file = 0;
     std::uint64_t of_heroes = 0;
     for (const json& view : file.document["bufferViews"]) {
@@ -479,7 +481,7 @@ TEST_CASE("transforms of more instances than are held at once are all there") {
                         sizeof at);
             return at;
         };
-        if (t["count"] == kTrees) { // all are of one hero
+        if (t["count"] == kTrees) { // all trees are of one hero
             for (const std::uint32_t i : {0U, 1U, 77U, kTrees - 1}) {
                 CHECK(std::abs(value(t, i) - wood.forest.trees[i].position.x) < 1e-3F);
                 CHECK(value(s, i) == wood.forest.trees[i].scale);
@@ -544,7 +546,7 @@ TEST_CASE("a ground without trees is a forest, and is baked with its material") 
     CHECK(file.document["meshes"].size() == 1);
     wood.add_trees(3);
     const Mesh baked = bake(wood.scene(&ground));
-    CHECK(baked.tangents.empty()); // as those of the ground
+    CHECK(baked.tangents.empty()); // the ground has none, so the merged mesh has none
     CHECK(baked.materials.size() == wood.meshes[0][0].mesh.materials.size() + 1);
     CHECK(baked.materials.back().name == "ground");
     CHECK(baked.parts.back().index_count == 3);

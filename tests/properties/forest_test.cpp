@@ -1,4 +1,4 @@
-// Trees from instance caches beside plants that were derived and drawn whole.
+// Compares trees from instance caches with plants that were derived and drawn whole.
 #include "runtime/derive/word_text.h"
 #include "tests/support/forest.h"
 #include "tests/support/lsc_run.h"
@@ -34,7 +34,7 @@ std::string sample(const std::string& name) {
     return {};
 }
 
-/// What a tree looks like, for telling trees apart.
+/// Hash of the segments of a tree: equal trees have equal hashes.
 std::uint64_t hash_of(const std::vector<TreeSegment>& segments) {
     std::uint64_t hash = 0xCBF29CE484222325;
     for (const TreeSegment& segment : segments) {
@@ -82,28 +82,28 @@ TEST_CASE("without taking, every tree is a hero, bit for bit") {
 TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
     const std::string grammar = GENERATE(
         as<std::string>{},
-        // by turtle state: widths and steps become smaller with each branch
+        // Keys by turtle state: widths and steps become smaller with each branch.
         "#set turtle houdini; #set names letters; #w : A; #p : A : * : !\"F[&A][//&A]////[^A]F;",
-        // by parameters
+        // Keys by parameters.
         "#w : A(1, 0.3); #p : A(l, w) : * : !(w) F(l) [&(30) A(l*0.8, w*0.7)] /(137)"
         "[&(50) A(l*0.6, w*0.5)] A(l*0.9, w*0.8);",
-        // a branch that grows on
+        // A branch that grows on.
         "#set names letters; #w : A; #p : A : * : F[+B]A; #q : B : * : F[-B]FB; #r : F : * : FF;",
-        // drawn in place of its modules, in branches of their own
+        // #interpret with its own branches.
         "#set names letters; #w : A; #p : A : * : I[+A][-A]IA; #q : I : * : II;"
         "#interpret i : I : * : F[&J]; #interpret j : A : * : {.F+F+F.}; #interpret k : J : * : "
         "FF;",
-        // decomposed within a generation, with branches of their own
+        // #decompose with its own branches.
         "#w : A(0); #p : A(t) : * : F [+ B(t)] A(t + 0.5); #b : B(t) : * : B(t + 0.4) F;"
         "#decompose d : A(t) : t > 1 : M(t) [& B(t - 1)] A(t - 1); #decompose m : M(t) : * : F(t);",
-        // cut off, in the branch and around it
+        // Cuts by %, in a branch and around it.
         "#set names letters; #w : A; #p : A : * : F[+A][-BA]/A; #b : B : * : C; #c : C : * : F%;",
-        // of several modules that are rewritten as one
+        // Predecessors of several modules.
         "#set names letters; #set rewriting leftmost; #w : AB;"
         "#p : AB : * : F[+AB]/AB[&ABA]; #q : A : * : F[-AB]; #r : B : * : F;",
-        // that knows where up is, by what is drawn
+        // Dependence on the vertical, by #interpret.
         "#set names letters; #w : A; #p : A : * : F[&A][//&A]D; #interpret d : D : * : $F;",
-        // that knows where up is
+        // Dependence on the vertical.
         "#set names letters; #set tropism 0 -1 0 0.2; #w : A; #p : A : * : F[&A][//&A]$F;");
     const float rho = GENERATE(0.3F, 0.6F, 1.0F);
     const Planted planted = plant(grammar, 5, rho, heroes(3));
@@ -185,7 +185,7 @@ TEST_CASE("a tree is a function of its number") {
 
 namespace {
 
-/// What is measured of a tree: segments, height, crown radius, and segments by order.
+/// Measures of a tree: count of segments, height, crown radius, and count of segments by order.
 std::vector<double> measures_of(const std::vector<TreeSegment>& segments) {
     constexpr std::size_t kOrders = 5;
     std::vector<double> measures(3 + kOrders, 0.0);
@@ -195,8 +195,8 @@ std::vector<double> measures_of(const std::vector<TreeSegment>& segments) {
         measures[2] = std::max(measures[2], std::hypot(segment.tip.x, segment.tip.z));
         measures[3 + std::min<std::size_t>(segment.order, kOrders - 1)] += 1.0;
     }
-    // A tree that is put together ends where the plain one would but for rounding, which would tell
-    // equal heights apart.
+    // Round to mm: a tree put together from branches differs from the plain one by rounding errors,
+    // which would make equal heights differ.
     measures[1] = std::round(measures[1] * 1e3);
     measures[2] = std::round(measures[2] * 1e3);
     return measures;
@@ -277,7 +277,7 @@ TEST_CASE("trees of five hundred heroes are distributed as plain plants") {
         add(trees, segments_of(planted.cache, tree_of(i), 3));
         add(plants, segments_of(plain_plant(kBush, 7, 100'000 + i)));
     }
-    // At 1 percent, of two samples of one size (Smirnov 1948).
+    // Critical value of the two-sample test at 1 %, for samples of equal size (Smirnov 1948).
     const double bound = 1.628 * std::sqrt(2.0 / kTrees);
     for (std::size_t m = 0; m < trees.size(); ++m) {
         INFO("measure " << m);
@@ -311,7 +311,7 @@ TEST_CASE("a production of forty branches runs") {
 }
 
 TEST_CASE("keys keep apart what cannot stand for one another") {
-    // Branches of one text and age, but with different lengths.
+    // Branches with the same text and age but different lengths.
     const std::string grammar =
         "#w : B(1) B(2); #p : B(x) : * : [A(x)] F(x); "
         "#q : A(x) : ~ 0.5 : F(x) A(x); #r : A(x) : ~ 0.5 : F(x) F(x) A(x);";

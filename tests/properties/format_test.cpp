@@ -1,5 +1,5 @@
-// What must hold for the layout of every grammar: the samples and random grammars, as they are and
-// with their layout destroyed. Formatting again changes nothing, and what is parsed is the same.
+// Properties of the formatter for every grammar: samples and random grammars, as they are and with
+// their layout destroyed. Formatting again changes nothing, and the syntax tree stays the same.
 #include "grammar/ast/ast_dump.h"
 #include "grammar/format/format.h"
 #include "grammar/format/impl/lexemes.h"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace lsys;
 
-/// The tree as text, without the places of its statements; nothing if the text has errors.
+/// The syntax tree as text, without the places of statements; nullopt if the text has errors.
 std::optional<std::string> tree_of(const std::string& text) {
     SourceMap sources;
     Names names;
@@ -48,20 +48,21 @@ std::vector<std::string> comments_of(const std::string& text) {
     for (const Lexeme& lexeme : lexemes_of(text)) {
         if (is_comment(lexeme)) {
             std::string& comment = comments.emplace_back(lexeme.text);
-            std::erase(comment, '\r'); // of line ends, which may change where they are mixed
+            // Drop the \r of line ends, since mixed line ends become one kind.
+            std::erase(comment, '\r');
         }
     }
     return comments;
 }
 
-/// An author who does not care: chooses what stands between two tokens.
+/// Destroys the layout of a text: puts random blanks, line ends and comments between tokens.
 class Vandal {
 public:
     enum class Manner { Blanks, Lines, Mixed };
 
     Vandal(Manner manner, std::uint64_t seed) : manner_(manner), state_(seed * 2 + 1) {}
 
-    /// `repeats`: how often the modules of every production are written.
+    /// `repeats`: count of copies of the modules of every production.
     std::string run(const std::string& text, int repeats) {
         std::string out;
         std::vector<Lexeme> statement;
@@ -125,7 +126,7 @@ private:
     std::uint64_t state_;
 };
 
-/// Empty if all is well.
+/// A message about the first property that does not hold; empty if all hold.
 std::string mistake_in_layout_of(const std::string& text) {
     const std::optional<std::string> before = tree_of(text);
     if (!before) {
@@ -147,7 +148,7 @@ std::string mistake_in_layout_of(const std::string& text) {
 
 std::size_t check_layouts_of(std::string text, std::uint64_t seed) {
     if (text.starts_with("\xEF\xBB\xBF")) {
-        text.erase(0, 3); // no part of the text
+        text.erase(0, 3); // a byte order mark is no part of the text
     }
     std::size_t tried = 0;
     const auto check = [&](const std::string& layout) {

@@ -1,4 +1,4 @@
-// Surfaces of trees that are put together from instances, beside those of plants that were derived,
+// Compares meshes of trees put together from instances with meshes of plants that were derived,
 // drawn and meshed whole.
 #include "runtime/forest/instance_meshes.h"
 #include "tests/support/forest.h"
@@ -37,7 +37,7 @@ Mesh plain_mesh(const Skeleton& skeleton, const MeshOptions& options = {}) {
     return mesh;
 }
 
-/// Of a tree in the world, by the names of their materials.
+/// The triangles of a tree in world space, by the names of their materials.
 std::map<std::string, std::vector<Triangle>> triangles_of(const InstanceCache& cache,
                                                           const InstanceMeshes& meshes,
                                                           const Tree& tree,
@@ -76,7 +76,7 @@ std::map<std::string, std::vector<Triangle>> triangles_of(const Mesh& mesh) {
     return triangles;
 }
 
-/// A triangle in which corners do not depend on where it begins.
+/// The coordinates of a triangle, sorted, so that the order of its corners does not matter.
 std::array<double, 9> sorted(const Triangle& triangle) {
     std::array<double, 9> values{};
     for (std::size_t c = 0; c < 9; ++c) {
@@ -85,7 +85,8 @@ std::array<double, 9> sorted(const Triangle& triangle) {
     return values;
 }
 
-/// Takes each triangle of `b` at most once. How many of `a` have none within `distance`.
+/// Count of triangles of `a` without a triangle of `b` within `distance` (m). Each triangle of `b`
+/// matches at most one.
 std::size_t
 count_strangers(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
     const double cell = 4.0 * distance;
@@ -150,7 +151,8 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
         const Instance& instance = planted.cache.instances[i];
         if (instance.slot != 0) {
-            CHECK(meshes.parts_of(i).empty()); // no tree can come to it
+            // Without exchange of branches no tree contains this instance.
+            CHECK(meshes.parts_of(i).empty());
             continue;
         }
         const auto expected =
@@ -189,7 +191,7 @@ TEST_CASE("where nothing is left to chance, a tree has the surface of the plain 
         "#set names letters; #object l LEAF; #w : A; #p : A : * : F[+B]A[-l]; "
         "#q : B : * : F[-Bl]FB; "
         "#r : F : * : FF;",
-        // branches without a segment, a polygon in a branch, and an end that forks
+        // Branches without a segment, a polygon in a branch, and an end that forks.
         "#set names letters; #object l LEAF; #w : A; "
         "#p : A : * : F[+l][-{.f.+f.+f}]F[&A][^B]; "
         "#q : B : * : [//C]F; #s : C : * : FC[+l];");
@@ -227,7 +229,8 @@ TEST_CASE("instances within one another share vertices") {
     const Planted planted = plant(kMeshedBush, 6, 0.5F, heroes(10));
     const InstanceMeshes meshes = meshes_of(planted.cache);
     const Mesh heroes_mesh = plain_mesh(planted.cache.skeleton);
-    // But for an end where a branch was passed over, which is a half ball and no disc.
+    // More vertices than the heroes have come only from ends where a branch was left out: they are
+    // half balls instead of discs.
     CHECK(meshes.mesh.positions.size() < 2 * heroes_mesh.positions.size());
     std::uint64_t end = 0;
     for (const MeshPart& part : meshes.mesh.parts) {
@@ -256,7 +259,8 @@ TEST_CASE("a branch that is put elsewhere begins where and as wide as its parent
         for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
             const InstanceExit& exit = cache.exits[instance.first_exit + e];
             const InstanceSlot& slot = cache.slots[exit.slot];
-            // The first ring of each that may stand there, as seen from its entry.
+            // Radius and offset of the first ring of each instance that can fill the slot, in the
+            // frame of its entry.
             std::vector<std::array<double, 2>> rings;
             for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
                 const Instance& variant = cache.instances[cache.variants[slot.first_variant + v]];
@@ -306,7 +310,7 @@ TEST_CASE("boxes of an instance are closed surfaces of their own") {
     const InstanceMeshes meshes = meshes_of(planted.cache, options);
     std::size_t instances = 0;
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
-        Mesh own; // of its wood
+        Mesh own; // only its bark
         own.positions = meshes.mesh.positions;
         for (const MeshPart& part : meshes.parts_of(i)) {
             for (std::uint64_t k = 0;
@@ -317,7 +321,7 @@ TEST_CASE("boxes of an instance are closed surfaces of their own") {
             }
         }
         INFO(grammar << " rho " << rho << " instance " << i);
-        // Branches at one place share edges there.
+        // Branches that begin at one place share edges there, so edges need only be balanced.
         REQUIRE(test::topology_of(own).unbalanced_edges == 0);
         if (own.indices.size() != 0) {
             ++instances;
@@ -325,7 +329,7 @@ TEST_CASE("boxes of an instance are closed surfaces of their own") {
         }
     }
     CHECK(instances > 0);
-    // Every segment of a tree is drawn: its boxes reach as far as those of a plain plant.
+    // Every segment of a tree is drawn, so its boxes reach as far as those of a plain plant.
     const Bounds plain = test::bounds_of(plain_mesh(plain_plant(grammar, 5, 0), options));
     if (grammar.find('~') == std::string::npos) {
         Bounds bounds;

@@ -1,6 +1,6 @@
-// What `lsc check --fix` may do to a wrong grammar: right grammars are made wrong by one token, as
-// hasty fingers do it, and repaired. Where the repaired text compiles, it must be the grammar that
-// was right; where more than one repair is possible, nothing may be applied.
+// Limits of `lsc check --fix`: one token of a correct grammar is changed, as by a typing mistake,
+// and the result is repaired. If the repaired text compiles, it must be the original grammar; if
+// more than one repair is possible, none may be applied.
 #include "compiler/program/program_dump.h"
 #include "grammar/format/impl/lexemes.h"
 #include "runtime/cli/fixes.h"
@@ -26,16 +26,16 @@ namespace {
 using namespace lsys;
 namespace fs = std::filesystem;
 
-/// Larger files are slow, and none of them shows another kind of statement.
+/// Larger files are slow and have no other kinds of statements.
 constexpr std::uintmax_t kMaxFileBytes = 4000;
 
 struct Compiled {
     bool has_errors = true;
     bool has_certain_fix = false;
-    std::string program; // of a grammar without errors
+    std::string program; // dump of the program, if the grammar has no errors
 };
 
-/// A project that reads files of the disk.
+/// A project that reads files from disk.
 Project disk_project() {
     return {make_file_host(nullptr), {}, 1, {}};
 }
@@ -92,7 +92,7 @@ std::vector<RightGrammar> right_grammars() {
     return grammars;
 }
 
-/// A right grammar with one token changed.
+/// A correct grammar with one token changed.
 struct Mutant {
     std::string kind;
     std::string text;
@@ -171,9 +171,9 @@ private:
 
 struct Count {
     std::uint32_t tried = 0;
-    std::uint32_t right = 0;      // repaired to the grammar that it was
+    std::uint32_t right = 0;      // repaired to the original grammar
     std::uint32_t wrong = 0;      // repaired to another one
-    std::uint32_t unfinished = 0; // some fixes were applied, errors are left
+    std::uint32_t unfinished = 0; // repaired in part: errors are left
 };
 
 class Census {
@@ -183,7 +183,7 @@ public:
     void run(const RightGrammar& grammar, const Mutant& mutant) {
         const Compiled broken = compile(grammar.path, mutant.text);
         if (!broken.has_errors) {
-            return; // another right grammar
+            return; // the change made another correct grammar
         }
         Count& count = counts_[mutant.kind];
         ++count.tried;
@@ -277,7 +277,7 @@ private:
 } // namespace
 
 TEST_CASE("a repaired grammar is the one that was meant") {
-    // A part of all mutants, the same in every run.
+    // Test one of kOneOf mutants, the same in every run.
     constexpr std::uint64_t kOneOf = 16;
     Census census(false);
     std::uint64_t number = 0;
@@ -291,7 +291,7 @@ TEST_CASE("a repaired grammar is the one that was meant") {
     INFO(census.table() << census.kept());
     CHECK(census.total().wrong == 0);
     CHECK(census.total().unfinished == 0);
-    // What can only have been meant in one way is repaired.
+    // Changes with only one plausible repair are repaired.
     for (const char* kind : {"`;` removed", "`;` doubled", "`#` removed", "blank after `#`",
                              "`:` doubled", "`)` doubled"}) {
         const Count count = census.count(kind);

@@ -1,4 +1,4 @@
-// What must hold for every grammar, tried on the samples of the gallery.
+// Properties that hold for every grammar, tested on the samples of the gallery.
 #include "grammar/lsys/parse.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/host.h"
@@ -24,7 +24,7 @@ using tests::ScratchFolder;
 std::string few_generations(const Sample& sample) {
     const LscRun stats = run_lsc(
         {"stats", "--quiet", "--message-format", "json", "-n", "6", sample.file.string()}, "");
-    // One line a generation; the word grows with n in all of them.
+    // One line per generation; the words of all samples grow.
     std::istringstream lines(stats.out);
     std::size_t n = 0;
     std::size_t index = 0;
@@ -37,7 +37,8 @@ std::string few_generations(const Sample& sample) {
     return std::to_string(n);
 }
 
-/// The text with one other axiom in place of all; nothing if the axiom is in an included file.
+/// The text with the axiom `word` instead of all its axioms; nullopt if the axiom is in an included
+/// file.
 std::optional<std::string>
 with_axiom(const std::filesystem::path& path, const std::string& text, const std::string& word) {
     SourceMap sources;
@@ -49,7 +50,8 @@ with_axiom(const std::filesystem::path& path, const std::string& text, const std
     const Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
     std::string changed = text;
     std::optional<std::size_t> first;
-    for (std::size_t i = ast.statements.size(); i-- > 0;) { // spans in front of a change still hold
+    // From the last to the first, so that spans before a change stay valid.
+    for (std::size_t i = ast.statements.size(); i-- > 0;) {
         const Statement& statement = ast.statements[i];
         if (statement.kind == StatementKind::Axiom && statement.span.file == root) {
             first = statement.span.begin;
@@ -84,7 +86,7 @@ TEST_CASE("what is dumped parses as the axiom of the same file and dumps the sam
             continue;
         }
         ++tried;
-        // Beside the sample, since it may include its neighbours.
+        // A sample that includes its neighbours needs a copy of its folder.
         const LscRun again = run_lsc({"dump", "--quiet", "-n", "0", "-"}, *text);
         if (sample.file.filename() == "teach-include.lsys") {
             const ScratchFolder folder;
@@ -146,7 +148,7 @@ TEST_CASE("counts that need no word are those of the words") {
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
         const std::string file = sample.file.string();
-        // a run that saves its state derives
+        // A run with --save-state derives; without it, --count may predict instead.
         CHECK(dump({"--count", "--all", file}) ==
               dump({"--count", "--all", "--save-state", folder / "all.lss", file}));
     }

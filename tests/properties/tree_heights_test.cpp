@@ -1,4 +1,5 @@
-// Heights of trees of a forest beside the points of the same trees, expanded one by one.
+// Compares heights of trees of a forest with the highest points of the same trees, expanded one by
+// one.
 #include "runtime/forest/tree_heights.h"
 #include "tests/support/forest.h"
 
@@ -22,7 +23,7 @@ const std::string kLowBush = "#set names letters; #w : A;"
                              "#p : A : ~ 0.5 : F[+A][-A]/A; #q : A : ~ 0.3 : F[&A]//A;"
                              "#r : A : ~ 0.2 : FF[&A]F;";
 
-/// Of a metre a generation.
+/// Grows by a metre per generation.
 const std::string kConifer = "#w : A; #p : A : * : F [ +(30) A ] A;";
 
 double height_of_points(const std::vector<TreeSegment>& segments) {
@@ -35,7 +36,7 @@ double height_of_points(const std::vector<TreeSegment>& segments) {
     return high - low;
 }
 
-/// A forest of 300 trees, all at scale 1 but every third.
+/// A forest of 300 trees; every third has a scale other than 1.
 Forest forest_of(InstanceCache cache) {
     Forest forest;
     forest.key = 5;
@@ -120,7 +121,7 @@ TEST_CASE("a young tree is as much smaller as its stage") {
     CHECK(forest.trees[0].scale == forest.trees[1].scale);
     CHECK(height_of_points(segments_of(forest.cache_of(forest.trees[1]), forest.trees[1], 0)) ==
           Approx(20.0).epsilon(1e-5));
-    // Two of six whorls.
+    // The young tree has two of six whorls.
     CHECK(height_of_points(segments_of(forest.cache_of(forest.trees[0]), forest.trees[0], 0)) ==
           Approx(20.0 / 3.0).epsilon(1e-5));
 }

@@ -1,5 +1,5 @@
-// The turtle against a slow, direct reading of docs/language.md section 7: rotation matrices in
-// long double over the text of the word, which shares no code with the runtime.
+// Compares the turtle with a slow, direct implementation of docs/language.md section 7: rotation
+// matrices in long double over the text of the word, sharing no code with the runtime.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -27,8 +27,8 @@ struct Line {
     Real width = 0.0L;
 };
 
-/// What a character does in a profile: r R (yaw right, left), d u (pitch down, up), l L (roll left,
-/// right), f (move), F (draw).
+/// Operation of each character of a profile: r R (yaw right, left), d u (pitch down, up), l L (roll
+/// left, right), f (move), F (draw).
 using Profile = std::map<char, char>;
 
 const std::map<std::string, Profile>& profiles() {
@@ -120,7 +120,8 @@ struct Tropism {
     Real strength = 0.0L;
 };
 
-/// Turns the heading by e |H x T| radians towards T; Rodrigues' formula for all three axes.
+/// Rotates the frame so that the heading H turns by e |H x T| radians towards T, by Rodrigues'
+/// formula.
 void bend(Turtle& turtle, const Tropism& tropism) {
     Vector axis = cross(turtle.heading, tropism.towards);
     const Real sine = length(axis);
@@ -270,7 +271,7 @@ Real distance(const Vector& a, const Vector& b) {
     return length({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
-/// A random word of the profile's modules, brackets in pairs.
+/// A random word of modules of the profile, with matching brackets.
 std::string random_word(std::mt19937& random, const Profile& profile) {
     std::string names;
     for (const auto& [name, meaning] : profile) {
@@ -358,7 +359,7 @@ TEST_CASE("the Koch island is closed and level") {
     REQUIRE(segments.size() == 4 * 512);
     CHECK(distance(tip_of(segments.back()), {0, 0, 0}) < 1e-6L);
     for (const DrawnSegment& segment : segments) {
-        // Corners of a square lattice, in the plane.
+        // Segments begin at points of a square lattice in the plane.
         for (const Real x : segment.base) {
             REQUIRE(fabsl(x - roundl(x)) < 1e-6L);
         }

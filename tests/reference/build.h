@@ -1,5 +1,5 @@
-// Short ways to write a grammar of reference/grammar.h by hand, for tests. Strings of letters are
-// read as published systems are: every character is a module, blanks separate nothing.
+// Short ways to write a grammar of reference/grammar.h by hand, for tests. In texts of letters, as
+// in published systems, every character is a module and blanks do not separate names.
 
 #pragma once
 

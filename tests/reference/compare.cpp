@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// The first place where two texts differ, with what is around it.
+// The first place where two texts differ, with the text around it.
 std::string first_difference(const std::string& expected, const std::string& found) {
     const std::vector<std::string> wanted = lines_of(expected);
     const std::vector<std::string> given = lines_of(found);
@@ -69,7 +69,8 @@ std::string first_difference(const std::string& expected, const std::string& fou
     return "only the ends of lines differ\n";
 }
 
-// An axiom is not empty, closes what it opens, and has no polygon in a polygon.
+// Whether a word may be an axiom: it is not empty, its brackets match, and no polygon is in
+// another.
 bool can_be_an_axiom(const Word& word) {
     int branches = 0;
     int polygons = 0;
@@ -106,7 +107,7 @@ private:
         return arguments;
     }
 
-    // The status is `status` and standard output is `out`.
+    // Runs lsc; checks the exit status and standard output.
     bool gives(const std::vector<std::string>& arguments, int status, const std::string& out) {
         const Run run = run_lsc(arguments);
         if (run.status == status && run.out == out) {
@@ -140,7 +141,8 @@ private:
                continues_alike() && traces_alike() && reads_its_word();
     }
 
-    // Every module says where it comes from, however it was derived.
+    // Checks the origins of all modules: by threads, streamed, from bytecode and from a saved
+    // state.
     bool traces_alike() {
         const std::filesystem::path& folder = folder_.path();
         const std::string all = all_origins(made_, derivation_, folder, 0, std::nullopt);
@@ -148,7 +150,7 @@ private:
             all_origins(made_, derivation_, folder, derivation_.generations, std::nullopt);
         const std::string body = last.substr(last.find('\n') + 1);
         const std::uint32_t half = derivation_.generations / 2;
-        const std::string state = (folder / "half.state").string(); // of continues_alike()
+        const std::string state = (folder / "half.state").string(); // written by continues_alike()
         return gives(command("dump", {"--all", "--origins", "--threads", "1"}), 0, all) &&
                gives(command("dump", {"--all", "--origins", "--threads", "2"}), 0, all) &&
                gives(command("dump", {"--origins"}), 0, body) &&
@@ -167,7 +169,7 @@ private:
         return !contexts && setting(made_.grammar, "rewriting").value_or("parallel") == "parallel";
     }
 
-    // Of the compiled grammar that compiles_alike() made.
+    // Command line that dumps the bytecode file made by compiles_alike().
     [[nodiscard]] std::vector<std::string>
     compiled_dump(const std::vector<std::string>& more) const {
         Request rest = made_.request;
@@ -179,7 +181,8 @@ private:
         return dump;
     }
 
-    // The production, the generation and the place are named, and no wrong word is printed.
+    // Checks a run that must fail: the message names production, generation and place, and no wrong
+    // word is printed.
     bool stops_alike() {
         const RunError& error = *derivation_.error;
         const std::vector<std::string> arguments = command("dump", {"--all"});
@@ -214,7 +217,7 @@ private:
         return gives(compile, 0, "") && gives(compiled_dump({"--all"}), 0, expected_);
     }
 
-    // Some generations, and the others after a rest.
+    // Checks a derivation in two runs: half of the generations, a saved state, then the others.
     bool continues_alike() {
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder_.path() / "half.state").string();
@@ -229,7 +232,8 @@ private:
     // "What is printed parses again as the axiom of the same file."
     bool reads_its_word() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
-        // An axiom is decomposed, and what has stopped at the greatest depth would go on.
+        // An axiom is decomposed, so a word whose decomposition stopped at the depth limit would be
+        // decomposed further.
         const bool settled = !setting(made_.grammar, "decompose_depth");
         if (!settled || !can_be_an_axiom(word)) {
             return true;

@@ -1,4 +1,4 @@
-// Holds `lsc` against the oracle: writes the files of a case into a temporary folder, runs the
+// Compares `lsc` with the oracle: writes the files of a case into a temporary folder, runs the
 // program in-process and compares every generation as text.
 
 #pragma once
@@ -21,7 +21,7 @@ struct Run {
 // `lsc ARGUMENTS...`
 Run run_lsc(const std::vector<std::string>& arguments);
 
-// A folder of its own, removed at the end.
+// A temporary folder, removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder();
@@ -37,23 +37,22 @@ private:
     std::filesystem::path path_;
 };
 
-// The options that say the same as the request of `made`.
+// The command-line options for a request.
 std::vector<std::string> options_of(const Request& request);
 
-// Every generation on a line, as `dump --all` prints it.
+// Expected output of `dump --all`: a generation per line.
 std::string all_generations(const Grammar& grammar, const Derivation& derivation);
 
-// The words from generation `first` on, each with its modules as `dump --all --origins` prints them
-// for the files in `folder`. Modules as old as `saved`, which must not be after `first`, come from
-// a saved state.
+// Expected output of `dump --all --origins` from generation `first` on, for the files in `folder`.
+// `saved`: generation of a saved state, at most `first`; older modules have it as origin.
 std::string all_origins(const Case& made,
                         const Derivation& derivation,
                         const std::filesystem::path& folder,
                         std::uint32_t first,
                         std::optional<std::uint32_t> saved);
 
-// Derives `made` with the oracle and in several ways with `lsc`. Empty if all agree, else what to
-// print: the command, the grammar and the first difference.
+// Derives `made` with the oracle and in several ways with `lsc`. Returns an empty text if all
+// agree, else a message: the command, the grammar and the first difference.
 std::string difference(const Case& made);
 
 } // namespace lsys::reference

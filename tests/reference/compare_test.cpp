@@ -1,5 +1,5 @@
-// 1,000 random grammars, and some edges that chance does not meet, derived by `lsc` exactly as by
-// the oracle.
+// 1,000 random grammars, and edge cases that random grammars do not reach, must be derived by `lsc`
+// exactly as by the oracle.
 
 #include "tests/reference/build.h"
 #include "tests/reference/compare.h"
@@ -64,10 +64,11 @@ TEST_CASE("choices at the edge of a weight") {
         const char* word;
     };
     const std::vector<Edge> edges = {
-        {{0.5F, 0.5F}, 515707, "C"},                   // u = 0.5 is not below 0.5
-        {{0.1F, 0.1F, 0.45F, 0.35F}, 13371537, "E"},   // 0.65 is less in binary32
-        {{0.1F, 0.1F, 0.7F, 0.1F}, 5427075, "E"},      // 0.9 is less
-        {{0.1F, 0.3F, 0.15F, 0.45F}, 1593363, "E"},    // 0.55 is u itself
+        {{0.5F, 0.5F}, 515707, "C"}, // u = 0.5 is not below 0.5
+        // The running sum 0.65 is smaller in binary32.
+        {{0.1F, 0.1F, 0.45F, 0.35F}, 13371537, "E"},
+        {{0.1F, 0.1F, 0.7F, 0.1F}, 5427075, "E"},      // the running sum 0.9 is smaller
+        {{0.1F, 0.3F, 0.15F, 0.45F}, 1593363, "E"},    // u equals the running sum 0.55
         {{0.1F, 0.6F, 0.1F, 0.2F}, 16390493, "E"},     // the sum is below the largest u
         {{0.25F, 0.25F, 0.25F, 0.25F}, 12121362, "B"}, // u = 0
     };

@@ -9,7 +9,7 @@
 
 namespace lsys::reference {
 
-// `messages` gets what the compiler says.
+// Appends the compiler's messages to `messages`.
 std::optional<Bytecode> compile_case(const Case& made, std::string& messages);
 
 } // namespace lsys::reference

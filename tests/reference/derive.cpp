@@ -16,7 +16,7 @@ constexpr std::uint32_t kBeforeTheDerivation = 0xFFFFFFFF;
 constexpr std::uint64_t kDrawsOfARule = 4096;
 constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
 
-// A production with what section 5 sorts it by.
+// A production with its group and rule (section 5).
 struct Entry {
     const Production* production = nullptr;
     std::string group;
@@ -27,14 +27,14 @@ struct System {
     std::map<std::string, float> constants;
     Functions functions;
     std::vector<Entry> productions;    // in file order
-    std::vector<Entry> decompositions; // those of #decompose
+    std::vector<Entry> decompositions; // productions of #decompose
     std::vector<std::string> rules;    // rule k is rules[k]; by first appearance
     std::set<std::string> ignored;
     std::set<std::string> considered;
-    std::set<std::string> mentioned; // modules of all words and patterns
-    std::size_t rewriting_rules = 0; // the first of rules
+    std::set<std::string> mentioned; // names in all words and patterns
+    std::size_t rewriting_rules = 0; // rules[0, rewriting_rules) are those of rewriting
     std::uint32_t decompose_depth = 100;
-    bool cuts = false; // `%` cuts, as the turtle has it
+    bool cuts = false; // the turtle profile has `%` as a cut
     bool one_choice_a_generation = false;
     std::uint64_t seed = 0;
     std::uint32_t steps = 0;
@@ -48,13 +48,13 @@ struct Stop {
     RunError error;
 };
 
-// One step (or one pass) reads `word`, whose age is `age`.
+// Input of one step, or of one pass of a rule: `word` of age `age`.
 struct Reading {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
-    std::uint64_t first_draw = 0;         // sequential rewriting: 4096 times the rule
-    std::optional<std::size_t> only_rule; // the other modes read one rule at a time
+    std::uint64_t first_draw = 0;         // sequential rewriting: 4096 times the index of the rule
+    std::optional<std::size_t> only_rule; // the rule of this pass; empty in parallel rewriting
     bool decomposes = false;
 };
 
@@ -184,7 +184,7 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
         }
     };
     for (const auto& [name, expr] : production.locals) {
-        environment.formals[name] = value_of(expr); // may be infinite or NaN
+        environment.formals[name] = value_of(expr); // a local value may be infinite or NaN
     }
     for (const ModuleUse& use : production.successor) {
         Module module{
@@ -200,7 +200,7 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
     }
 }
 
-// Reads the word once from left to right, as leftmost rewriting does. In parallel rewriting a
+// Rewrites the word once from left to right, as in leftmost rewriting. In parallel rewriting a
 // predecessor is one module, so that this is also the step that rewrites all modules at once.
 Word read_once(const Reading& reading, Derivation& derivation) {
     Word out;
@@ -222,10 +222,10 @@ Word read_once(const Reading& reading, Derivation& derivation) {
     return out;
 }
 
-// "A generation begins with the cuts": what stands behind a `%` in its branch goes, and the `%`.
+// "A generation begins with the cuts": removes each `%` and the rest of its branch.
 Word without_cuts(const System& system, const Word& word) {
     Word out;
-    std::size_t open = 0; // brackets open within what is cut off
+    std::size_t open = 0; // brackets open in the removed part
     bool cut = false;
     for (const Module& module : word) {
         const bool bare = module.values.empty();
@@ -244,8 +244,8 @@ Word without_cuts(const System& system, const Word& word) {
     return out;
 }
 
-// Passes of #decompose over the word of an age; as many as there may be, or until nothing is
-// applied.
+// Applies passes of #decompose to the word of an age, until none applies or the depth limit is
+// reached.
 Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& derivation) {
     for (std::uint32_t pass = 0; pass < system.decompose_depth; ++pass) {
         Reading reading{system, word, age, kFirstDecomposeDraw + kDrawsOfARule * pass, {}, true};
@@ -334,7 +334,8 @@ private:
                    statement.kind == StatementKind::Param) {
             system_.constants[statement.name] = value_of(statement);
         } else if (statement.kind == StatementKind::Function) {
-            // A body keeps the constants that it has here; none is defined twice.
+            // The body is evaluated with all constants, which is equivalent: no constant is defined
+            // twice.
             system_.functions[statement.name] = {statement.names, statement.expr, {}};
         } else if (statement.kind == StatementKind::Curve) {
             UserFunction& curve = system_.functions[statement.name];
@@ -409,7 +410,7 @@ private:
         return rules.size() - 1;
     }
 
-    // A range takes its number even where -D replaces the expression that holds it.
+    // A range takes its number even if -D replaces the expression that contains it.
     float value_of(const Statement& statement) {
         for (const auto& [name, number] : request_.definitions) {
             if (name == statement.name) {
@@ -502,7 +503,7 @@ Derivation derive(const Grammar& grammar, const Request& request) {
     } catch (const Stop& stopped) {
         derivation.error = stopped.error;
         return derivation;
-    } catch (const BadRange&) { // in a definition or in the axiom
+    } catch (const BadRange&) { // raised by a definition or the axiom
         derivation.error = RunError{Failure::BadRange, "", 0, 0, {}};
         return derivation;
     }

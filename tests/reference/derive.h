@@ -27,7 +27,7 @@ struct Origin {
 struct Module {
     std::string name;
     std::vector<float> values;
-    Origin origin = {}; // no part of what the module is
+    Origin origin = {}; // not compared by ==
 
     bool operator==(const Module& other) const {
         return name == other.name && values == other.values;
@@ -36,7 +36,7 @@ struct Module {
 
 using Word = std::vector<Module>;
 
-// What the command line gives.
+// Options of the command line.
 struct Request {
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> generations;
@@ -56,16 +56,16 @@ struct RunError {
     std::string production;       // empty for UnmatchedBracket and for errors before generation 0
     std::uint64_t position = 0;   // in the word that is read; UnmatchedBracket: in the last word
     std::uint32_t generation = 0; // the age of that word
-    Module module;                // the first module the production rewrites
+    Module module;                // the first module that the production rewrites
 };
 
 struct Derivation {
     std::vector<Word> words;                           // generation 0 first
-    std::optional<RunError> error;                     // the words are those made before it
+    std::optional<RunError> error;                     // `words` has the words before the error
     bool too_large = false;                            // the next word has more than max_modules
     std::map<std::string, std::uint64_t> applications; // by label of the production
     std::map<std::string, float> constants;
-    std::uint32_t generations = 0; // asked for
+    std::uint32_t generations = 0; // requested number
     std::uint64_t seed = 0;
 };
 

@@ -26,11 +26,11 @@ bool holds(float value) {
     return value != 0.0F;
 }
 
-// The angle of `degrees` as a number of right angles in 0..3, where it is one exactly.
+// Whether `degrees` is exactly a multiple of 90; `quarter` receives the multiple, modulo 4.
 bool is_right_angle(float degrees, int& quarter) {
     const double reduced = std::fmod(static_cast<double>(degrees), 360.0);
     if (std::fmod(reduced, 90.0) != 0.0) {
-        return false; // also for NaN and for infinite angles
+        return false; // NaN and infinite angles end here too
     }
     quarter = (static_cast<int>(reduced / 90.0) + 4) % 4;
     return true;
@@ -105,8 +105,8 @@ bool draws(const Expr& expr) {
 
 namespace {
 
-// The standard normal number below which one lies with probability `p`: by halving, since the
-// error function has a closed form and its inverse has none.
+// The quantile `p` of the standard normal distribution, by bisection: the error function is in the
+// standard library, its inverse is not.
 long double inverse_normal(long double p) {
     long double below = -10;
     long double above = 10;
@@ -308,7 +308,7 @@ std::size_t ranges_in(const Expr& expr) {
     return count;
 }
 
-// The numbers of the ranges of an expression that is not evaluated.
+// Takes the numbers of the ranges of an expression that is not evaluated.
 void skip_ranges(const Expr& expr, const Environment& environment) {
     for (std::size_t i = ranges_in(expr); i > 0; --i) {
         environment.draw();
@@ -394,7 +394,7 @@ float evaluate(const Expr& expr, const Environment& environment) {
         skip_ranges(expr.parts[1], environment);
         return evaluate(expr.parts[2], environment);
     }
-    // Every operand is evaluated, those of && and || too: a range in it takes its number.
+    // Every operand is evaluated, also those of && and ||, because a range in it takes its number.
     std::vector<float> operands;
     for (const Expr& part : expr.parts) {
         operands.push_back(evaluate(part, environment));

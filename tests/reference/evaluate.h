@@ -23,7 +23,7 @@ struct UserFunction {
 
 using Functions = std::map<std::string, UserFunction>;
 
-// What the names of an expression mean, and where its ranges get their random numbers.
+// The meanings of the names in an expression, and the source of its random numbers.
 struct Environment {
     const std::map<std::string, float>* constants = nullptr;
     const Functions* functions = nullptr;

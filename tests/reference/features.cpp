@@ -215,8 +215,7 @@ private:
         }
     }
 
-    // Choices between productions of which some have a condition, or among which one without `~`
-    // stands.
+    // Finds groups in which some productions have a condition, or one has no `~`.
     void groups() {
         std::map<std::string, std::vector<const Production*>> groups;
         for (const Statement* statement : statements_in_order(made_.grammar)) {

@@ -1,5 +1,6 @@
-// Which features of the language a generated case really exercises: a feature of a production
-// counts only if the production was applied. The self-test asks that every one is common enough.
+// The features of the language that a generated case exercises: a feature of a production counts
+// only if the production was applied. generator_test.cpp checks that every feature is frequent
+// enough.
 
 #pragma once
 

@@ -38,7 +38,7 @@ struct Sized {
     double score = -1;
 };
 
-// How much of the grammar is exercised: a case with what is rare elsewhere is welcome.
+// A score of the features that a case exercises; rare features count more.
 double score_of(const Case& made, const Derivation& derivation) {
     static const std::set<std::string> kRare = {"context []",
                                                 "context [ ]",
@@ -66,8 +66,8 @@ double score_of(const Case& made, const Derivation& derivation) {
     return score;
 }
 
-// Chooses how many generations to derive: the words stay within `cap` modules, and an error is met
-// only if `keep_error`.
+// Chooses the number of generations, at most `most`: words have at most `cap` modules, and an error
+// occurs only if `keep_error`.
 Sized size_up(Case made, std::size_t cap, std::uint32_t most, bool keep_error, Random random) {
     std::uint32_t generations = most;
     while (true) {

@@ -1,5 +1,5 @@
 // Random grammars with all features of the language, one for every test seed. They are legal, their
-// words stay small, and most of their productions are applied. A small share meets a run-time
+// words stay small, and most of their productions are applied. A few of them end in a run-time
 // error.
 
 #pragma once

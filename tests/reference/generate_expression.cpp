@@ -69,7 +69,8 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
     if (divides && is_constant(expr.parts[1], scope) && constant_value(expr.parts[1]) == 0) {
         return literal();
     }
-    // A call of a function that does not use its parameters is a constant for the compiler.
+    // A call of a function that does not use its parameters is a constant for the compiler, so
+    // bounds with such a call may be illegal.
     const bool is_clear = std::none_of(expr.parts.begin(), expr.parts.end(),
                                        [&](const Expr& part) { return calls_user(part); });
     if (draws(expr) && !is_clear) {
@@ -86,7 +87,7 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
         }
         return low <= high ? expr : range(expr.parts[1], expr.parts[0]);
     }
-    if (draws(expr)) { // a distribution whose known arguments are in their bounds
+    if (draws(expr)) { // check that the constant arguments of a distribution are in their bounds
         std::vector<float> arguments;
         for (const Expr& part : expr.parts) {
             arguments.push_back(is_constant(part, scope) ? constant_value(part) : 1);
@@ -99,7 +100,7 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
         return expr;
     }
     if (expr.text == "if" && is_constant(expr.parts[0], scope)) {
-        return literal(); // the compiler would leave one side out
+        return literal(); // the compiler would drop the side that is not taken
     }
     if (is_constant(expr, scope) && !std::isfinite(constant_value(expr))) {
         return literal();
@@ -107,8 +108,8 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
     return expr;
 }
 
-// A decimal so close to the middle of two binary32 that rounding it to binary64 first gives the
-// wrong one of them.
+// A decimal number so close to the middle of two binary32 numbers that rounding to binary64 first
+// gives the wrong one.
 Expr ExpressionMaker::trap() {
     const auto mantissa = static_cast<float>(random_.below(1U << 23U));
     const float below = 1 + mantissa * 0x1p-23F;
@@ -145,7 +146,7 @@ Expr ExpressionMaker::literal() {
     if (random_.percent(25)) {
         return trap();
     }
-    // Some digits with a point among them.
+    // Random digits with a decimal point between them.
     std::string text;
     const int digits = random_.between(1, 9);
     const int point = random_.between(0, digits);

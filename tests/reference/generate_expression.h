@@ -1,5 +1,5 @@
-// Random expressions of section 4 of the language reference that are legal: what is constant in
-// them is finite, no divisor is a constant zero, a constant range has its bounds in order.
+// Random legal expressions of section 4 of the language reference: constant parts are finite, no
+// divisor is a constant zero, constant ranges have their bounds in order.
 
 #pragma once
 
@@ -21,19 +21,19 @@ Expr binary(const std::string& text, Expr left, Expr right);
 Expr call(const std::string& text, std::vector<Expr> arguments);
 Expr range(Expr low, Expr high);
 
-// What an expression at some place may use.
+// Names and functions that an expression at a place may use.
 struct Scope {
     std::vector<std::string> formals;
     bool in_production = false;  // step() and steps() are allowed
-    std::size_t ranges = 0;      // how often, in percent of the arguments
-    bool drawn_constants = true; // constants whose value a range gave
+    std::size_t ranges = 0;      // percentage of arguments with a range
+    bool drawn_constants = true; // constants with a random value may be used
 };
 
 // The constants defined so far.
 struct Constants {
-    std::map<std::string, float> values; // the drawn ones too, with any value
+    std::map<std::string, float> values; // drawn constants have an arbitrary value here
     std::set<std::string> drawn;
-    Functions functions; // they use no drawn constants
+    Functions functions; // their bodies use no drawn constants
 };
 
 class ExpressionMaker {
@@ -47,7 +47,7 @@ public:
     Expr any(const Scope& scope, int depth);
     Expr literal();
 
-    // Whether the value is the same for every use, without any draw.
+    // Whether the value is the same at every use: no formals, no draws.
     [[nodiscard]] bool is_constant(const Expr& expr, const Scope& scope) const;
     [[nodiscard]] float constant_value(const Expr& expr) const;
 

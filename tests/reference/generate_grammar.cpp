@@ -18,7 +18,7 @@ std::string to_text(std::uint64_t value) {
     return std::to_string(value);
 }
 
-// Makes one grammar; the same seed and attempt give the same.
+// Makes a grammar from a seed and an attempt, always the same one.
 class Maker {
 public:
     Maker(std::uint64_t seed, std::uint32_t attempt)
@@ -54,7 +54,7 @@ private:
                            [&](const File& file) { return file.letters == letters; });
     }
 
-    // What the statements are, in the order of the whole text.
+    // Chooses the kinds of the statements, in the order of the whole text.
     std::vector<StatementKind> choose_kinds() {
         std::vector<std::pair<int, StatementKind>> keys;
         const auto add = [&](StatementKind kind, int from, int to, int low, int high) {
@@ -94,9 +94,11 @@ private:
     // them.
     void place(const std::vector<StatementKind>& kinds) {
         std::vector<File>& files = case_.grammar.files;
-        std::vector<std::size_t> order; // the files by entering them and coming back to them
+        // Files in the order of visits: a file is visited when entered and after each of its
+        // #include.
+        std::vector<std::size_t> order;
         walk(0, order);
-        std::vector<std::size_t> cuts; // how many statements stand before each next visit
+        std::vector<std::size_t> cuts; // count of statements before each visit but the first
         for (std::size_t visit = 1; visit < order.size(); ++visit) {
             cuts.push_back(random_.below(kinds.size() + 1));
         }
@@ -110,7 +112,7 @@ private:
                 statement.kind = kinds[next];
                 file.statements.push_back(statement);
             }
-            // The first time that a file follows, it is included here.
+            // At the first visit of the next file, include it here.
             if (visit + 1 < order.size() && order[visit + 1] > order[visit]) {
                 Statement include;
                 include.kind = StatementKind::IncludeFile;
@@ -130,7 +132,7 @@ private:
         }
     }
 
-    // In the order in which statements take effect, so that a constant precedes its use.
+    // Fills statements in the order in which they take effect, so that a constant precedes its use.
     void fill_file(std::size_t index) {
         for (Statement& statement : case_.grammar.files[index].statements) {
             if (statement.kind == StatementKind::IncludeFile) {
@@ -243,7 +245,8 @@ private:
                std::any_of(expr.parts.begin(), expr.parts.end(), divides);
     }
 
-    // A body without divisions, since a divisor that a call makes 0 is an error of the text.
+    // A body has no divisions, because a call could make the divisor 0, which is an error of the
+    // grammar.
     void fill_function(Statement& statement, ExpressionMaker& expressions) {
         static const std::vector<std::vector<std::string>> kFormals = {
             {"x"}, {"a"}, {"x", "y"}, {"s", "t", "K"}, {"if", "let"}};
@@ -270,7 +273,7 @@ private:
         constants_.functions[statement.name] = curve;
     }
 
-    // More modules with constant arguments than one byte can number.
+    // Adds more modules with constant arguments than there are codes of one byte.
     void add_many_constants(std::vector<ModuleUse>& modules, bool letters) {
         for (int i = 0; i < 300; ++i) {
             const Species& species = fitting(letters);
@@ -291,7 +294,8 @@ private:
         }
     }
 
-    // The value is used by later statements, so -D is decided here.
+    // Chooses the value by -D, if any, when the constant is defined, because later statements use
+    // it.
     void define(const Statement& statement) {
         ExpressionMaker expressions(random_, constants_);
         const Scope scope;
@@ -317,7 +321,7 @@ private:
         statement.name = new_constant();
         Scope scope;
         scope.drawn_constants = false;
-        if (random_.percent(40)) { // a range and bounds around it
+        if (random_.percent(40)) { // a random value with bounds that enclose it
             const float low = static_cast<float>(random_.between(-4, 4));
             const float high = low + static_cast<float>(random_.between(0, 6)) / 2;
             statement.expr = range(number(low), number(high));
@@ -363,7 +367,7 @@ private:
         declare_ambiguous_names();
     }
 
-    // Groups that could stand in `#decompose` do so now and then.
+    // Moves some groups to `#decompose`, if they are legal there.
     void decompose_some() {
         std::set<std::string> chosen;
         for (File& file : case_.grammar.files) {
@@ -387,7 +391,7 @@ private:
         }
     }
 
-    // A `%` here and there.
+    // Inserts a `%` in some places.
     void cut_some() {
         if (!random_.percent(15)) {
             return;
@@ -405,7 +409,8 @@ private:
         }
     }
 
-    // The same said by `#consider`: all other names.
+    // Writes the ignored names as a `#consider` of all other names; returns false if that is not
+    // possible.
     bool add_considered() {
         std::set<std::string> names;
         for (const Species& species : plan_.species) {
@@ -444,7 +449,7 @@ private:
         }
     }
 
-    // Some file in which all of these names can be written.
+    // A random file in which all of these names can be written.
     std::size_t file_for(const std::vector<std::string>& names) {
         while (true) {
             const std::size_t file = any_file();
@@ -478,7 +483,8 @@ private:
         }
     }
 
-    // A production without contexts would often leave nothing to those with contexts after it.
+    // Moves productions with contexts forward, because productions without contexts before them
+    // would often match first.
     void put_contexts_first(File& file) {
         if (random_.percent(25)) {
             return;
@@ -487,7 +493,8 @@ private:
             return statement.kind == StatementKind::Production;
         };
         auto begin = file.statements.begin();
-        while (begin != file.statements.end()) { // no constant may come after its use
+        // Move within runs of productions only, so that no constant comes after its use.
+        while (begin != file.statements.end()) {
             begin = std::find_if(begin, file.statements.end(), is_production);
             const auto end = std::find_if_not(begin, file.statements.end(), is_production);
             std::stable_partition(begin, end, [](const Statement& statement) {
@@ -607,9 +614,9 @@ private:
     std::vector<std::size_t> parent_;
     std::set<std::string> labels_;
     std::map<const Statement*, std::vector<Production>> bundles_;
-    std::set<std::string> decided_; // groups, whether they are decomposed
+    std::set<std::string> decided_; // groups for which #decompose was chosen or rejected
     bool has_generations_ = false;
-    std::vector<float> axiom_shares_; // of the axioms to come, if there are several
+    std::vector<float> axiom_shares_; // probabilities of the next axioms, if there are several
 };
 
 } // namespace

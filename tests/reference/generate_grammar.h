@@ -1,5 +1,5 @@
 // The statements of a random grammar: files that include each other, settings, constants, axiom and
-// productions. How many generations it is derived for is left open (generate.h).
+// productions. generate.h chooses the number of generations.
 
 #pragma once
 

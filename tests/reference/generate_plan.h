@@ -1,4 +1,4 @@
-// How a random grammar is made, decided once: which modules it has, which features, and how often.
+// The plan of a random grammar: its modules, its features and their frequencies.
 
 #pragma once
 
@@ -32,7 +32,8 @@ struct Plan {
     std::vector<std::string> ignored;
 };
 
-// Whether modules of that name can stand in a file: one of letters has no longer identifiers.
+// Whether a file can contain modules of that name: with `names letters`, identifiers have one
+// letter.
 bool fits(const std::string& name, bool letters);
 
 // `letters_files`, `words_files`: whether the grammar has files of that kind. Some active species

@@ -17,7 +17,7 @@ bool can_be_rewritten(const std::string& name) {
     return std::string("[]{}").find(name) == std::string::npos;
 }
 
-// Where `length` modules stand side by side in `names`.
+// A random place of `length` adjacent modules in `names`; nullopt if there is none.
 std::optional<std::size_t> place_in(const Skeleton& names, std::size_t length, Random& random) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i + length <= names.size(); ++i) {
@@ -26,7 +26,8 @@ std::optional<std::size_t> place_in(const Skeleton& names, std::size_t length, R
                         [](const Species& one) { return can_be_rewritten(one.name); })) {
             places.push_back(i);
             if (i + length < names.size() && names[i + length].name == "[") {
-                places.insert(places.end(), 3, i); // a good place for a context with branches
+                // More likely, because a context with branches fits here.
+                places.insert(places.end(), 3, i);
             }
         }
     }
@@ -46,7 +47,7 @@ Pattern cut_left(const Skeleton& names,
                  int length,
                  const std::vector<std::string>& ignored) {
     Pattern pattern;
-    int finished = 0; // branches that the path does not enter
+    int finished = 0; // depth of branches beside the path
     for (std::size_t i = place; i-- > 0 && static_cast<int>(pattern.size()) < length;) {
         if (names[i].name == "]") {
             ++finished;
@@ -59,14 +60,14 @@ Pattern cut_left(const Skeleton& names,
     return pattern;
 }
 
-// Some modules of the axis that goes on at `place`, with some of its branches.
+// Some modules of the axis from `place` on, with some of its branches.
 Pattern cut_right(const Skeleton& names,
                   std::size_t place,
                   int length,
                   const std::vector<std::string>& ignored,
                   Random& random) {
     Pattern pattern;
-    bool skipped = false; // a branch, so that the next one is not the next thing
+    bool skipped = false; // a branch was skipped, so a pattern with the next one would not match
     std::size_t i = place;
     for (int taken = 0; taken < length && i < names.size() && names[i].name != "]"; ++i) {
         if (names[i].name == "[") {
@@ -141,7 +142,7 @@ Pattern ProductionMaker::context(int length, bool brackets, int depth, bool lett
 }
 
 void ProductionMaker::name_formals(Pattern& pattern, std::vector<std::string>& used) {
-    // Functions, settings and keywords are names like others here.
+    // Formals may have the names of functions, settings and keywords.
     static const std::vector<std::string> kUsual = {"x", "y", "z", "a", "b", "s", "t",
                                                     "u", "v", "x", "y", "z", "l", "r"};
     static const std::vector<std::string> kOdd = {
@@ -165,7 +166,7 @@ void ProductionMaker::name_formals(Pattern& pattern, std::vector<std::string>& u
     }
 }
 
-// Keywords, functions and constants are names like others here.
+// Local values may have the names of keywords, functions and constants.
 std::string ProductionMaker::name_local(const std::vector<std::string>& used) {
     static const std::vector<std::string> kNames = {"d", "len", "q", "let", "if", "mix", "p", "k"};
     std::string text;
@@ -223,7 +224,8 @@ std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, 
     return list;
 }
 
-// `value` itself, a sum that gives nearly it, or a constant that has it.
+// An expression with the value `value`, up to rounding: a number, an operation, or a constant with
+// this value.
 Expr ProductionMaker::probability(float value, const std::vector<std::string>& formals) {
     for (const auto& [constant, known] : constants_.values) {
         if (known == value && !contains(formals, constant) &&
@@ -243,7 +245,7 @@ Expr ProductionMaker::probability(float value, const std::vector<std::string>& f
     }
 }
 
-// A weight that depends on the module: 0 for some, and seldom below 0.
+// A weight that depends on the module: 0 for some modules, rarely negative.
 Expr ProductionMaker::weight(const Scope& scope) {
     // An expression that the compiler cannot find to be the constant 0, which is an error.
     Expr any = scope.formals.empty() || random_.percent(20) ? call("step", {})
@@ -266,7 +268,7 @@ Expr ProductionMaker::weight(const Scope& scope) {
     }
 }
 
-// Probabilities that sum to 1, nearly.
+// Probabilities whose sum is nearly 1.
 std::vector<float> ProductionMaker::shares(int count) {
     static const std::vector<std::vector<std::vector<float>>> kShares = {
         {{1}, {0.995F}},
@@ -290,7 +292,7 @@ std::vector<float> ProductionMaker::shares(int count) {
     return values;
 }
 
-// Predecessor and contexts, cut out of a common skeleton or of any species.
+// Predecessor and contexts, cut from a stored skeleton or made of random species.
 Production ProductionMaker::shape(bool letters) {
     Production shape;
     const bool long_ones = plan_.rewriting != "parallel";
@@ -340,7 +342,7 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
             }
         }
         Scope scope{formals, true, 0, true};
-        // Without probabilities, the first without a condition ends the bundle.
+        // Without probabilities, only the last production may lack a condition.
         const bool last = i + 1 == count;
         if ((conditional && random_.percent(75)) || (!stochastic && !last)) {
             production.condition = expressions_.condition(scope);
@@ -365,7 +367,7 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
         bundle.push_back(production);
     }
     if (some_condition && stochastic && random_.percent(25)) {
-        // Any probabilities will do, and a production without one may stand among them.
+        // Other probabilities are legal here, and one production may have none.
         for (Production& production : bundle) {
             production.probability = number(random_.percent(50) ? 0.5F : 0.125F);
         }

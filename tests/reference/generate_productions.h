@@ -1,5 +1,5 @@
 // Random productions: bundles of them with one predecessor and one pair of contexts, whose
-// conditions and probabilities play together, and the modules of successors and of the axiom.
+// conditions and probabilities together are legal, and the modules of successors and of the axiom.
 
 #pragma once
 
@@ -25,7 +25,7 @@ public:
     std::vector<Production> bundle(bool letters);
 
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
-    // Probabilities that sum to 1, nearly; with `weights any` any weights.
+    // Probabilities whose sum is nearly 1; with `weights any`, arbitrary weights.
     std::vector<float> shares(int count);
     // `value` as an expression without these formals.
     Expr probability(float value, const std::vector<std::string>& formals);
@@ -46,7 +46,8 @@ private:
     const Plan& plan_;
     ExpressionMaker expressions_;
     const Constants& constants_;
-    std::size_t turn_ = 0; // every active species should be rewritten by some production
+    // Index of the next active species, so that productions rewrite each of them.
+    std::size_t turn_ = 0;
     // Successors are often made of these, and contexts cut out of them, so that contexts match.
     std::vector<Skeleton> skeletons_;
     std::vector<Skeleton> skeletons_of_letters_;

@@ -1,4 +1,4 @@
-// The generator of random grammars: it is only worth what its grammars exercise.
+// Checks that the random grammars exercise every feature.
 
 #include "tests/reference/features.h"
 #include "tests/reference/generate.h"

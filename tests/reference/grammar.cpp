@@ -14,7 +14,7 @@ void collect(const Grammar& grammar, std::size_t file, std::vector<const Stateme
     }
 }
 
-// A name may hold any printable character but a back quote, so that one separates them.
+// Names are separated by back quotes, the only printable character that a name cannot have.
 std::string shape_of(const Pattern& pattern) {
     std::string shape;
     for (const ModulePattern& module : pattern) {
@@ -40,7 +40,7 @@ std::optional<std::string> setting(const Grammar& grammar, const std::string& ke
     return std::nullopt;
 }
 
-// Rules and groups never go beyond their stage.
+// Prefix of rules and groups: productions of different stages are never in one group or rule.
 static std::string stage_of(const Production& production) {
     return production.stage == Stage::Rewrite     ? ""
            : production.stage == Stage::Decompose ? "`decompose`"

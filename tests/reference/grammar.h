@@ -1,8 +1,8 @@
-// A grammar as plain data: what a person who has read a .lsys file holds in mind. The generator of
-// random grammars and hand-written tests make it, the oracle (derive.h) reads it and the printer
-// (print.h) writes it as text. Nothing here comes from the compiler, so that both can be wrong only
-// apart. Order matters everywhere: statements stand in the order of the text, and a file that is
-// included stands where its #include stands.
+// A grammar as plain data, statement by statement. The generator of random grammars and
+// hand-written tests make it, the oracle (derive.h) reads it and the printer (print.h) writes it as
+// text. It shares no code with the compiler, so that both cannot have the same mistake. Order
+// matters everywhere: statements stand in the order of the text, and a file that is included stands
+// where its #include stands.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace lsys::reference {
 enum class ExprKind { Number, Name, Unary, Binary, Call, Range };
 
 // An expression as a tree. `text` is the name, the operator ("-", "&&"), or the function; for a
-// number it is the spelling to print, or empty if any spelling that gives `number` will do.
+// number it is the spelling to print, or empty if any spelling of `number` is right.
 struct Expr {
     ExprKind kind = ExprKind::Number;
     float number = 0;
@@ -80,7 +80,7 @@ struct Statement {
     std::vector<std::pair<Expr, Expr>> points; // Curve
     Expr low;                                  // Param: the bounds
     Expr high;                                 //
-    Pattern patterns;                          // Module: the one declared
+    Pattern patterns;                          // Module: the declared module
     std::vector<std::string> names;            // Ignore, Consider; Function: the formals
     std::vector<ModuleUse> modules;            // Axiom
     Production production;                     // Production
@@ -100,7 +100,7 @@ struct Grammar {
 // All statements but IncludeFile in the order in which they take effect.
 std::vector<const Statement*> statements_in_order(const Grammar& grammar);
 
-// The value of `#set key` where the grammar has one.
+// The value of `#set key`, if the grammar has one.
 std::optional<std::string> setting(const Grammar& grammar, const std::string& key);
 
 // `left < predecessor > right` with names and numbers of parameters only: the productions with one

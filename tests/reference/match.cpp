@@ -31,7 +31,7 @@ std::size_t after_branch(const Word& word, std::size_t at) {
     return at;
 }
 
-// The position of the `[` of the branch that the `]` at `at` closes, or false if there is none.
+// Moves `at` from a `]` to its `[`; returns false if there is none.
 bool before_branch(const Word& word, std::size_t& at) {
     std::size_t depth = 0;
     for (std::size_t i = at + 1; i-- > 0;) {
@@ -48,7 +48,7 @@ bool before_branch(const Word& word, std::size_t& at) {
     return false;
 }
 
-// Reads the pattern from its last module to its first on the path from `position` to the root.
+// Matches the pattern from its last module to its first along the path from `position` to the root.
 bool matches_left(const Pattern& pattern,
                   const Word& word,
                   std::size_t position,
@@ -80,7 +80,7 @@ bool matches_left(const Pattern& pattern,
     return true;
 }
 
-// Where the bracket of the pattern that opens at `open` closes.
+// The position of the `]` of the pattern that closes the `[` at `open`.
 std::size_t closing(const Pattern& pattern, std::size_t open) {
     std::size_t depth = 0;
     std::size_t i = open;
@@ -96,7 +96,7 @@ std::size_t closing(const Pattern& pattern, std::size_t open) {
     }
 }
 
-// Reads pattern[first, last) along the axis that goes on at `at`.
+// Matches pattern[first, last) along the axis from `at` on.
 bool matches_axis(const Pattern& pattern,
                   std::size_t first,
                   std::size_t last,
@@ -108,7 +108,7 @@ bool matches_axis(const Pattern& pattern,
         while (at < word.size() && ignored.count(word[at].name) != 0) {
             ++at;
         }
-        if (pattern[first].name == "[") { // the next thing must be a branch
+        if (pattern[first].name == "[") { // the next module must begin a branch
             if (at == word.size() || word[at].name != "[") {
                 return false;
             }
@@ -120,7 +120,7 @@ bool matches_axis(const Pattern& pattern,
             first = close + 1;
         } else if (at == word.size() || word[at].name == "]") { // the axis ends here
             return false;
-        } else if (word[at].name == "[") { // a branch that the pattern does not ask for
+        } else if (word[at].name == "[") { // skip a branch that is not in the pattern
             at = after_branch(word, at);
         } else {
             if (!agrees(pattern[first], word[at], bindings)) {

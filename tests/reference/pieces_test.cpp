@@ -1,5 +1,5 @@
-// Random grammars through every way the runtime can cut a derivation into pieces: threads, chunks
-// of a few modules, streaming. The words of the oracle are small, so `lsc` itself never cuts them.
+// Derives random grammars in every way that splits a derivation: threads, chunks of a few modules,
+// streaming. The words of the oracle are so small that `lsc` itself never splits them.
 
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
@@ -18,8 +18,7 @@ namespace lsys::reference {
 
 namespace {
 
-/// `count` modules of codes by chance, most of them `usual`, so that runs of it stand between
-/// others.
+/// `count` modules with random codes, most of them `usual`, so that runs of equal codes occur.
 lsys::Word
 random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, Code usual) {
     std::vector<Code> codes;
@@ -34,7 +33,8 @@ random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, C
     REQUIRE(word.keep_origins());
     REQUIRE(word.resize(count, parameters));
     for (std::uint64_t i = 0; i < count; ++i) {
-        word.origins()[i] = {kNone, static_cast<std::uint32_t>(i)}; // each its own
+        // Each module has an origin of its own.
+        word.origins()[i] = {kNone, static_cast<std::uint32_t>(i)};
         if (word.code_width() == 1) {
             word.codes<std::uint8_t>()[i] = static_cast<std::uint8_t>(codes[i]);
         } else {
@@ -47,7 +47,7 @@ random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, C
     return word;
 }
 
-/// One generation of `word`, or where and why there is none, as values that can be compared.
+/// The result of rewriting a word once, or its error, as comparable values.
 struct Rewritten {
     std::optional<Stop> stop;
     std::uint64_t fault = 0;
@@ -90,7 +90,7 @@ Rewritten rewritten(const Bytecode& bytecode,
 
 } // namespace
 
-// Chunks of one module are rewritten one look at a time, long ones by vectors of codes.
+// Chunks of one module are rewritten code by code, long chunks by vectors of codes.
 TEST_CASE("long random words give the same word in chunks of any size") {
     std::size_t rewrote = 0;
     for (std::uint64_t seed = 3001; seed <= 3300; ++seed) {

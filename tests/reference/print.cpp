@@ -13,9 +13,9 @@ namespace {
 
 struct Token {
     std::string text;
-    bool touches = false; // a letter of a file of letters: needs no blank before it
+    bool touches = false; // a letter in a file with `names letters`: needs no blank before it
     std::vector<std::pair<const ModuleUse*, std::size_t>> modules =
-        {}; // that begin in it, and where
+        {}; // modules that begin in the token, with offset
 };
 
 bool is_wordy(char c) {
@@ -54,9 +54,9 @@ public:
         return out_;
     }
 
-    // Of what print() has made.
+    // The modules of the text that print() has made.
     [[nodiscard]] const std::vector<WrittenModule>& modules() const { return modules_; }
-    // The paths of the files it includes, by their indices.
+    // The paths of the included files, by index.
     [[nodiscard]] const std::map<std::size_t, std::string>& included() const { return included_; }
 
 private:
@@ -72,7 +72,8 @@ private:
         }
     }
 
-    // Numbers as they are, negative ones too; all else in parentheses.
+    // Writes a number without parentheses, also a negative one, and any other expression in
+    // parentheses.
     void add_coordinate(const Expr& expr) {
         const bool negative = expr.kind == ExprKind::Unary && expr.text == "-" &&
                               expr.parts[0].kind == ExprKind::Number;
@@ -89,7 +90,7 @@ private:
         add(")");
     }
 
-    // Returns where the name begins in the last token.
+    // Appends a name; returns its offset in the last token.
     std::size_t add_name(const std::string& name, bool joins_previous) {
         const bool word = is_identifier(name);
         const bool plain = (word && (!file_.letters || name.size() == 1)) || is_symbol(name);
@@ -273,7 +274,7 @@ private:
         add_modules(production.successor);
     }
 
-    // From the folder of this file to `path`.
+    // `path` relative to the folder of this file.
     [[nodiscard]] std::string relative_path(std::string path) const {
         std::string folder = file_.path.substr(0, file_.path.rfind('/') + 1);
         std::string up;
@@ -321,7 +322,8 @@ private:
 
     // Whether the tokens would be read as one without a blank.
     [[nodiscard]] bool merge(const Token& previous, const Token& token) const {
-        if (previous.text == "." || token.text == ".") { // the module; a number never is this alone
+        // The module `.`; a number is never a `.` alone.
+        if (previous.text == "." || token.text == ".") {
             return false;
         }
         if (token.touches && previous.text.front() != '#') {
@@ -334,7 +336,7 @@ private:
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             const bool must = i > 0 && merge(tokens_[i - 1], tokens_[i]);
             if (must || (i > 0 && chance(density_))) {
-                out_ += out_.back() == '/' ? " " : ""; // or a comment would begin with it
+                out_ += out_.back() == '/' ? " " : ""; // else the `/` would begin a comment
                 out_ += random_ == nullptr ? " " : blank();
             }
             for (const auto& [module, begin] : tokens_[i].modules) {
@@ -344,7 +346,7 @@ private:
         }
     }
 
-    // `before`: all text up to the module. A byte order mark is no part of the first line.
+    // `before`: the text before the module. A byte order mark is no part of the first line.
     void add_place(const ModuleUse* module, const std::string& before) {
         const std::size_t line_end = before.rfind('\n');
         const std::size_t first = line_end == std::string::npos ? 0 : line_end + 1;
@@ -411,7 +413,8 @@ std::vector<TextFile> print_grammar(const Grammar& grammar, std::uint64_t layout
     for (const File& file : grammar.files) {
         files.push_back({file.path, file.path, "", {}});
     }
-    for (std::size_t i = 0; i < files.size(); ++i) { // a file comes before those that it includes
+    // A file comes before the files that it includes.
+    for (std::size_t i = 0; i < files.size(); ++i) {
         const bool plain = layout_seed == 0;
         FilePrinter printer(grammar, grammar.files[i], plain ? nullptr : &joined,
                             plain ? nullptr : &random);

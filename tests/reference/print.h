@@ -1,5 +1,5 @@
-// Text from the data of the oracle: a grammar as .lsys files in some legal layout, and a word as
-// section 10 of the language reference writes it.
+// Text from the data of the oracle: a grammar as .lsys files in any legal layout, and a word in the
+// form of section 10 of the language reference.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct WrittenModule {
 
 struct TextFile {
     std::string path;
-    std::string shown; // as `lsc` names it: by the way from the file that includes it
+    std::string shown; // path in messages of `lsc`, relative to the file that includes it
     std::string text;
     std::vector<WrittenModule> modules; // in the order of the text
 };

@@ -1,5 +1,5 @@
-// The decisions of the generator and the printer of random grammars: Philox words one after the
-// other, so that a test seed means the same grammar with every library and on every machine.
+// Random numbers of the generator and the printer of random grammars: consecutive Philox words, so
+// that a seed gives the same grammar with every standard library and on every machine.
 
 #pragma once
 
@@ -14,7 +14,7 @@ namespace lsys::reference {
 
 class Random {
 public:
-    // Different purposes of one seed have different streams.
+    // `stream`: separates the random numbers of one seed for different purposes.
     Random(std::uint64_t seed, std::uint32_t stream) : seed_(seed), stream_(stream) {}
 
     std::uint32_t word() {

@@ -1,5 +1,5 @@
-// The oracle against facts that were found without it: published vectors, words derived by hand in
-// the literature, and counts of independent programs.
+// Checks the oracle against independent results: published vectors, words derived by hand in the
+// literature, and counts by other programs.
 
 #include "tests/reference/build.h"
 #include "tests/reference/derive.h"
@@ -232,7 +232,7 @@ TEST_CASE("contexts skip branches: the example of ABOP section 1.8") {
     CHECK(applies("S>G[HIL]MN"));
     CHECK(applies("S>G[HI[J]L]M"));
     CHECK(applies("S>G[]M"));
-    CHECK(applies("S>G[H[]]") == false); // after H comes I
+    CHECK(applies("S>G[H[]]") == false); // the module after H is I
     CHECK(applies("S>G[HI[]]"));
     CHECK_FALSE(applies("S>G[I]M"));
     CHECK_FALSE(applies("S>[G]"));
@@ -243,7 +243,7 @@ TEST_CASE("contexts skip branches: the example of ABOP section 1.8") {
     CHECK_FALSE(applies("C>[S]")); // the next branch is [DE]
     CHECK(applies("A>BC"));
     CHECK(applies("SG<M>NO"));
-    CHECK(applies("GHI<K") == false); // J is on the path
+    CHECK(applies("GHI<K") == false); // J lies between I and K on the path
     CHECK(applies("HIJ<K"));
     CHECK(applies("HI<L"));
 }
@@ -259,7 +259,7 @@ TEST_CASE("signals in a tree: ABOP figure 1.30") {
     CHECK(text_after(basipetal, 1) == "A[+A]A[-A]B[+A]B");
     CHECK(text_after(basipetal, 2) == "A[+A]B[-A]B[+A]B");
     CHECK(text_after(basipetal, 3) == "B[+A]B[-A]B[+A]B");
-    // Without #ignore the signs are in the way.
+    // Without #ignore, `+` and `-` are part of the context.
     CHECK(text_after(letter_system("B[+A]A", {"B<A=B"}), 3) == "B[+A]B");
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("brackets that do not balance") {
         return text_after(letter_system(word, {production}), 1);
     };
     CHECK(rewrite("A[BC", "A>[B]=X") == "X[BC");  // an open branch reaches to the end
-    CHECK(rewrite("A[BC", "A>[B]C=X") == "A[BC"); // and nothing comes after it
+    CHECK(rewrite("A[BC", "A>[B]C=X") == "A[BC"); // so no module follows the branch
     CHECK(rewrite("A[BC", "A>B=X") == "A[BC");
     CHECK(rewrite("A]B", "A>B=X") == "A]B");
     CHECK(rewrite("A]B", "A<B=X") == "A]B");
@@ -301,10 +301,10 @@ TEST_CASE("leftmost rewriting makes one pass of all rules") {
     Grammar grammar = letter_system("ABABC", {"AB=CA", "C=", "A=B"});
     add_setting(grammar, "rewriting", "leftmost");
     CHECK(text_after(grammar, 1) == "CACA");
-    CHECK(text_after(grammar, 2) == "BB"); // no `AB` is left: each module goes by itself
+    CHECK(text_after(grammar, 2) == "BB"); // no `AB` is left, so each module is rewritten alone
     Grammar pairs = letter_system("AAAAA", {"AA=B", "A<A=C", "A=D"});
     add_setting(pairs, "rewriting", "leftmost");
-    CHECK(text_after(pairs, 1) == "BBC"); // the last has an A to its left in the word read
+    CHECK(text_after(pairs, 1) == "BBC"); // the last A has an A to its left in the old word
 }
 
 TEST_CASE("sequential rewriting makes a pass of every rule") {
@@ -321,7 +321,8 @@ TEST_CASE("sequential rewriting makes a pass of every rule") {
     Grammar neighbours = letter_system("A+A", {"AA=B", "A>A=C"});
     add_setting(neighbours, "rewriting", "sequential");
     add_ignored(neighbours, {"+"});
-    CHECK(text_after(neighbours, 1) == "C+A"); // nothing is skipped inside a predecessor
+    // Ignored modules are not skipped inside a predecessor.
+    CHECK(text_after(neighbours, 1) == "C+A");
 }
 
 TEST_CASE("a choice is made by the draws of section 6") {
@@ -365,7 +366,7 @@ TEST_CASE("in sequential rewriting a rule has draws of its own") {
     add_production(grammar, production("a", {{"A", {}}}, {module("X", {unit, range(unit, unit)})}));
     add_production(grammar, production("b", {{"B", {}}}, {module("Y", {unit})}));
     Grammar plain = grammar;
-    // The bounds of the range in the middle are drawn first; keep it legal.
+    // The bounds of the middle range are drawn first, so they must be in order.
     plain.files[0].statements[2].production.successor[0].arguments[1] =
         range(number(0), binary("+", number(1), unit));
     const Word word = derive_for(plain, 1, 9).words[1];
@@ -394,7 +395,8 @@ TEST_CASE("constants and the axiom draw before the derivation") {
     request.seed = 5;
     request.definitions = {{"K", -7.0F}};
     const Word defined = derive(grammar, request).words[0];
-    CHECK(defined[0].values == std::vector<float>{word[0].values[0], -7.0F}); // frees no number
+    // -D does not free the number of the range.
+    CHECK(defined[0].values == std::vector<float>{word[0].values[0], -7.0F});
 }
 
 TEST_CASE("the first match decides whether there is a choice") {

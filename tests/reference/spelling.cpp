@@ -28,7 +28,7 @@ std::string shortest(float value) {
     return std::string(buffer.data(), end.ptr);
 }
 
-// All digits of the binary value.
+// The exact decimal digits of the binary value.
 std::string exact(float value) {
     std::array<char, 300> buffer{};
     std::snprintf(buffer.data(), buffer.size(), "%.150f", static_cast<double>(value));
@@ -39,7 +39,7 @@ std::string exact(float value) {
     return text; // may end with the point, as `1.`
 }
 
-// From the loosest to the tightest, as section 4 lists them.
+// Precedence levels of section 4; a higher level binds tighter.
 constexpr int kUnary = 7;
 constexpr int kPower = 8;
 constexpr int kPrimary = 9;
@@ -126,7 +126,7 @@ void spell_expression(const Expr& expr, Random* random, std::vector<std::string>
         return;
     case ExprKind::Binary: {
         const int level = precedence(expr);
-        const bool comparison = level == 3 || level == 4; // does not chain
+        const bool comparison = level == 3 || level == 4; // comparisons cannot be chained
         const bool power = level == kPower;
         spell_operand(expr.parts[0], power ? kPrimary : level + (comparison ? 1 : 0), random,
                       tokens);
@@ -153,7 +153,7 @@ void spell_expression(const Expr& expr, Random* random, std::vector<std::string>
 }
 
 JoinedNames::JoinedNames(const Grammar& grammar, Random& random) {
-    known_ = {"F", "f"}; // commands of the profiles that the generator uses
+    known_ = {"F", "f"}; // commands of the turtle profiles that the generator uses
     for (const Statement* statement : statements_in_order(grammar)) {
         if (statement->kind == StatementKind::Object) {
             known_.insert(statement->name);
@@ -177,7 +177,7 @@ JoinedNames::JoinedNames(const Grammar& grammar, Random& random) {
         if (file.letters) {
             continue;
         }
-        std::set<std::string> used; // alone in this file, with their number of parameters
+        std::set<std::string> used; // names that stand alone in this file, with parameter count
         std::vector<List> lists = lists_of(file);
         const bool late = random.percent(50);
         for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -239,9 +239,10 @@ std::vector<JoinedNames::List> JoinedNames::lists_of(const File& file) {
     return lists;
 }
 
-// In how many ways `text` is a row of two or more names that occur, joined ones included.
+// The number of ways to split `text` into two or more names that occur, joined names included.
 std::size_t JoinedNames::ways(const std::string& text) const {
-    std::vector<std::size_t> count(text.size() + 1, 0); // of splits of the first i characters
+    // Count[i]: ways to split the first i characters.
+    std::vector<std::size_t> count(text.size() + 1, 0);
     count[0] = 1;
     for (std::size_t end = 1; end <= text.size(); ++end) {
         for (std::size_t begin = 0; begin < end; ++begin) {
@@ -255,8 +256,8 @@ std::size_t JoinedNames::ways(const std::string& text) const {
     return count[text.size()];
 }
 
-// Whether `text` can be one more joined name: it is read in one way, and so are all the others
-// still.
+// Whether `text` can be another joined name: it and all joined names so far are then read in one
+// way only.
 bool JoinedNames::is_safe(const std::string& text) {
     if (names_.count(text) != 0) {
         return false;

@@ -1,5 +1,5 @@
-// How single things of a grammar are spelled: names, numbers, expressions, and names run together.
-// The printer (print.h) puts blanks and comments between the tokens made here.
+// Spelling of the parts of a grammar: names, numbers, expressions, and joined names. The printer
+// (print.h) puts blanks and comments between the tokens made here.
 
 #pragma once
 
@@ -27,7 +27,7 @@ std::string spell_number(float value, Random* random);
 // `random`, some that they do not.
 void spell_expression(const Expr& expr, Random* random, std::vector<std::string>& tokens);
 
-// Which modules are printed together with the next one of their list, as `AS(1)` for `A S(1)`:
+// Chooses the modules that are joined with the next one of their list, as `AS(1)` for `A S(1)`:
 // only where section 3 of the language reference reads the name split in exactly that way. A name
 // counts as a possible part if it occurs anywhere, so that the reading stays the same under every
 // interpretation of "elsewhere in the file".
@@ -39,7 +39,7 @@ public:
     // #ignore, by its address) is printed without a blank before module index + 1.
     [[nodiscard]] bool joined(const void* list, std::size_t index) const;
 
-    // Names that would be read split although they are printed alone; empty in a good grammar.
+    // Names that are printed alone but would be read split; empty for a correct grammar.
     [[nodiscard]] std::set<std::string> ambiguous_names() const;
 
 private:
@@ -62,7 +62,7 @@ private:
     join_at(const List& list, std::size_t first, std::size_t last, std::set<std::string>& used);
 
     std::set<std::string> known_;
-    std::set<std::string> names_; // all that occur
+    std::set<std::string> names_; // all names that occur
     std::set<std::string> texts_; // of joined names
     std::map<const void*, std::set<std::size_t>> joined_;
 };

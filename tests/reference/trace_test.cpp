@@ -1,4 +1,5 @@
-// Traces of all modules of random grammars: each successor must be the one that the engine wrote.
+// Traces of all modules of random grammars: each successor must equal the modules that the runtime
+// wrote.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/trace.h"
 #include "tests/reference/compile_case.h"
@@ -46,8 +47,8 @@ void count(const StepTracer& tracer, Seen& seen) {
     }
 }
 
-/// Traces all modules of a word through one step or its interpretation. Returns false if the engine
-/// has no next word.
+/// Traces all modules of a word through one step or its interpretation. Returns false if the
+/// runtime reports an error.
 bool check_step(const Bytecode& bytecode,
                 DeriveOptions options,
                 const lsys::Derivation& from,
@@ -65,7 +66,7 @@ bool check_step(const Bytecode& bytecode,
     const std::optional<Stop> stop = interprets ? stepping.interpret() : stepping.step();
     tracer.finish();
     if (stop) {
-        // The engine names the lowest module at fault of a pass, which its trace names too.
+        // The runtime reports the first failing module of a pass; its trace must fail too.
         const bool is_found =
             std::any_of(tracer.traces().begin(), tracer.traces().end(), [&](const auto& trace) {
                 return trace.fate == Fate::Failed && trace.position == stepping.error().position;
@@ -119,7 +120,7 @@ TEST_CASE("traces of random grammars agree with the engine, module by module") {
             REQUIRE(!derivation.step());
         }
     }
-    // Everything that a trace can tell has been told often.
+    // Every fate and verdict of a trace occurs often.
     for (const Fate fate : enumerators_of<Fate>()) {
         INFO("fate " << static_cast<int>(fate));
         CHECK((fate == Fate::Failed || seen.fates[static_cast<std::size_t>(fate)] > 20));

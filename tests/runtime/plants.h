@@ -1,4 +1,4 @@
-// Skeletons for tests of the physics.
+// Skeletons for tests of physics and export.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -14,7 +14,7 @@
 
 namespace lsys::test {
 
-/// A segment of uniform radius that begins at the tip of `parent`, if there is one.
+/// Adds a segment of uniform radius, at the tip of `parent` or, without one, at the origin.
 inline std::uint32_t
 add_segment(Skeleton& plant, std::uint32_t parent, const glm::quat& frame, const Segment& like) {
     Segment segment = like;
@@ -48,7 +48,7 @@ inline double uniform(std::mt19937& numbers, double low, double high) {
 inline std::uint32_t below(std::mt19937& numbers, std::uint32_t end) {
     return static_cast<std::uint32_t>(numbers() % end);
 }
-/// Between 10^low and 10^high.
+/// A random power of ten between 10^low and 10^high.
 inline float power(std::mt19937& numbers, double low, double high) {
     return static_cast<float>(std::pow(10.0, uniform(numbers, low, high)));
 }
@@ -88,7 +88,7 @@ inline Skeleton random_plant(std::mt19937& numbers, std::uint32_t count, double 
     return plant;
 }
 
-/// A tree of about 3^depth twigs, of wood and of the size of trees.
+/// A tree of about 3^depth twigs, with the stiffness of wood and the size of a real tree.
 inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_an_axis) {
     Skeleton plant;
     struct Axis {
@@ -131,7 +131,7 @@ inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_an_axis) {
     return plant;
 }
 
-/// The frame of a segment seen from its parent's; its own if it has none.
+/// The frame of a segment relative to its parent's; its own frame without a parent.
 inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
     const Segment& own = skeleton.segments[segment];
     return own.parent == kNoSegment
@@ -139,10 +139,10 @@ inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
                : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
 }
 
-/// J of springs and weight, from nothing but the two poses.
+/// Energy of springs and weight, J, computed from the two poses alone.
 struct Potential {
     double energy = 0.0;
-    double terms = 0.0; // sum of magnitudes
+    double terms = 0.0; // sum of the magnitudes of the terms, the scale of rounding errors
 };
 inline Potential potential(const Skeleton& rest, const Skeleton& bent, double gravity) {
     Potential sum;
@@ -172,7 +172,7 @@ inline Potential potential(const Skeleton& rest, const Skeleton& bent, double gr
     return sum;
 }
 
-/// The bytes of all that a pose changes.
+/// The bytes of all fields that a pose changes.
 inline std::string place_bytes(const Skeleton& plant) {
     std::string bytes;
     const auto add = [&](const auto& value) {

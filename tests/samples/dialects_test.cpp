@@ -1,5 +1,5 @@
-// Grammars of other dialects: the lengths that their own programs give, and that what `lsc import`
-// writes derives the same word.
+// Grammars of other dialects: word lengths as given by their own programs, and equal words from the
+// output of `lsc import`.
 #include "grammar/dialects/dialect.h"
 #include "tests/support/lsc_run.h"
 
@@ -22,7 +22,7 @@ using lsys::tests::ScratchFolder;
 
 const fs::path kCases = fs::path(LSYS_SOURCE_DIR) / "tests/ui";
 
-/// A file of L3D's repository, and the lengths of its words.
+/// A file of L3D's repository and the lengths of its words by generation.
 struct Lengths {
     std::string file;
     bool chosen_by_chance = false;
@@ -58,7 +58,7 @@ const std::vector<Lengths> kOfL3d{
     {"round.l++", true, {6, 20, 145, 267, 335, 460, 579}},
 };
 
-/// The last generation of those of which only the first ones are told.
+/// A late generation of a file of which Lengths has only the first generations.
 struct Last {
     std::string file;
     std::string generation;
@@ -69,7 +69,7 @@ const std::vector<Last> kLast{
     {"pine.l++", "15", "19370"}, {"round.l++", "64", "6554"},
 };
 
-/// Grammars of other dialects: those beside the cases of each dialect, and samples.
+/// Grammars of other dialects: the parts of the golden cases of each dialect, and the samples.
 std::vector<fs::path> grammars() {
     std::set<fs::path> all;
     for (const lsys::DialectRow& row : lsys::dialects()) {
@@ -125,9 +125,9 @@ TEST_CASE("words have the lengths that L3D gives them") {
 }
 
 TEST_CASE("surfaces have the vertices that L3D gives them") {
-    // Of 2 * 20 to 2 * 100 vertices a segment, by thickness, and 8 a leaf.
+    // L3D makes 2 * 20 to 2 * 100 vertices per segment, by thickness, and 8 per leaf.
     struct Surface {
-        std::string text; // behind three numbers, of which the last is the thickness
+        std::string text; // text after the three numbers of the header
         std::string thickness;
         long vertices;
         long leaf_faces;
@@ -157,7 +157,7 @@ TEST_CASE("surfaces have the vertices that L3D gives them") {
         leaves += text.ends_with(" 1\n") ? 1 : 0;
         CHECK(leaves == surface.leaf_faces);
     }
-    // The tree of L3D: 485 segments, which thin out from 40 to 20 sides, and 786 leaves.
+    // The tree of L3D has 485 segments, which taper from 40 to 20 sides, and 786 leaves.
     const std::string tree = (kCases / "l3d/parts/tree.l++").string();
     const std::string mesh = scratch / "tree.off+";
     const LscRun run = run_lsc({"export", tree, "--bug-compatible", "-o", mesh, "--stats"}, "");
@@ -202,7 +202,7 @@ TEST_CASE("what is imported derives the same words") {
             CHECK(one.status == 0);
             CHECK(one.out.size() > 1);
             CHECK(one.out == other.out);
-            // And so does the bytecode of the copy, stored, and the copy laid out anew.
+            // The imported copy is formatted.
             CHECK(run_lsc({"fmt", "--check", copy}, "").status == 0);
         }
     }

@@ -1,5 +1,5 @@
-// The systems of the documents that the language and its dialects come from: the words, counts and
-// probabilities that their texts print, or that follow from them.
+// The systems of the literature from which the language and its dialects come: words, counts and
+// probabilities that the texts print, or that follow from them.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -48,8 +48,8 @@ std::string without(std::string text, std::string_view unwanted) {
     return text;
 }
 
-/// One step of the loop on the slides of L3D: the keys of the rules are replaced one after the
-/// other, each everywhere.
+/// One generation by the loop on the slides of L3D: replaces the keys of the rules one after the
+/// other, each in the whole word.
 std::string replaced(std::string word, const std::map<std::string, std::string>& rules) {
     for (const auto& [key, value] : rules) {
         std::string next;
@@ -111,7 +111,7 @@ TEST_CASE("Crankshaw 2019, 2.8: widths shrink by 0.707 and lengths grow by 1.456
 }
 
 TEST_CASE("Crankshaw 2019, figure 2.9: branches get twice as long") {
-    // F(n+1) = 2 F(n) + 3 X(n) and X(n) = 4^n.
+    // Counts: F(n+1) = 2 F(n) + 3 X(n) and X(n) = 4^n.
     std::size_t segments = 0;
     std::size_t tips = 1;
     for (int n = 0; n <= 5; ++n) {
@@ -149,12 +149,12 @@ TEST_CASE("Crankshaw 2019, 2.11: a flower at the sixth generation and leaves on 
         double z = 0;
         char comma = ',';
         REQUIRE((frame >> w >> comma >> x >> comma >> y >> comma >> z));
-        // The X of the leaf's own Y axis.
+        // The sign of the x coordinate of the leaf's Y axis.
         ++(2.0 * (x * y - w * z) < 0.0 ? left : right);
     }
     CHECK(left > 0);
     CHECK(right > 0);
-    CHECK(left + right == 10); // two for each of five pieces
+    CHECK(left + right == 10); // two leaves for each of five pieces
 }
 
 TEST_CASE("Crankshaw 2019, 2.12: turns from -20 to 20 degrees") {
@@ -188,7 +188,7 @@ TEST_CASE("Crankshaw 2019, 7.1 and 7.2: as printed") {
     CHECK(word_of("crankshaw-7-2", 1) ==
           "!(1.707)F(0.5)[!(1)/(25.7)+(25.7)X][!(1)-(25.7)X][!(1)^(25.7)X][!(1)&(25.7)X]"
           "!(1)F(0.5)X\n");
-    // F(n+1) = 2 F(n) + 2 tips(n); 3^n and 5^n tips.
+    // Segments: F(n+1) = 2 F(n) + 2 tips(n), with 3^n or 5^n tips.
     for (const auto& [name, forks, last] :
          {std::tuple<std::string, std::size_t, int>{"crankshaw-7-1", 3, 6},
           {"crankshaw-7-2", 5, 5}}) {
@@ -256,7 +256,7 @@ TEST_CASE("Naderi's slides: what the loop of replacements makes") {
 }
 
 TEST_CASE("Naderi's slides: one value for all keys of a generation") {
-    // The L beside each A that is left is of the fifth generation.
+    // Each L beside a remaining A was replaced in the fifth generation.
     std::map<std::string, int> values;
     for (int seed = 0; seed < 30; ++seed) {
         const std::string word =
@@ -274,7 +274,8 @@ TEST_CASE("Naderi's slides: one value for all keys of a generation") {
         ++values[value];
     }
     CHECK(values.size() == 3);
-    // The text of the slide with its brackets, `^{*}` as `^*`, is longer; characters are counted.
+    // The text as printed on the slide, with all brackets and `^{*}` written `^*`, gives a longer
+    // word; characters are counted.
     const lsys::tests::ScratchFolder folder;
     lsys::tests::write_text(folder / "printed.l++", R"(5
 15
@@ -288,9 +289,9 @@ L=[[&](70)^*(.3)]
 @
 )");
     CHECK(dump(folder / "printed.l++", {"--count"}) == "26871\n");
-    CHECK(dump(folder / "printed.l++", {}).size() == 26871 + 3); // back quotes and the line's end
+    CHECK(dump(folder / "printed.l++", {}).size() == 26871 + 3); // two back quotes and the line end
     CHECK(dump(sample("naderi-leaves", "l++"), {"--count"}) == "22749\n");
-    // The tip adds three segments in each of 64 generations.
+    // In each of 64 generations, the tip adds three segments.
     const std::string spiral = dump(sample("naderi-spiral", "l++"), {});
     CHECK(occurrences(spiral, "^(15)") == 64);
     CHECK(occurrences(spiral, "Z") == 1);

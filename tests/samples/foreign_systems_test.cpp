@@ -1,4 +1,4 @@
-// Grammars of other programs: what is imported derives what the original derives.
+// Grammars of other programs: the imported grammar derives the same word as the original.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -16,9 +16,9 @@ using lsys::tests::ScratchFolder;
 
 struct Foreign {
     std::string file;   // in samples/dialects
-    std::string system; // of a file of several
+    std::string system; // name of the system; empty if the file has one
     std::string generations;
-    std::string count; // of modules then; empty: by chance
+    std::string count; // count of modules after the generations; empty if random
 };
 
 std::vector<Foreign> foreign_samples() {

@@ -1,4 +1,4 @@
-// Every sample of the gallery does what its first lines say.
+// Every sample of the gallery does what its first lines state.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -73,8 +73,8 @@ TEST_CASE("samples in the dialect of their source derive the same words") {
             ++tried;
             const LscRun check = run_lsc({"check", path}, "");
             CHECK(check.status == 0);
-            // A .sys file cannot say how many generations to derive; notes tell of files of L3D whose
-            // order of rules matters.
+            // A .sys file does not give the number of generations, and files of L3D may have a note
+            // about the order of their rules.
             const bool may_note = extension == ".sys" || extension == ".l" || extension == ".l++";
             CHECK((check.err.empty() || may_note));
             CHECK(check.err.find("error") == std::string::npos);

@@ -1,5 +1,5 @@
-// The sample scenes are without fault, and so are their grammars; each makes as many trees as fit
-// its text.
+// The sample scenes and their grammars have no mistakes, and each scene has as many trees as its
+// text suggests.
 #include "runtime/base/grey_map.h"
 #include "runtime/placement/placement.h"
 #include "runtime/scene/scene.h"
@@ -112,9 +112,9 @@ TEST_CASE("sample scenes place their trees") {
         }
         const std::size_t trees = placement.value().trees.size();
         if (sample.name == "pine-wood") {
-            CHECK(oldest > options.years); // plants of the first year are 1
+            CHECK(oldest > options.years); // plants of the first year begin at age 1
             CHECK(trees > 200);
-            CHECK(trees < options.count / 3); // it has thinned itself
+            CHECK(trees < options.count / 3); // the wood has thinned itself
         } else {
             CHECK(trees > 500);
         }

@@ -116,7 +116,7 @@ const std::vector<std::string> kOthers = {
     "scenes/meadow/bush.lsys",
     "scenes/meadow/grass.lsys",
 };
-/// Plants that do not stand, and the reason.
+/// Plants that need not stand, with the reason.
 const std::map<std::string, std::string> kExceptions = {
     {"abop-1-24a", "stems of 254 segments, drawn as lines: ten times as wide they would be blots"},
     {"abop-1-24d", "as abop-1-24a"},
@@ -134,8 +134,8 @@ float tip_height(const PlacedObject& object) {
     return object.position.y + std::abs(object.size) * heading(object.frame).y;
 }
 
-/// The deepest point, in metres below y = 0, of those that are not below it at rest: ends of
-/// segments and objects, corners of polygons.
+/// Depth below y = 0, m, of the deepest point that is not below it at rest: ends of segments and
+/// objects, corners of polygons.
 float depth_below_ground(const Skeleton& rest, const Skeleton& bent) {
     float depth = 0.0F;
     const auto see = [&](float before, float after) {
@@ -186,7 +186,8 @@ TEST_CASE("trees sag less than herbs") {
 }
 
 TEST_CASE("plants of up to 100,000 segments that fall lie after the rounds of such plants") {
-    // Energies with which they came to rest without stages (see physics.cpp) bound those with them.
+    // Upper bounds of the energy at rest: those reached without stages
+    // (runtime/physics/physics.cpp).
     const std::map<std::string, double> energies = {{"abop-5-11-compound-leaf", -8.4787e9},
                                                     {"crankshaw-2-8-bush", -7.6949e7}};
     for (const auto& [name, energy] : energies) {
@@ -219,7 +220,7 @@ TEST_CASE("plants stand or lie after few rounds, and nothing is pulled below the
         options.load = plant.load;
         PlantPhysics physics(plant.skeleton, options);
         Skeleton bent;
-        for (const std::uint32_t rounds : {10U, 240U}) { // a pose on the way, and the last
+        for (const std::uint32_t rounds : {10U, 240U}) { // an intermediate pose, and the last
             const bool settled = physics.settle(1e-6, rounds);
             physics.pose(bent);
             const float depth = depth_below_ground(plant.skeleton, bent);

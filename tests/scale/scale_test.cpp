@@ -26,14 +26,14 @@ constexpr bool kInstrumented = true;
 constexpr bool kInstrumented = false;
 #endif
 constexpr double kMaxSeconds = 20.0;
-// Sanitizers take about three times as long; most cases keep the bound all the same. Twice the
-// bound leaves room for those that do not, and for a busy machine.
+// With sanitizers, runs take about three times as long; most still keep the limit. Twice the limit
+// suffices for the others, also on a busy machine.
 constexpr double kInstrumentedFactor = 2.0;
 
 struct Ended {
     int status = -1; // exit status, or -signal
     long peak_kib = 0;
-    double seconds = 0.0; // of processor time, which other processes do not lengthen
+    double seconds = 0.0; // processor time, which other processes do not lengthen
     std::string errors;   // standard error
 };
 
@@ -92,7 +92,7 @@ void write_repeated(const std::string& path,
     file << after;
 }
 
-/// Writes `count` lines made by `line`.
+/// Writes `before`, then line(i) for i from 0 to `count` - 1.
 void write_lines(const std::string& path,
                  const std::string& before,
                  std::uint64_t count,

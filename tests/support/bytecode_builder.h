@@ -1,6 +1,6 @@
 // Bytecode from short texts for unit tests, without the front end and the compiler. Modules,
-// expressions and productions look as in the language; names are identifiers or single characters
-// and blanks separate.
+// expressions and productions look as in the language; names are identifiers or single characters,
+// and blanks separate them.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -15,7 +15,7 @@ namespace lsys::test {
 class BytecodeBuilder {
 public:
     Settings settings;
-    bool fold = true; // constant arguments become codes of their own
+    bool fold = true; // fold constant arguments into codes of their own
 
     /// "F(1)[+(30)A]"
     BytecodeBuilder& axiom(std::string text);
@@ -26,7 +26,7 @@ public:
     /// A random constant, drawn at the start.
     BytecodeBuilder& global(std::string name, std::string value);
     BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
-    /// "A(x) B": symbols before those of the texts, so that a test knows their numbers.
+    /// Declares symbols, "A(x) B", before those of the texts, so that a test knows their numbers.
     BytecodeBuilder& declare(std::string modules);
     /// Declares symbols nobody uses, so that codes need two or four bytes.
     BytecodeBuilder& unused_symbols(std::uint32_t count);

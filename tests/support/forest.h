@@ -22,11 +22,11 @@ struct Planted {
 [[nodiscard]] CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0);
 [[nodiscard]] Tree tree_of(std::uint32_t number);
 
-/// Requires success.
+/// Compiles the grammar for instancing and makes an instance cache. Requires success.
 [[nodiscard]] Planted
 plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOptions options);
 
-/// The skeleton of the plain plant.
+/// The skeleton of the plant derived without instancing.
 [[nodiscard]] Skeleton
 plain_plant(const std::string& grammar, std::uint32_t generations, std::uint64_t seed);
 
@@ -36,7 +36,7 @@ struct TreeSegment {
     glm::dvec3 tip{};
     float base_radius = 0.0F;
     float tip_radius = 0.0F;
-    std::uint32_t order = 0; // branches around it
+    std::uint32_t order = 0; // branching order: number of enclosing branches
 };
 [[nodiscard]] std::vector<TreeSegment>
 segments_of(const InstanceCache& cache, const Tree& tree, std::uint64_t key);

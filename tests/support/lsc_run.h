@@ -25,7 +25,7 @@ struct LscRun {
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-/// A temporary folder, removed at the end of its life.
+/// A temporary folder, removed by the destructor.
 class ScratchFolder {
 public:
     ScratchFolder();
@@ -45,8 +45,8 @@ private:
 /// A sample of the gallery: samples/NAME/NAME.lsys.
 struct Sample {
     std::filesystem::path file;
-    std::vector<std::vector<std::string>> runs; // with the file's name put in
-    std::string counts;                         // one a line, as --all --count prints them
+    std::vector<std::vector<std::string>> runs; // with the name of the file inserted
+    std::string counts;                         // one per line, as printed by --all --count
     std::size_t count_count = 0;
     bool declares_warnings = false;
 };

@@ -20,7 +20,7 @@ inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
 }
 
-/// The number of triangles with normals on the back.
+/// The number of triangles whose mean normal points to the back.
 inline std::size_t turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
@@ -35,8 +35,8 @@ inline std::size_t turned_over(const Mesh& mesh) {
     return turned;
 }
 
-/// Arrays in parallel, indices in range, unit normals, orthogonal unit tangents, no triangle
-/// without area, parts that cover the indices.
+/// Checks for arrays of equal length, indices in range, unit normals, orthogonal unit tangents, no
+/// triangle without area, and parts that cover the indices.
 inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
     const std::size_t count = mesh.positions.size();
     REQUIRE(mesh.normals.size() == count);
@@ -79,7 +79,7 @@ inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
     CHECK(wrong == 0);
 }
 
-/// Triangles whose normals at the corners point away from their front.
+/// The number of corners of triangles whose normal points to the back of the triangle.
 inline std::size_t triangles_turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -128,15 +128,15 @@ struct Topology {
     std::size_t vertices = 0;
     std::size_t edges = 0;
     std::size_t triangles = 0;
-    std::size_t open_edges = 0;       // not once in each direction
-    std::size_t unbalanced_edges = 0; // not equally often in both directions
+    std::size_t open_edges = 0;       // edges that do not occur once in each direction
+    std::size_t unbalanced_edges = 0; // edges that do not occur equally often in both directions
 
     [[nodiscard]] std::int64_t euler() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
     }
 };
 
-/// `place`: the number of the vertex of an index.
+/// Counts vertices, edges and triangles. `place`: maps an index to the number of a vertex.
 template <typename Place>
 Topology count_edges(const Mesh& mesh, const Place& place) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;
@@ -160,7 +160,7 @@ Topology count_edges(const Mesh& mesh, const Place& place) {
     return topology;
 }
 
-/// With equal positions as one vertex.
+/// Topology with equal positions as one vertex.
 inline Topology topology_of(const Mesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> places;
     return count_edges(mesh, [&](std::uint32_t index) {

@@ -39,7 +39,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     }
 }
 
-/// A temporary folder, removed at the end of its life, which also restores the working directory.
+/// A temporary folder, removed by the destructor, which also restores the working directory.
 class Scratch {
 public:
     Scratch() : before_(fs::current_path()) {
@@ -246,7 +246,7 @@ private:
     std::string name_;
 };
 
-/// Expected files without a case.
+/// Reports expected files without a case.
 void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& outcome) {
     for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
         const std::string extension = entry.path().extension().string();

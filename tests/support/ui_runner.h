@@ -10,16 +10,16 @@ namespace lsys::tests {
 
 struct UiOptions {
     std::filesystem::path root;       // tests/ui
-    std::vector<std::string> filters; // parts of `feature/fact`; none: all
+    std::vector<std::string> filters; // parts of `feature/fact`; if empty, all cases run
     bool bless = false;
-    bool verbose = false; // names every case before it runs, so that a crash has a name
+    bool verbose = false; // print the name of each case before it runs, to identify a crash
 };
 
 struct UiOutcome {
     std::size_t case_count = 0;
     std::vector<std::string> failures; // each names its case
     std::vector<std::string> blessed;  // files that were rewritten or removed
-    std::set<std::string> codes;       // of all annotations
+    std::set<std::string> codes;       // codes of all annotations
 };
 
 /// The cases `<feature>/<fact>.lsys` below `root` that pass a filter.

@@ -26,7 +26,7 @@ float morph_of(float distance, std::uint32_t level, std::uint32_t levels) {
     return std::clamp((distance - start) / (TerrainLod::range(level) - start), 0.0F, 1.0F);
 }
 
-/// The level of the smallest node about a place that is within the range of its level.
+/// The level of the smallest node that contains a place and is within the range of its level.
 std::uint32_t level_at(const TerrainLod& lod, const glm::vec3& eye, const glm::vec2& place) {
     std::uint32_t level = lod.levels() - 1;
     while (level != 0) {
@@ -45,7 +45,7 @@ std::uint32_t level_at(const TerrainLod& lod, const glm::vec3& eye, const glm::v
 } // namespace
 
 float drawn_height(const TerrainLod& lod, const glm::vec3& eye, float x, float z) {
-    // The corners of the cell, where they have moved to.
+    // The positions to which the corners of the cell have morphed.
     const std::uint32_t level = level_at(lod, eye, {x, z});
     const HeightGrid& grid = lod.grid(level);
     const float size = TerrainLod::cell(level);
@@ -63,7 +63,8 @@ float drawn_height(const TerrainLod& lod, const glm::vec3& eye, float x, float z
     };
     const auto cx = static_cast<std::int32_t>(std::floor(x / size));
     const auto cz = static_cast<std::int32_t>(std::floor(z / size));
-    // Corners move down to even places, so the triangle above a place lies at most one cell beyond.
+    // Corners morph towards lower even coordinates, so the triangle above a place belongs to its
+    // cell or to the next.
     for (std::int32_t dz = 0; dz <= 1; ++dz) {
         for (std::int32_t dx = 0; dx <= 1; ++dx) {
             const glm::vec3 a = corner(cx + dx, cz + dz);

@@ -1,12 +1,12 @@
-// The surface of the ground as the shader draws it, found on the CPU.
+// The surface of the ground that the shader draws, computed on the CPU.
 #pragma once
 
 #include "viewer/scene/terrain_lod.h"
 
 namespace lsys::tests {
 
-/// The height of the surface that `view` draws at a place, whatever of it is in view. `eye`: the
-/// place of the camera that was selected last.
+/// Height, m, of the drawn surface at a place, also outside of the view. `eye`: that of the last
+/// TerrainLod::select().
 [[nodiscard]] float
 drawn_height(const view::TerrainLod& lod, const glm::vec3& eye, float x, float z);
 

@@ -1,4 +1,4 @@
-// The default picture of a forest: trees are seen, and stand out, on grounds from 0.1 to 100 km.
+// The default picture of a forest: trees are visible, with contrast, on grounds from 0.1 to 100 km.
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 #include "viewer/scene/camera.h"
@@ -21,10 +21,10 @@ namespace {
 /// Measures of the lower two thirds of a picture.
 struct Sight {
     double contrast = 0.0; // RMS: standard deviation of the luma (Rec. 709), 0 to 1
-    double trees = 0.0;    // part of the pixels that trees or their shadows change
+    double trees = 0.0;    // fraction of pixels that trees or their shadows change
 };
 
-/// A channel differs by more than that where a tree is, of 255.
+/// Pixels with trees differ in a channel by more than this, of 255.
 constexpr int kTreeDifference = 24;
 
 /// `bare`: the picture without trees.
@@ -153,7 +153,7 @@ TEST_CASE("air thins with --air, and by default with the size of the ground") {
     CHECK(in_haze < 0.6 * by_default);
     CHECK(by_default < sight_of(clear.picture, usual.picture).contrast);
     CHECK(difference_of(with_air("16.97056").picture, usual.picture).mean < 0.1);
-    // A small ground has the air of 10 km.
+    // On a small ground, the default visibility is 10 km.
     CHECK(shown({sample("abop-1-24a"), "--count", "4"}).stats["air_km"] == 10.0);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("with a lens of its own the plant is in view as a whole, from the same
         REQUIRE(camera);
         return static_cast<double>(glm::distance(camera.value().eye, camera.value().target));
     };
-    const double usual = distance_with({}); // 40 degrees
+    const double usual = distance_with({}); // field of view of 40 degrees
     CHECK(distance_with({"--camera", "fov 15"}) > 2.0 * usual);
     CHECK(distance_with({"--camera", "fov 90"}) < 0.7 * usual);
 }

@@ -1,4 +1,4 @@
-// Pictures of files in forests: on the ground, on meshes, on polygons; drawn and exported.
+// Picture files in forests: on the ground, on meshes, on polygons; drawn and exported.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -23,7 +23,7 @@ namespace {
 
 using Texel = std::array<std::uint8_t, 4>;
 
-/// The left half of one colour, the right of another.
+/// A texture with a left half of one colour and a right half of another.
 Texture halves(const Texel& left, const Texel& right) {
     Texture texture{16, 16, {}};
     for (std::uint32_t i = 0; i < 256; ++i) {
@@ -43,7 +43,7 @@ struct Surfaces {
     explicit Surfaces(const std::string& terrain, const std::string& grammar = kStick) {
         write_text(folder / "tree.lsys", grammar);
         write_text(folder / "ground.png", encode_png(halves(kRed, kBlue)));
-        // Left slopes face -X, right ones +X.
+        // Normals: the left half faces -X, the right half +X.
         write_text(folder / "slopes.png",
                    encode_png(halves({37, 128, 218, 255}, {218, 128, 218, 255})));
         write_text(folder / "holes.png", encode_png(halves(kRed, kNothing)));
@@ -125,7 +125,8 @@ constexpr const char* kAbove = "eye 12,30,12.01 target 12,0,12 fov 15.2";
 TEST_CASE("the ground shows its picture at its place, tile beside tile") {
     const Surfaces files(kPictured);
     const Picture picture = files.picture(kAbove);
-    // The tile from x = 8 to 16: red to 12, blue beyond; another begins at the edges.
+    // The picture shows the tile from x = 8 to 16, red up to 12, blue beyond, and the beginnings of
+    // the next tiles.
     for (const std::uint32_t y : {8U, 32U, 56U}) {
         CHECK(is_red(texel(picture, 12, y)));
         CHECK(is_red(texel(picture, 28, y)));
@@ -148,7 +149,7 @@ TEST_CASE("the ground shows its picture at its place, tile beside tile") {
 TEST_CASE("far away a picture of the ground is its mean") {
     const Surfaces files("colour = \"ground.png\"\ntile = 0.25");
     const Picture picture = files.picture("eye 10,40,10.01 target 10,0,10 fov 4");
-    // Half red, half blue, whatever the tile.
+    // Each pixel is the mean of red and blue.
     std::array<int, 3> least{255, 255, 255};
     std::array<int, 3> most{};
     for (std::uint32_t y = 0; y < 64; y += 4) {
@@ -168,7 +169,7 @@ TEST_CASE("far away a picture of the ground is its mean") {
 }
 
 TEST_CASE("normals of the ground turn its light") {
-    // The sun stands towards +X.
+    // The sun is in direction +X.
     const Surfaces bumpy("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
     write_text(bumpy.folder / "ground.png", encode_png(halves(kRed, kRed)));
     const Picture picture = bumpy.picture(kAbove);
@@ -187,7 +188,7 @@ TEST_CASE("the relief of a mesh of a forest turns its light") {
             files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, "320x320");
         return brightness(texel(picture, 80, 160));
     };
-    // Its left half turns from the sun, and so lets more light through from behind.
+    // The left half faces away from the sun, so more light passes through it from behind.
     CHECK(seen("norm slopes.png\n") > seen("") + 10);
 }
 
@@ -275,9 +276,9 @@ TEST_CASE("files of a forest have the pictures of its ground") {
 
 TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
     const char* const grammar = GENERATE(
-        // A card of a mesh file, 2 m wide and high.
+        // A card from a mesh file, 2 m wide and high.
         "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n",
-        // A picture as an object: as wide as high.
+        // A picture as an object, which is as wide as high.
         "#n = 1;\n#object L \"holes.png\";\n#w : L(2);\n",
         // A polygon, towards +Y from the middle of its lower side.
         "#n = 1;\n#object { \"holes.png\";\n#set angle 90;\n"
@@ -288,7 +289,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
     write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd holes.png\n");
-    // As branches, and as an impostor.
+    // Drawn as branches, and as an impostor.
     const char* const size = GENERATE("320x320", "64x64");
     const Picture picture =
         files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, size);
@@ -296,7 +297,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
     for (std::uint32_t x = 0; x < picture.width; ++x) {
         red += is_red(texel(picture, x, picture.height / 2)) ? 1 : 0;
     }
-    // Half of the card, which is 2 of 2.68 m of the picture.
+    // Half of the card is red; the card takes 2 of the 2.68 m of the picture.
     const double part = static_cast<double>(red) / picture.width;
     CHECK(part > 0.30);
     CHECK(part < 0.45);
@@ -335,13 +336,14 @@ TEST_CASE("a relief of a mesh file is read, as heights or as normals") {
                                   made.texels[first + 2]};
     };
     CHECK(at(3) == std::array<int, 3>{128, 128, 255}); // level
-    // White is 2 % of 16 texels above black: a rise of 0.32 over two texels between them.
+    // White is 2 % of 16 texels, 0.32 texels, above black; the slope over two texels is 0.16.
     const double rise = 0.16;
     const double length = std::sqrt(rise * rise + 1.0);
     CHECK(at(7)[0] == std::lround(127.5 - 127.5 * rise / length));
     CHECK(at(7)[2] == std::lround(127.5 + 127.5 / length));
-    CHECK(at(15)[0] == std::lround(127.5 + 127.5 * rise / length)); // it repeats
-    CHECK(normals_of(made, 1.0F).texels == made.texels);            // normals already
+    // The picture repeats at its edges.
+    CHECK(at(15)[0] == std::lround(127.5 + 127.5 * rise / length));
+    CHECK(normals_of(made, 1.0F).texels == made.texels); // a picture of normals is kept
 }
 
 TEST_CASE("a mesh file names a relief and an opacity beside its picture") {

@@ -1,4 +1,4 @@
-// The picture that a mesh of a file shows: found, shown, exported, waited for.
+// The picture of a mesh file: found, shown, exported, and watched for changes.
 #include "runtime/meshing/texture.h"
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
@@ -20,7 +20,7 @@ using namespace lsys::view;
 
 namespace {
 
-// A card that fills the picture, of which the left half is red and the right half is not there.
+// A card that fills the picture; its left half is red and its right half transparent.
 constexpr const char* kCard = "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 constexpr const char* kPlant = "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n";

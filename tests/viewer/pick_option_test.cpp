@@ -1,4 +1,4 @@
-// `lsview --pick` and `--colours`: what a pixel of a picture shows, as text.
+// `lsview --pick` and `--colours`: the text about the part that a pixel shows.
 #include "runtime/program/host.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
@@ -25,7 +25,7 @@ constexpr const char* kCross = "#n = 1;\n"
                                "#w : !(0.4) A;\n"
                                "#up : A : * : F(2) [ +(90) F(1.5) ] F(3);\n";
 
-/// Looks at a plant from the front; 12 m across a picture's height.
+/// Options for a view of a plant from the front; the picture is 12 m high.
 const std::vector<std::string> kFront = {"--camera", "eye 0,3,60 target 0,3,0 fov 11.421186",
                                          "--size", fmt::format("{}x{}", kWidth, kHeight)};
 
@@ -84,7 +84,7 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
-    // Half-way, segments are half as long: the tip is at 2.5 m.
+    // Between the generations, segments have half of their length, so the tip is at 2.5 m.
     const PickRun grown = picked(with_front(file, {"--grow", "--frames", "3"}), pixel(0.0, 4.0));
     CAPTURE(grown.run.err);
     REQUIRE(grown.run.status == 0);
@@ -98,7 +98,7 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     const PickRun half = picked(with_front(file, {"--grow", "--frames", "3"}), pixel(0.0, 2.0));
     REQUIRE(half.lines.size() > 4);
     CHECK(half.lines[3] == "F(3), module 6 of 7");
-    // A strong wind along X takes the top away from where it was.
+    // A strong wind along X moves the top away.
     const std::vector<std::string> windy = {"--wind", "40,0,0", "--set", "elasticity=3e6"};
     CHECK(picked(with_front(file, {}), pixel(0.0, 4.6)).lines.at(0) == "F(3), module 6 of 7");
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
@@ -126,7 +126,7 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
                                                 "1",
                                                 "--size",
                                                 "320x240"};
-    // The forest that is asked, made here.
+    // The same forest, made by the test.
     view::ViewOptions options = std::get<view::ViewOptions>(view::parse_options(arguments));
     std::istringstream in;
     std::ostringstream out;
@@ -170,7 +170,7 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
             REQUIRE(pick.lines.size() == 4);
             if (slot.id == 0) {
                 CHECK(pick.lines[1] == "from the axiom");
-            } else { // its bracket in the production of `one` or `two`
+            } else { // the place of its bracket in production `one` or `two`
                 const std::regex place("from (one at .*bush.lsys:6:2[15]|two at .*bush.lsys:7:21), "
                                        "generation (\\d+)");
                 REQUIRE(std::regex_match(pick.lines[1], found, place));

@@ -1,4 +1,4 @@
-// Pictures of tests: PNG files read back, and how much two of them differ.
+// Reads PNG files of tests and compares pictures.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
 }
 
-/// Fails the test if it is no PNG.
+/// Fails the test if `png` is no PNG.
 [[nodiscard]] Picture decode_picture(const std::string& png);
 [[nodiscard]] Picture read_picture(const std::string& path);
 
 struct PictureDifference {
     double mean = 0.0; // over all channels, 0 to 255
-    double far = 0.0;  // part of the pixels that differ by more than 32 in a channel
+    double far = 0.0;  // fraction of pixels that differ by more than 32 in a channel
 };
-/// Both pictures must have one size.
+/// Precondition: both pictures have the same size.
 [[nodiscard]] PictureDifference difference_of(const Picture& a, const Picture& b);
 
 } // namespace lsys::tests

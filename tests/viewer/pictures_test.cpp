@@ -1,5 +1,5 @@
-// Pictures of lsview beside stored ones, which a person has looked at. LSYS_BLESS=1 in the
-// environment stores what is drawn now; look at it.
+// Compares pictures of lsview with stored ones that were approved by eye. With LSYS_BLESS=1 in the
+// environment, the drawn pictures are stored instead: look at them before committing.
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 
@@ -67,12 +67,12 @@ std::array<double, 3> mean_of(const Picture& picture, const Square& square) {
 }
 
 struct SquareDifference {
-    double worst = 0.0; // of the mean of a square, in a channel
+    double worst = 0.0; // largest difference of the mean of a square in a channel
     double mean = 0.0;
 };
 
-/// `side`: of squares, in pixels of the smaller picture; the other is a whole number of times as
-/// large.
+/// `side`: side of the squares in pixels of the smaller picture `a`. The size of `b` is a multiple
+/// of that of `a`.
 SquareDifference difference_by_square(const Picture& a, const Picture& b, std::uint32_t side) {
     const std::uint32_t larger = b.width / a.width;
     REQUIRE(b.height == a.height * larger);
@@ -182,8 +182,7 @@ TEST_CASE("cells at the horizon are as light as their trees") {
             drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--air", "9.78", "--camera",
                    "eye 760,80,760 target 350,0,350 fov 60", "--size", size}));
     };
-    // A smaller picture: so small that most trees are drawn by cell, and so large that each is
-    // drawn itself.
+    // In the small picture most trees are drawn as clusters, in the large one each tree alone.
     const SquareDifference difference = difference_by_square(view("160x120"), view("1280x960"), 10);
     CHECK(difference.worst < 16.0);
     CHECK(difference.mean < 1.2);
@@ -198,7 +197,7 @@ TEST_CASE("impostors are as light as their branches, with the sun behind and aga
                                      "--triangles", triangles}));
     };
     const SquareDifference difference = difference_by_square(view("1"), view("30000000"), 60);
-    // Near trees are seen from other sides of them in perspective than in a picture.
+    // The sides of near trees that perspective shows differ from those that an impostor shows.
     CHECK(difference.mean < 1.9);
 }
 
@@ -217,12 +216,12 @@ TEST_CASE("the counts of a forest are told, and the same every run") {
     CHECK(stats["trees"] == 4000);
     CHECK(stats["errors"].empty());
     CHECK(stats["draws"] <= 16);
-    CHECK(stats["passes"]["shadow"]["draws"] == 1); // of two pictures
+    CHECK(stats["passes"]["shadow"]["draws"] == 1); // in two pictures together
     CHECK(stats["passes"]["impostors"]["triangles"] > 0);
     CHECK(stats["passes"]["terrain"]["triangles"] > 0);
     CHECK(stats["trees_drawn"]["impostors"] > 0);
     CHECK(stats["trees_drawn"]["in_cells"] > 0);
-    // Options that leave things out.
+    // Options that omit parts of the picture.
     std::vector<std::string> second = arguments;
     second.insert(second.end(), {folder / "b.png", "--triangles", "0", "--no-shadows", "--samples",
                                  "1", "--stats", "-"});
@@ -237,7 +236,8 @@ TEST_CASE("the counts of a forest are told, and the same every run") {
 TEST_CASE("the same picture every run, and of any stripes") {
     const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
     CHECK(drawn(arguments) == drawn(arguments));
-    // A picture of more pixels than are drawn at once, beside a smaller one of the same view.
+    // Compare a picture with more pixels than are drawn at once with a smaller one of the same
+    // view.
     const Picture large = decode_picture(drawn({sample("teach-bending"), "--size", "2600x2600"}));
     const Picture small = decode_picture(drawn({sample("teach-bending"), "--size", "325x325"}));
     Picture reduced{325, 325, std::vector<std::uint8_t>(std::size_t{4} * 325 * 325)};
@@ -283,7 +283,7 @@ TEST_CASE("a series has as many pictures as asked for, each another") {
 
 TEST_CASE("a series that grows shows whole generations and moments between them") {
     const ScratchFolder folder;
-    // Without the ground, which is that of the last generation.
+    // Without the ground, whose size is that of the last generation.
     const std::vector<std::string> view = {sample("abop-2-8a"),
                                            "--no-ground",
                                            "--size",

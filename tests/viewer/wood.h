@@ -1,4 +1,4 @@
-// Wood: a small forest, for tests of what is drawn of one.
+// Wood: a small forest, for tests of its draw lists and pictures.
 #pragma once
 
 #include "viewer/scene/forest_lod.h"
@@ -17,9 +17,9 @@ struct Wood {
 
 /// `side` in metres.
 [[nodiscard]] std::unique_ptr<Wood> make_wood(std::uint32_t count, float side);
-/// On a square of hills.
+/// A wood on a square of hills.
 [[nodiscard]] std::unique_ptr<Wood> make_wood_on_hills(std::uint32_t count, float side);
-/// 30 m high, 120 m apart, on a square at the origin.
+/// Hills 30 m high and 120 m apart, on a square of `side` m at the origin.
 [[nodiscard]] Terrain hills(float side);
 /// Options whose LOD bands all occur in pictures of 640 by 480 pixels.
 [[nodiscard]] view::LodOptions wood_lod();

@@ -19,7 +19,7 @@ float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// Half a turn per picture height.
+/// Rotates the camera around the target: half a turn per picture height of `drag`.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
     if (drag != glm::vec2(0.0F)) {
@@ -27,7 +27,7 @@ void orbit(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
-/// The target follows the mouse.
+/// Moves the camera so that the target follows the mouse.
 void pan(Camera& camera, const glm::vec2& drag, float height) {
     if (drag != glm::vec2(0.0F)) {
         const float metres =
@@ -140,7 +140,7 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::click(const WindowInput& input, const PixelArea& area, View& view) {
-    constexpr float kStill = 3.0F; // pixels: a hand trembles
+    constexpr float kStill = 3.0F; // pixels; a hand trembles during a click
     for (const PointerEvent& event : input.pointer_events) {
         if (event.kind == PointerEvent::Kind::Press) {
             pressed_ = event.place;
@@ -188,7 +188,7 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
     constexpr float kNotch = 1.2F;
     constexpr float kFaster = 4.0F;
     speed_ *= std::pow(kNotch, input.wheel);
-    // Reaches the target in two seconds.
+    // At speed 1 the camera reaches the target in two seconds.
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
                          glm::distance(camera.eye, camera.target);
     camera =
@@ -209,7 +209,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         panels.help = false;
         panels.flies = false;
         view.forget_picked();
-        return false; // views handle it too
+        return false; // the view handles Escape too
     case Key::F1:
         panels.help = !panels.help;
         return true;

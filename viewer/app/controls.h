@@ -16,7 +16,8 @@ struct PanelState {
     bool help = false;
     bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
-    bool asked_to_quit = false; // refused once because of unsaved changes
+    // The user was warned of unsaved changes; the next request to quit is obeyed.
+    bool asked_to_quit = false;
 };
 
 /// A row of the list of keys.
@@ -93,7 +94,7 @@ public:
                const PixelArea& area,
                ViewSwitcher& switcher,
                PanelState& panels);
-    /// Applies input to a plant; `height` of the picture in pixels.
+    /// Applies input to a plant. `height`: of the picture, pixels.
     void apply(const WindowInput& input,
                double seconds,
                float height,
@@ -111,7 +112,7 @@ public:
 private:
     void press(const KeyPress& press, PlantView& view, PanelState& panels);
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
-    /// Handles keys common to all views; returns whether this was one.
+    /// Handles a key that has one meaning in all views; returns whether `press` was such a key.
     [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
     /// Picks what lies under a press and release of the left button in one place.
     void click(const WindowInput& input, const PixelArea& area, View& view);
@@ -120,7 +121,8 @@ private:
 
     float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
-    std::optional<glm::vec2> pressed_; // where the left button went down, unless the mouse moved
+    // Place where the left button went down; empty once the mouse has moved.
+    std::optional<glm::vec2> pressed_;
 };
 
 /// Increments the plant's seed.

@@ -28,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxDelay = 10; // of a report, in quiet times
+constexpr int kMaxDelay = 10; // max delay of a report, as a multiple of Options::quiet
 
-/// Identity of a file's contents.
+/// Attributes of a file that change with its contents.
 struct Stamp {
     bool exists = false;
     std::int64_t seconds = 0;
@@ -260,7 +260,8 @@ struct FileWatch::State {
                 next_check = now + options.poll;
                 check_stamps(now);
             }
-            // Report when quiet, or late in folders with constant writes.
+            // Report when no event came for `quiet`, or after kMaxDelay in folders with constant
+            // writes.
             const auto first = first_change();
             if (first && ((in_change && ready == 0) || now - *first > kMaxDelay * options.quiet)) {
                 report(now);

@@ -16,8 +16,8 @@ public:
     struct Options {
         /// Changes within this time are reported together.
         std::chrono::milliseconds quiet{10};
-        /// Max time that a file may be missing, as while an editor replaces it, before that is
-        /// reported.
+        /// Max time that a file may be missing, for example while an editor replaces it, before its
+        /// absence is reported.
         std::chrono::milliseconds missing{250};
         std::chrono::milliseconds poll{1000};
         bool use_inotify = true;

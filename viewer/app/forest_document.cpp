@@ -42,7 +42,8 @@ Outcome<void> make_model(const ViewOptions& options,
 }
 
 /// Copies the chosen heroes, rho and cache cap of `before` if its goal and species are the same, so
-/// that an edit in a window does not search again. Returns whether they are the same.
+/// that an edit in a window does not search for them again. Returns whether goal and species are
+/// the same.
 bool keep_choice(const Scene& before, Scene& scene) {
     if (!scene.goal.is_set() || before.goal != scene.goal ||
         before.species.size() != scene.species.size()) {
@@ -104,7 +105,8 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
-    constexpr std::size_t kMeasuredTrees = 20'000; // more would delay the first picture
+    // Max trees to measure; more would delay the first picture.
+    constexpr std::size_t kMeasuredTrees = 20'000;
     if (document->grown.forest.trees.size() <= kMeasuredTrees) {
         document->tallest = find_tallest(document->grown, project);
     }
@@ -117,7 +119,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
 }
 
 constexpr double kMetresPerKm = 1000.0;
-// From the middle of a forest to its default camera.
+// Direction from the middle of a forest to its default camera.
 constexpr glm::vec3 kFirstDirection{0.55F, 0.42F, 0.8F};
 constexpr float kFirstField = 40.0F; // degrees
 
@@ -157,7 +159,8 @@ float typical_height(const ForestDocument& document) {
     return squares > 0.0 ? static_cast<float>(cubes / squares) : 0.0F;
 }
 
-/// Foot of the outermost tree in the direction `outward`, near the line through `middle`.
+/// Foot of a tree at the edge of the forest: far from `middle` in the direction `outward`, and near
+/// the line through `middle` in that direction.
 glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2& outward) {
     glm::vec3 edge = middle;
     float farthest = -std::numeric_limits<float>::infinity();
@@ -175,10 +178,10 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
 /// View into a forest from outside its edge. `height`: of its trees, m. Distances are multiples of
 /// it, so forests of grass and of trees look alike.
 Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float height) {
-    constexpr float kOutside = 3.5F;   // from the eye to the first tree
-    constexpr float kAbove = 2.0F;     // eye above the ground there
-    constexpr float kClearance = 1.5F; // eye above the ground ahead
-    constexpr float kAhead = 16.0F;    // range of that ground
+    constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
+    constexpr float kAbove = 2.0F;     // height of the eye above the ground below it
+    constexpr float kClearance = 1.5F; // min height of the eye above the ground ahead
+    constexpr float kAhead = 16.0F;    // range of the ground ahead
     constexpr std::uint32_t kSteps = 64;
     // Angle from the middle of the picture down to the foot of the first tree, radians.
     constexpr float kFootBelow = 0.9F * 0.5F * kFirstField * std::numbers::pi_v<float> / 180.0F;
@@ -222,7 +225,7 @@ Camera first_view(const ForestDocument& document, float aspect) {
         framing(Camera{kFirstDirection, glm::vec3(0.0F), kFirstField}, bounds, aspect);
     const float picture_height = 2.0F * std::tan(0.5F * glm::radians(all.field_of_view)) *
                                  glm::distance(all.eye, all.target);
-    constexpr float kMinPart = 0.25F; // of the picture, height of a tree
+    constexpr float kMinPart = 0.25F; // min height of a tree as a fraction of the picture's height
     return bounds.empty || height >= kMinPart * picture_height
                ? all
                : edge_view(document, 0.5F * (bounds.low + bounds.high), height);

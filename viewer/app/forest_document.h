@@ -21,7 +21,8 @@ struct ForestDocument {
     ForestModel model; // refers to `grown`
     MeshOptions mesh_options;
     std::vector<std::string> files; // all requested files, readable or not, if recorded
-    std::optional<double> tallest;  // m, of the placed trees; none: too many to measure
+    // Height of the tallest placed tree, m; empty: too many trees to measure.
+    std::optional<double> tallest;
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };
@@ -30,9 +31,9 @@ struct ForestDocument {
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_forest_document(const ViewOptions& options, const Project& project);
 
-/// Makes the forest of a window. `edits` of the window are applied after those of `options`. All
-/// placed trees are kept: ForestPainting applies `scene.painting`. Heroes are taken from `known`,
-/// which may be null, where possible.
+/// Makes the forest that a window shows. `edits` of the window are applied after those of
+/// `options`. All placed trees are kept: ForestPainting applies `scene.painting`. Heroes are taken
+/// from `known`, which may be null, where possible.
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_unpainted_forest(const ViewOptions& options,
                       const SceneOverrides& edits,
@@ -50,7 +51,7 @@ make_unpainted_forest(const ViewOptions& options,
 /// Default visibility in a forest, km: in proportion to its size, so that far trees keep their
 /// contrast in forests of any size.
 [[nodiscard]] double default_visibility(const ForestDocument& document);
-/// Light of a forest. `visibility`: km, above 0; none: the default.
+/// Light of a forest. `visibility`: km, above 0; empty: default_visibility().
 [[nodiscard]] Light forest_light(const ForestDocument& document, std::optional<double> visibility);
 
 } // namespace lsys::view

@@ -13,7 +13,7 @@ namespace {
 
 /// The current growth. Used by the film's thread only.
 struct FilmState {
-    std::shared_ptr<const ForestDocument> document; // that `growth` was begun with
+    std::shared_ptr<const ForestDocument> document; // the document from which `growth` was begun
     Scene scene;
     std::optional<ForestGrowth> growth;
 

@@ -12,8 +12,9 @@
 namespace lsys::view {
 
 struct ForestFilmRequest {
-    std::shared_ptr<const ForestDocument> document; // its trees are not read
-    std::uint32_t years = 0;                        // at the end of the film
+    // The film does not read the trees of the document, which the window may change.
+    std::shared_ptr<const ForestDocument> document;
+    std::uint32_t years = 0; // years of the last moment of the film
     RunOptions run;
     GrowthMoment moment;
     SteadyClock::time_point since;
@@ -34,7 +35,7 @@ public:
     /// `done` is called on the film's thread whenever take() has a moment.
     explicit ForestFilm(std::function<void()> done);
 
-    /// Growth goes on from the moment before if the document is the same.
+    /// Continues the growth of the previous moment if the document is the same.
     void request(ForestFilmRequest request) { worker_.request(std::move(request)); }
     [[nodiscard]] std::optional<ForestFilmMoment> take() { return worker_.take(); }
     [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }

@@ -14,7 +14,8 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     outcome.request = request;
     outcome.files = request.options.files;
     const ForestDocument* const known = request.again ? nullptr : request.known.get();
-    if (known != nullptr) { // reused heroes are not read
+    // Grammars of reused heroes are not read again, so take their files from the known forest.
+    if (known != nullptr) {
         outcome.files = known->files;
     }
     const Project project{record_files(make_file_host(&cancelled), outcome.files),

@@ -13,7 +13,7 @@ namespace lsys::view {
 
 struct ForestRequest {
     ViewOptions options;
-    SceneOverrides edits; // after options.overrides
+    SceneOverrides edits; // applied after options.overrides
     /// Forest whose heroes may be reused; null: read all files.
     std::shared_ptr<const ForestDocument> known;
     SteadyClock::time_point since;

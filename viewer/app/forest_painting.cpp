@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPickCell = 1.0; // m, min
 constexpr double kMaxCells = 1024.0;
-constexpr float kStep = 0.5F; // radii between places of a stroke
+constexpr float kStep = 0.5F; // distance between places of a stroke, in radii of the brush
 constexpr std::uint32_t kMaxSteps = 256;
 
 std::vector<std::string> names_of(const Scene& scene) {
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 bool is_same_ground(const SceneTerrain& a, const SceneTerrain& b) {
-    // The file of a map may have changed.
+    // The file of a height map may have changed, so two height maps are never taken as equal.
     return a.kind == b.kind && a.kind != TerrainKind::HeightMap && a.region == b.region &&
            a.base == b.base && a.noise == b.noise;
 }
@@ -36,7 +36,8 @@ std::uint32_t cells_along(double size) {
     return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMaxCells));
 }
 
-/// Refines an intersection with a height field to one with the terrain.
+/// Refines `found`, an intersection of the ray with a height field, to an intersection with the
+/// terrain.
 glm::dvec3 refined(const Ray& ray, const glm::dvec3& found, double reach, const Terrain& terrain) {
     const double length = glm::length(ray.direction);
     const double middle = glm::dot(found - ray.origin, ray.direction) / (length * length);
@@ -179,7 +180,8 @@ void ForestPainting::move_tool(const glm::dvec3& place,
     const float way = glm::distance(from, glm::vec2(x, z));
     const float step = std::max(kStep * brush.radius, 0.1F);
     if (tool == PaintTool::OneTree || way < step) {
-        return; // a press plants one tree; the brush has covered this place
+        // PaintTool::OneTree plants only when pressed; a brush has already covered this place.
+        return;
     }
     const std::uint32_t steps =
         std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMaxSteps);

@@ -34,7 +34,7 @@ public:
     /// unsaved changes are kept. Returns a note for the user, which may be empty.
     [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
-    /// Drops all that was painted, saved or not.
+    /// Drops all painted and erased trees, saved or not.
     void clear() {
         painter_.reset();
         in_file_.reset();
@@ -79,7 +79,7 @@ private:
     std::shared_ptr<const ForestDocument> document_;
     std::optional<Painter> painter_;
     std::vector<std::string> names_;    // species names by the indices in painter_
-    std::optional<Painting> in_file_;   // last read or saved
+    std::optional<Painting> in_file_;   // the painting in the scene file as last read or saved
     std::optional<HeightField> ground_; // made on first use
     std::optional<glm::dvec3> last_;    // last place of the stroke
     PaintCount count_;

@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Shows the value in force, sets `edit` on change, and resets it by a button.
+/// Shows `edit`, or `shown` if it is empty; sets `edit` on change and adds a button that resets it.
 template <typename Value, typename Draw>
 void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const Draw& draw) {
     ImGui::PushID(name);
@@ -166,7 +166,7 @@ void draw_painting(ForestView& view) {
     line(fmt::format("{} painted", grouped(view.painting().painted_count())));
 }
 
-/// Returns the grammar of a species to open, or empty.
+/// Draws the species; returns the path of a grammar that the user wants to open, or an empty text.
 std::string draw_species(ForestView& view) {
     std::string wanted;
     const ForestDocument* const document = view.document();
@@ -298,7 +298,7 @@ void draw_legend(const ForestView& view) {
             ImGui::SameLine(static_cast<float>(i % kInRow) * 0.19F *
                             ImGui::GetContentRegionAvail().x);
         }
-        const glm::vec3 root = glm::sqrt(legend[i].colour); // for the display
+        const glm::vec3 root = glm::sqrt(legend[i].colour); // the display's gamma, taken as 2
         ImGui::PushID(static_cast<int>(i));
         ImGui::ColorButton("##colour", {root.x, root.y, root.z, 1.0F},
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,

@@ -7,7 +7,8 @@
 
 namespace lsys::view {
 
-/// Draws into the current ImGui window. Returns a file to open, or empty.
+/// Draws into the current ImGui window. Returns the path of a file that the user wants to open, or
+/// an empty text.
 [[nodiscard]] std::string draw_forest_panel(ForestView& view);
 
 } // namespace lsys::view

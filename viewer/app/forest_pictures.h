@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// `renderer` must show the forest. With ViewOptions::grow the document's trees become those of each
-/// picture in turn.
+/// `renderer` must show the forest. With ViewOptions::grow, each picture replaces the trees of the
+/// document by those of its moment.
 [[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
                                               const Camera& camera,
                                               ForestDocument& document,

@@ -120,7 +120,7 @@ void ForestView::set_years(std::uint32_t years) {
     settings.plays = false;
     if (grown_) {
         grown_.reset();
-        requested_.reset(); // it equals the edits
+        requested_.reset(); // else it would equal the edits, and update() would request nothing
     }
 }
 
@@ -181,14 +181,14 @@ PickRequest ForestView::request_for(const Picked& picked) const {
 
 void ForestView::request_load() {
     requested_ = settings.edits;
-    // After an error read all files again: the cause may lie in any.
+    // After an error, read all files again: the cause may lie in any of them.
     const bool is_known = !failed() && document_ != nullptr && document_->files.front() == file();
     loader_.request({options_, settings.edits, is_known ? document_ : nullptr, SteadyClock::now()});
 }
 
 void ForestView::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.files != options_.files) {
-        return; // a newer one follows
+        return; // the outcome of a newer request follows
     }
     const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
@@ -321,8 +321,8 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Painting refers to trees by their numbers in a whole year; a forest of
-    // stages shows whole ones.
+    // Only domination has moments between years. Painting refers to trees by their numbers in a
+    // whole year, so a painted forest grows by whole years.
     return !painting_.is_painted() && document_ != nullptr &&
            document_->scene.placement.method == PlacementMethod::Domination;
 }
@@ -362,7 +362,7 @@ void ForestView::grow() {
     if ((!settings.plays && !grown_) || document_ == nullptr) {
         last_growth_ = now;
         if (film_ != nullptr) {
-            static_cast<void>(film_->take()); // of a growth that has ended
+            static_cast<void>(film_->take()); // drops a moment of a growth that has ended
         }
         return;
     }
@@ -406,7 +406,7 @@ void ForestView::grow() {
                     now,
                     false});
     settings.edits.years = year;
-    requested_->years = year; // the film shows it
+    requested_->years = year; // the film shows this year, so the loader must not make it
 }
 
 void ForestView::grow_by_years() {
@@ -560,7 +560,7 @@ void ForestView::save() {
         return;
     }
     saved_text_ = painting_.saved_text();
-    // The file identifies erased trees by number only.
+    // The scene file identifies erased trees by number only.
     const bool is_doubtful = is_other_placement_ && painting_.has_erased();
     set_note(fmt::format("saved {}{}", scene,
                          is_doubtful

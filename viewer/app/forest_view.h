@@ -24,7 +24,7 @@ inline constexpr float kMaxBrush = 500.0F; // m, radius
 
 /// Settings of the user.
 struct ForestViewSettings {
-    SceneOverrides edits; // applied after those of the command line; changes make a new forest
+    SceneOverrides edits; // applied after those of the command line; a change makes a new forest
 
     Camera camera;
     bool shadows = true;
@@ -33,7 +33,7 @@ struct ForestViewSettings {
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on
     Wind wind;
-    std::optional<double> air; // visibility, km; none: default_visibility()
+    std::optional<double> air; // visibility, km; empty: default_visibility()
     std::uint64_t max_triangles = 1'500'000;
 
     bool plays = false;
@@ -96,23 +96,25 @@ public:
     void play_or_pause();
     void set_years(std::uint32_t years);
     [[nodiscard]] std::uint32_t years() const;
-    /// Years of the scene without edits, or the stages of its trees; 0: it does not grow.
+    /// Years that the scene grows, without edits; for trees placed by stages, the count of stages;
+    /// 0: the scene does not grow.
     [[nodiscard]] std::uint32_t default_years() const;
 
     /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
     /// heights.
     void hover(const glm::vec2& place);
-    /// Applies the tool there. `begins`: starts a stroke. `erases`: uses the eraser instead.
+    /// Applies the tool at `place`, in the units of hover(). `begins`: starts a stroke. `erases`:
+    /// uses the eraser instead.
     void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
     void undo();
     void redo();
-    /// Saves painted trees in the file of the scene shown and reports the result. A scene with
-    /// errors that was opened since is not written.
+    /// Saves painted trees in the file of the scene shown and reports the result. If a scene with
+    /// errors was opened later, its file is not written.
     void save();
 
-    /// The moment of growth shown; none: a whole forest is shown.
+    /// The moment of growth shown; empty: the forest of a whole year is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
     /// Last forest without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
@@ -149,7 +151,7 @@ private:
     ForestPainting painting_;
     std::vector<std::string> files_;
     bool frame_next_ = true;  // the next swap fits the camera to the forest
-    bool plays_next_ = false; // from the next swap on
+    bool plays_next_ = false; // growth starts to play at the next swap
     bool logs_next_frame_ = false;
     bool has_impostors_ = true;
     BranchColours shown_colours_ = BranchColours::Natural;
@@ -157,19 +159,19 @@ private:
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
     std::uint32_t unedited_years_ = 0; // years of the forest if the user edits none
-    bool is_other_placement_ = false;  // the forest shown is not placed as its file says
-    SteadyClock::time_point since_;    // change that led to the forest shown
+    bool is_other_placement_ = false;  // edits or options change the placement of the scene file
+    SteadyClock::time_point since_;    // time of the change that led to the forest shown
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // years
     std::optional<GrowthMoment> grown_;
-    std::unique_ptr<ForestFilm> film_;                   // since growth was played
-    SteadyClock::time_point start_ = SteadyClock::now(); // of the wind
+    std::unique_ptr<ForestFilm> film_;                   // made when growth is first played
+    SteadyClock::time_point start_ = SteadyClock::now(); // time 0 of the wind
     std::optional<glm::vec2> pointed_;
     bool has_outline_ = false;
-    bool begins_stroke_ = false; // at the next point on the ground
+    bool begins_stroke_ = false; // begin a stroke at the next point on the ground
     bool has_stroke_ = false;
     bool used_tool_ = false; // since the last picture
-    bool is_slow_ = false;   // the last picture at full quality took long
+    bool is_slow_ = false;   // the last picture at full quality took longer than kSlowPicture
     bool is_coarse_ = false;
     std::uint64_t max_coarse_triangles_ = 200'000;
     SteadyClock::time_point last_motion_;

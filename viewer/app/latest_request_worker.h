@@ -15,8 +15,8 @@ namespace lsys::view {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// `Request` has `since`, the time of its cause, and `again`, whether it repeats because files
-/// changed.
+/// `Request` has the fields `since`, the time of the change that caused it, and `again`, whether it
+/// is a repetition because files changed.
 template <typename Request, typename Outcome>
 class LatestRequestWorker {
 public:
@@ -29,7 +29,7 @@ public:
         : run_request_(std::move(run)), done_(std::move(done)), thread_([this] { loop(); }) {}
     LatestRequestWorker(const LatestRequestWorker&) = delete;
     LatestRequestWorker& operator=(const LatestRequestWorker&) = delete;
-    /// Cancels the running request.
+    /// Cancels the running request and waits for the thread.
     ~LatestRequestWorker() {
         {
             const std::lock_guard lock(mutex_);

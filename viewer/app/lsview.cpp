@@ -66,7 +66,8 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
         return status;
     }
     made.renderer->colour_branches(options.colours);
-    // Kept for a growing forest, which is shown once per picture, and for --pick, which reads forms.
+    // The model is kept for a growing forest, which is shown anew for each picture, and for --pick,
+    // which reads forms.
     const bool keeps_model = options.grow || options.pick;
     if (const Result<void> shown =
             made.renderer->show_forest(keeps_model ? document.model : std::move(document.model));

@@ -35,7 +35,8 @@ struct ViewOptions {
     std::vector<std::string> files;    // a grammar, a scene, or the grammars of a forest
     std::string file;                  // front of `files`
     bool is_forest = false;            // a scene, several grammars, or options of forests
-    SceneOverrides overrides;          // forests only; grammar and seed are those above
+    // Forests only; its `grammar` and `seed` are unset: the fields above hold them.
+    SceneOverrides overrides;
     MeshOptions mesh;
     RunOptions run;
 
@@ -53,19 +54,20 @@ struct ViewOptions {
     BranchColours colours = BranchColours::Natural; // forests only
     std::uint32_t samples = 4;
     std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
-    std::string shaders;                     // folder that replaces the built-in ones
+    // Folder of shaders that replace the built-in ones; empty: none.
+    std::string shaders;
 
     std::string screenshot;   // file of the picture instead of a window; `-`: standard output
     std::uint32_t frames = 0; // count of a numbered series; 0: one picture
     float frames_per_second = 24.0F;
     bool turntable = false;           // the series orbits once
-    bool grow = false;                // the series shows growth; in a window growth plays at once
+    bool grow = false;                // the series shows growth; in a window, growth starts to play
     std::optional<PicturePixel> pick; // report what this pixel shows
     std::string stats;                // JSON file; `-`: standard output
 };
 
-/// Makes `file` the one to open. Options about the grammars and the view of the former files are
-/// dropped: they belong to the files that the command line names.
+/// Sets the file to open. Options about the grammars and the view of the former files are dropped:
+/// they belong to the files that the command line names.
 void use_other_file(ViewOptions& options, const std::string& file);
 
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;

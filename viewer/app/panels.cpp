@@ -21,7 +21,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-/// Part of the window beside the panel.
+/// The part of the window beside the panel.
 struct Area {
     ImVec2 low;
     ImVec2 high;
@@ -127,7 +127,7 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PopID();
 }
 
-/// Messages of `lsc`, shaders and OpenGL.
+/// Draws the messages of the grammar or scene, of shaders and of OpenGL.
 void draw_messages(const View& view, const Area& area) {
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
@@ -173,7 +173,7 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
-/// Lines about the last pick, in the corner opposite to the statistics, below a note.
+/// Draws the lines about the last pick, in the corner opposite to the statistics, below a note.
 void draw_picked(const View& view, const Area& area) {
     if (view.picked().empty()) {
         return;

@@ -36,7 +36,7 @@ std::string item_text(const SkeletonItem& item, const Skeleton& pose) {
                        segment.order);
 }
 
-/// How often a branch stands in a forest.
+/// Counts of a branch in a forest.
 struct BranchCount {
     std::uint64_t branches = 0;
     std::uint64_t trees = 0; // with at least one
@@ -88,7 +88,7 @@ Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
     if (!item) {
         return step.fail("there is no memory to name what was picked");
     }
-    // Only what a derivation needs: a program cannot be copied.
+    // Copies only the parts of the grammar that a derivation needs: a program cannot be copied.
     Grammar grammar;
     grammar.sources = document.grammar.sources;
     grammar.bytecode = document.grammar.bytecode;

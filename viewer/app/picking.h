@@ -24,20 +24,20 @@ struct PickedTriangle {
     std::uint64_t triangle = 0; // in Mesh::indices
     glm::vec3 place{};          // m
     const Skeleton* pose = nullptr;
-    MeshOptions mesh;                   // that the pose was meshed with
-    std::optional<GrowthMoment> moment; // of a plant that grows; none: all generations
+    MeshOptions mesh;                   // options with which the pose was meshed
+    std::optional<GrowthMoment> moment; // moment of a growing plant; empty: all generations
 };
 
-/// The module, its production with place and generation, and the segment, object or polygon.
-/// `options`: those that the document was made with.
+/// Describes the module, its production with place and generation, and the segment, object or
+/// polygon. `options`: the options with which the document was made.
 [[nodiscard]] Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
                                                          const PlantDocument& document,
                                                          const ViewOptions& options,
                                                          const Project& project);
 
-/// The branch with id, age and hero, its production with place and generation, how often it stands
-/// in the forest, and its tree; only the tree where that is drawn as a picture. `alike`: numbers of
-/// the living trees of the same form: Renderer::trees_of(). `file`: of the scene, or a grammar.
+/// Describes the branch with id, age and hero, its production with place and generation, its count
+/// in the forest, and its tree; for an impostor only the tree. `alike`: numbers of the living trees
+/// of the same form, by Renderer::trees_of(). `file`: the scene, or a grammar.
 [[nodiscard]] Outcome<std::vector<std::string>> describe(const Picked& picked,
                                                          const std::vector<std::uint32_t>& alike,
                                                          const ForestDocument& document,

@@ -22,10 +22,10 @@ struct PictureSeries {
     std::uint64_t digest = 0; // equal for runs with the same pictures
 };
 
-/// 0 without values.
+/// The median of `values`; 0 if there are none.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// Frame with the values of the options.
+/// A frame with the camera and the values of the options.
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
 
 /// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
@@ -40,7 +40,8 @@ struct PictureSeries {
                                      PictureSeries& series);
 
 /// Writes the lines of --pick for the frame to standard output; in a series, after a line with the
-/// number of the picture. `describe`: called with the result of Renderer::pick(), unless Nothing.
+/// number of the picture. `describe`: called with the result of Renderer::pick(), unless it is
+/// PickedKind::Nothing.
 [[nodiscard]] ExitStatus write_picked(
     const ViewOptions& options,
     const Frame& frame,

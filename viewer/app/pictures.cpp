@@ -51,7 +51,7 @@ public:
             return;
         }
         PhysicsOptions forces = forces_of(options, document);
-        // Whole steps per frame.
+        // Physics makes a whole number of steps per frame.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
         physics_ = std::make_unique<PlantPhysics>(document.plant.skeleton, forces);
@@ -124,8 +124,8 @@ ExitStatus show_step_messages(const Outcome<void>& outcome, const Console& conso
     return ExitStatus::Ok;
 }
 
-/// Begins `growth`. `grammar` takes the parts of the document's grammar that it needs, and outlives
-/// it.
+/// Begins `growth`. `grammar` receives the parts of the document's grammar that the growth needs;
+/// it must outlive `growth`.
 ExitStatus begin_growth(const ViewOptions& options,
                         const PlantDocument& document,
                         Grammar& grammar,
@@ -231,7 +231,8 @@ ExitStatus take_pictures(const ViewOptions& options,
     }
     Frame frame = frame_of(options, from);
     if (options.grow && !renderer.bounds().empty) {
-        frame.ground_disc = ground_disc_of(renderer.bounds()); // of the last generation
+        // Disc under the plant of the last generation, the same in all pictures.
+        frame.ground_disc = ground_disc_of(renderer.bounds());
     }
     const ExitStatus status =
         take_series(options, frame, renderer, console, prepare, after, series);

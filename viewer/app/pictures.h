@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// `camera`: that of ViewOptions::camera. Where this option leaves parts out, the plant is in view as
-/// a whole, bent if it bends.
+/// `camera`: ViewOptions::camera, parsed. Parts that the option leaves out are set so that the
+/// whole plant is in view, bent if it bends.
 [[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
                                        const Camera& camera,
                                        const PlantDocument& document,

@@ -12,7 +12,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Explains a picture without a plant.
+/// Reports why the plant has no triangles, so that the picture is empty.
 void report_nothing_to_draw(const PlantDocument& document,
                             const ViewOptions& options,
                             Messages& messages) {

@@ -13,7 +13,7 @@ namespace {
 
 /// The current growth. Used by the film's thread only.
 struct FilmState {
-    std::optional<ViewOptions> options; // that `growth` was begun with
+    std::optional<ViewOptions> options; // options with which `growth` was begun
     Grammar grammar;
     std::optional<PlantGrowth> growth;
 

@@ -24,7 +24,7 @@ struct FilmMoment {
     Mesh mesh;
     MeshOptions mesh_options; // of `mesh`
     GrowthMoment moment;
-    std::uint64_t modules = 0; // of the generation that grows
+    std::uint64_t modules = 0; // count of modules in the generation that grows
     Messages messages;
     bool failed = false;
 };

@@ -19,7 +19,7 @@ struct LoadOutcome {
     Messages messages;
     std::vector<std::string> files; // all requested files, readable or not
     ViewOptions options;            // options of the request
-    SteadyClock::time_point since;  // cause of the request
+    SteadyClock::time_point since;  // time of the change that caused the request
     double seconds = 0.0;           // time of making
 };
 

@@ -18,7 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMaxTimeStep = 0.1; // s: slower plants move in slow motion
+// Max wall time, s, that one pass simulates; slower plants move in slow motion.
+constexpr double kMaxTimeStep = 0.1;
 
 } // namespace
 
@@ -42,7 +43,7 @@ struct PlantMotion::State {
     std::shared_ptr<const PlantDocument> document;
     MeshOptions mesh_options;
     std::function<void()> done;
-    std::mutex mutex; // guards all up to the thread
+    std::mutex mutex; // guards the members from here to `thread`
     std::condition_variable changed;
     std::optional<Bending> requested;
     BentPlant made;

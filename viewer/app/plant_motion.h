@@ -33,7 +33,7 @@ struct WeighRequest {
 };
 struct WeighOutcome {
     std::shared_ptr<const PlantDocument> document;
-    /// The plant falls under its weight; empty: it stands, or is too large to be weighed.
+    /// Says that the plant falls under its weight; empty: it stands, or is too large to be weighed.
     Diagnostics warning;
 };
 [[nodiscard]] WeighOutcome weigh_plant(const WeighRequest& request,

@@ -81,7 +81,7 @@ void draw_growth(PlantView& view) {
     line("Seed");
 }
 
-/// Finds the user's value of a constant.
+/// Finds the value that the user has set for a constant; end() if there is none.
 std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
                                                   const std::string& name) {
     return std::find_if(settings.definitions.begin(), settings.definitions.end(),
@@ -95,7 +95,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     ImGui::PushID(name.c_str());
     bool changed = false;
     if (constant.is_random && !is_set) {
-        // Random in each run, unless the user sets it.
+        // The constant is random in each run, unless the user sets it.
         changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
         ImGui::SameLine();
@@ -146,7 +146,7 @@ void draw_constants(PlantView& view) {
     }
 }
 
-/// Edits the numbers of a setting; returns whether they changed.
+/// Draws the control of a setting with numbers; returns whether they changed.
 bool edit_numbers(const SettingControl& control, std::array<float, 4>& numbers) {
     if (control.kind == SettingKind::Vector) {
         return ImGui::SliderFloat4("##value", numbers.data(), control.min, control.max, "%.3g");
@@ -166,7 +166,7 @@ bool edit_numbers(const SettingControl& control, std::array<float, 4>& numbers) 
     return changed;
 }
 
-/// Edits a setting by its control; returns the new text of its values, or nothing.
+/// Draws the control of a setting; returns the new text of its values, or nullopt if unchanged.
 std::optional<std::string> edit_setting(const SettingControl& control, const SettingText* set) {
     if (control.kind == SettingKind::Word) {
         std::optional<std::string> chosen;
@@ -305,8 +305,8 @@ void draw_bending(PlantViewSettings& settings) {
     ImGui::Checkbox("Simulate", &settings.simulates);
     ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    // Ten decades, from trees that hang to stalks that stand. The digits of the format bound the
-    // smallest value of a logarithmic slider.
+    // Ten decades, from trees that hang down to stalks that stand stiff. ImGui takes the smallest
+    // value of a logarithmic slider from the digits of its format.
     ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 1e-5F, 1e5F, "x%.6g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",

@@ -110,7 +110,7 @@ bool PlantView::update() {
     if (!settings.plays && !shows_growth_) {
         bend();
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
-        requested_.reset(); // a moment of growth does not bend: show the plant
+        requested_.reset(); // moments of growth do not bend, so request the plant itself
     }
     has_news = weigh() || has_news;
     if (shown_lines_ != settings.lines) {
@@ -125,7 +125,7 @@ bool PlantView::update() {
 
 void PlantView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
-        return; // a newer one follows
+        return; // the outcome of a newer request follows
     }
     const bool fine = outcome.document != nullptr;
     take_messages(outcome.messages, fine);
@@ -133,7 +133,7 @@ void PlantView::take_outcome(LoadOutcome outcome) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
-        // The correction may be made in any old or new file.
+        // The author may correct the error in any old or new file, so watch both.
         for (const std::string& file : outcome.files) {
             if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
                 files_.push_back(file);
@@ -262,7 +262,7 @@ void PlantView::take_moment() {
     changed_ = true;
     if (grown_.moment.generation >= default_generations()) {
         settings.plays = false;
-        requested_.reset(); // the plant itself, with its messages
+        requested_.reset(); // request the plant itself, with its messages
     }
 }
 
@@ -270,7 +270,7 @@ void PlantView::take_moment() {
 void PlantView::grow() {
     if (!settings.plays || document_ == nullptr) {
         if (film_ != nullptr) {
-            static_cast<void>(film_->take()); // of a growth that was paused
+            static_cast<void>(film_->take()); // drops a moment of a growth that was paused
         }
         return;
     }
@@ -297,7 +297,8 @@ void PlantView::grow() {
     film_->request(options, {generation, growth_position_ - std::floor(growth_position_)});
     settings.generations = generation;
     if (requested_) {
-        requested_->generations = generation; // the film shows it
+        // The film shows this generation, so the loader must not make it.
+        requested_->generations = generation;
     }
 }
 
@@ -347,7 +348,7 @@ void PlantView::write_values() {
     StatementValues values;
     values.definitions = settings.definitions;
     values.settings = settings.set_values;
-    if (settings.seed) { // it overrides a `--set seed`
+    if (settings.seed) { // the user's seed overrides a `--set seed`
         std::erase_if(values.settings, [](const SettingText& one) { return one.key == "seed"; });
         values.settings.push_back({"seed", fmt::format("{}", *settings.seed)});
     }
@@ -410,7 +411,7 @@ void PlantView::bend() {
     }
 }
 
-/// Warns of a plant that falls under the weight that it is bent by. Returns whether messages changed.
+/// Warns if the simulated plant falls under its weight. Returns whether messages changed.
 bool PlantView::weigh() {
     const bool wants = settings.simulates && document_ != nullptr && !failed() &&
                        motion_ != nullptr && settings.bending.forces.gravity > 0.0F;

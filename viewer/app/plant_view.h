@@ -51,9 +51,9 @@ struct PlantViewStats {
     double swap_seconds = 0.0;  // from the change to the swap
     double shown_seconds = 0.0; // from the change to the first picture on the screen
     double draw_seconds = 0.0;  // last picture
-    double bend_seconds = 0.0;  // last moment
+    double bend_seconds = 0.0;  // time to make the last moment of motion
     double bend_time = 0.0;     // s, simulated
-    std::uint64_t moments = 0;  // of growth, shown
+    std::uint64_t moments = 0;  // count of moments of growth shown
     FrameStats drawn;
     std::uint64_t swaps = 0;
 };
@@ -95,7 +95,7 @@ public:
     /// Generations of the command line or grammar, without the user's settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
-    /// The moment of growth that is shown instead of the last plant; null: none.
+    /// The moment of growth that is shown instead of the last plant; null if the plant is shown.
     [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
 protected:
@@ -128,7 +128,7 @@ private:
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
-    bool plays_next_ = false;      // from the next swap on
+    bool plays_next_ = false;      // growth starts to play at the next swap
     bool shows_growth_ = false;    // `grown_` is shown
     FilmMoment grown_;
     glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown

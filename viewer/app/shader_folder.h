@@ -1,4 +1,4 @@
-// Sources of shaders: a folder, or the program.
+// Sources of shaders: a folder, or the texts embedded in the program.
 #pragma once
 
 #include "runtime/program/console.h"

@@ -38,9 +38,9 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
             render(diagnostic, sources, {MessageFormat::Short}, entry.head);
             render(diagnostic, sources, {MessageFormat::Human}, entry.text);
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
-            // The text repeats the head in its first line.
+            // The first line of the text repeats the head.
             entry.text.erase(0, entry.text.find('\n') + 1);
-            constexpr std::size_t kMaxEntries = 50; // same as terminals
+            constexpr std::size_t kMaxEntries = 50; // the limit of the messages on a terminal
             if (entries.size() >= kMaxEntries) {
                 return entries;
             }

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds kNoteTime{10};
 struct ShownMessage {
     Severity severity = Severity::Note;
     std::string head; // `file:line:column: severity: message [code]`
-    std::string text; // all of it, with source lines
+    std::string text; // the whole message, with source lines
 };
 
 class View {
@@ -47,7 +47,7 @@ public:
     virtual bool update() = 0;
     /// Draws unless nothing changed. Returns whether it drew.
     virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
-    /// Call when the last picture is on the screen; it took `draw_seconds`.
+    /// Call when the last picture is on the screen. `draw_seconds`: time to draw it.
     virtual void picture_shown(double draw_seconds) = 0;
     /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
@@ -60,9 +60,10 @@ public:
     /// Whether there are unsaved changes.
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
 
-    /// Finds out what a pixel of the last picture shows; picked() has it as soon as it is known.
+    /// Starts to describe the part that a pixel of the last picture shows; picked() returns the
+    /// description once it is made.
     void pick(const PicturePixel& pixel);
-    /// Lines about what was picked last; empty: nothing.
+    /// Description of the part picked last, in lines; empty if there is none.
     [[nodiscard]] const std::vector<std::string>& picked() const { return picked_; }
     void forget_picked();
 
@@ -86,8 +87,8 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// The request that describes `picked`, which is not Nothing; its function is empty if nothing
-    /// can be said.
+    /// The request that describes `picked`. Its function is empty if there is nothing to describe.
+    /// Precondition: `picked` is not PickedKind::Nothing.
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
     /// Takes the outcome of picker_. Returns whether picked() changed.
     bool take_picked();
@@ -100,7 +101,7 @@ protected:
     /// Reloads shaders if they changed. Returns whether messages changed.
     bool reload_shaders();
     [[nodiscard]] bool is_shader(const std::string& file) const;
-    /// Adds the shader files.
+    /// Appends the files of the shader folder to `files`.
     [[nodiscard]] std::vector<std::string> with_shader_files(std::vector<std::string> files) const;
 
     ViewOptions options_;

@@ -17,7 +17,8 @@ ViewSwitcher::ViewSwitcher(const ViewOptions& options,
 void ViewSwitcher::make(const ViewOptions& options) {
     plant_ = nullptr;
     forest_ = nullptr;
-    current_.reset(); // before the new view, since it watches files and draws
+    // Destroy the old view before the new one is made: both watch files and use the renderer.
+    current_.reset();
     if (options.is_forest) {
         auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
         forest_ = forest.get();

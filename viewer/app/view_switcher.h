@@ -38,7 +38,7 @@ private:
     Renderer* renderer_;
     std::function<void()> wake_;
     std::string last_scene_;
-    std::string refused_file_; // refused because of unsaved changes
+    std::string refused_file_; // last file whose opening was refused because of unsaved changes
     PlantView* plant_ = nullptr;
     ForestView* forest_ = nullptr;
     std::unique_ptr<View> current_;

@@ -29,7 +29,7 @@ void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
-    // A min speed keeps the direction.
+    // At speed 0 the velocity would lose its direction, so a min speed is kept.
     constexpr float kMin = 1e-4F;
     bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
     changed |=
@@ -43,7 +43,7 @@ void draw_wind(Wind& wind) {
 }
 
 void draw_camera(Camera& camera) {
-    static_assert(sizeof(Camera) == 7 * sizeof(float)); // fits `text`
+    static_assert(sizeof(Camera) == 7 * sizeof(float)); // the text of a camera fits into `text`
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());
     if (ImGui::InputText("##camera", text.data(), text.size(),

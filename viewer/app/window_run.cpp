@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Time to wait for input, s.
-constexpr double kIdle = 0.5; // also the delay of Ctrl-C
+constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
 constexpr double kBusy = 0.02;
 // Limits the step of a flying camera after slow pictures, s.
 constexpr double kMaxFlightStep = 0.1;
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    /// Part beside the panel.
+    /// The part of the window beside the panel.
     [[nodiscard]] PixelArea picture_area() const {
         PixelArea area{0, 0, window_.width(), window_.height()};
         if (panels_.panels && area.width != 0) {

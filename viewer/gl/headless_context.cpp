@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Empty, or why the version of the context is too old.
+/// Explains that the OpenGL version of the context is too old; empty if it is not.
 std::string why_too_old() {
     const int version = epoxy_gl_version();
     return version >= 45

@@ -299,7 +299,7 @@ private:
     void draw_ground(const Frame& frame, FrameStats& stats) {
         const glm::vec4 disc =
             frame.ground_disc.w > 0.0F ? frame.ground_disc : ground_disc_of(bounds());
-        // Power of ten: about ten lines along the plant.
+        // The grid step is a power of ten, with about ten lines along the plant.
         const float unit =
             std::pow(10.0F, std::floor(std::log10(std::max(disc.w / kDiscInRadii, 1e-6F))));
         glUseProgram(programs_.ground.name());
@@ -310,7 +310,7 @@ private:
         stats.triangles += 2;
     }
 
-    Device device_; // must outlive all below
+    Device device_; // first member: must outlive the members below
     Programs programs_;
     ProgramObject pick_plant_; // compiled on first use
     RenderTarget target_;

@@ -23,7 +23,7 @@
 
 namespace lsys::view {
 
-/// Text of a shader by file name; none: no such file.
+/// Text of a shader by file name; nullopt if there is no such file.
 using ShaderSource = std::function<std::optional<std::string>(std::string_view name)>;
 /// Shaders embedded in the program.
 [[nodiscard]] std::optional<std::string> built_in_shader(std::string_view name);
@@ -64,18 +64,20 @@ struct Frame {
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
-    /// Middle and radius of the disc, m; radius 0: that of the plant shown. A film keeps one.
+    /// Centre (xyz) and radius (w) of the ground disc, m; radius 0: ground_disc_of() the plant
+    /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
     std::uint32_t samples = 4; // per pixel: 1 or 4
     // Forests only.
-    std::uint64_t max_triangles = 1'500'000; // budget of branches; above, trees are drawn coarser
-    std::uint32_t max_expansions = ~0U;      // trees expanded into branches per picture
+    // Budget of branches; if exceeded, trees are drawn coarser.
+    std::uint64_t max_triangles = 1'500'000;
+    std::uint32_t max_expansions = ~0U; // trees expanded into branches per picture
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// Disc of the ground under a plant: middle, m, and radius.
+/// Ground disc under a plant: centre (xyz) and radius (w), m.
 [[nodiscard]] glm::vec4 ground_disc_of(const Bounds& plant);
 
 struct FrameStats {
@@ -113,7 +115,7 @@ struct ForestSizes {
     double impostor_milliseconds = 0.0;
 };
 
-/// What a pixel of a picture shows; shaders/pick.frag.glsl writes the numbers.
+/// Kind of the part that a pixel of a picture shows; shaders/pick.frag.glsl writes the numbers.
 enum class PickedKind : std::uint8_t {
     Nothing = 0,  // sky, or the ground below a plant
     Plant = 1,    // a triangle of the plant
@@ -145,9 +147,9 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
-    /// Shows a forest in place of the plant or forest before. Its forest and terrain must outlive
-    /// it. Impostors of the previous forest are drawn until bake_impostors() has made new ones.
-    /// Error: a shader does not compile.
+    /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
+    /// live as long as it is shown. Impostors of the previous forest are drawn until
+    /// bake_impostors() has made new ones. Error: a shader does not compile.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void show_trees() = 0;
@@ -155,7 +157,7 @@ public:
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
-    /// Colours the branches of this forest and of all later ones; then bake_impostors() has work.
+    /// Colours the branches of this forest and of all later ones. Call bake_impostors() afterwards.
     virtual void colour_branches(BranchColours by) = 0;
     /// Bounding box of the plant or forest.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
@@ -180,7 +182,8 @@ public:
     /// Copies the last picture to a part of the window whose context is current.
     virtual void present(const PixelArea& area) = 0;
 
-    /// For example "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
+    /// Device and version of OpenGL, for example
+    /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
     [[nodiscard]] virtual std::string device_name() const = 0;
     [[nodiscard]] virtual std::uint64_t live_objects() const = 0;
     [[nodiscard]] virtual std::uint64_t uploaded_bytes() const = 0;

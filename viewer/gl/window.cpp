@@ -28,7 +28,7 @@ constexpr std::array<NamedKey, 8> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                  {GLFW_KEY_F1, Key::F1},
                                                  {GLFW_KEY_SPACE, Key::Space}}};
 
-/// Letters follow the keyboard layout.
+/// The key of a GLFW key code. Letters follow the keyboard layout.
 Key key_of(int code, int scan_code) {
     const auto* const named =
         std::find_if(kNamedKeys.begin(), kNamedKeys.end(),
@@ -81,7 +81,8 @@ struct Window::State {
         }
     }
 
-    /// Uses the current position: a press may come before any move.
+    /// Adds an event at the current position of the pointer, since a press may come before any
+    /// move.
     void add_pointer_event(PointerEvent::Kind kind) {
         double x = 0.0;
         double y = 0.0;
@@ -120,7 +121,7 @@ struct Window::State {
         }
     }
 
-    /// Returns whether the key is for the panels too.
+    /// Handles a key event; returns whether the panels receive it too.
     bool press_key(int code, int scan_code, int action, int modifiers) {
         input.any = true;
         const Key key = key_of(code, scan_code);

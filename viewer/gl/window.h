@@ -14,7 +14,7 @@
 
 namespace lsys::view {
 
-/// Letters have their ASCII codes.
+/// Keys; letters have their ASCII codes.
 enum class Key : std::uint8_t {
     None = 0,
     Escape,
@@ -70,7 +70,7 @@ struct WindowInput {
     std::vector<PointerEvent> pointer_events; // presses, releases, moves while pressed
     glm::vec2 mouse{0.0F};                    // pixels, from the upper left corner
     bool over_picture = false;                // the pointer is on the picture, not on a panel
-    glm::vec2 motion{0.0F};                   // relative, while captured
+    glm::vec2 motion{0.0F};                   // pixels moved while the mouse is captured
     float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
     bool any = false;             // any event, also of panels

@@ -21,7 +21,8 @@ struct LodTree {
     float scale = 1.0F;
     std::uint32_t tree = 0; // in Forest::trees
     std::uint16_t form = 0;
-    std::uint16_t impostor = 0; // index in TreeForm::impostor_trees, with kRemoved
+    // Index in TreeForm::impostor_trees; bit kRemoved is set for a removed tree.
+    std::uint16_t impostor = 0;
 
     [[nodiscard]] bool is_removed() const { return (impostor & kRemoved) != 0; }
 };

@@ -13,9 +13,9 @@ namespace lsys::view {
 
 enum class BranchColours : std::uint8_t {
     Natural, // of their materials
-    Id,      // of the branch in its grammar; 0: the axiom
-    Age,     // of the word that the branch was written in
-    Hero,    // from which the branch was cut
+    Id,      // id of the branch in its grammar; 0: the axiom
+    Age,     // age of the word in which the branch was written
+    Hero,    // number of the hero from which the branch was cut
 };
 
 struct LegendEntry {
@@ -30,10 +30,10 @@ struct LegendEntry {
 branch_value(BranchColours by, const InstanceCache& cache, std::uint32_t instance);
 
 /// Linear RGB. Ids and heroes have hues that lie far apart for neighbours; ages go from dark blue
-/// over green to yellow, `last` being the greatest. Precondition: `by` is not Natural.
+/// over green to yellow, `last` is the greatest age. Precondition: `by` is not Natural.
 [[nodiscard]] glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t last);
 
-/// Colours of all branches of the heroes, by rising value. Empty for Natural.
+/// Colours of all branches of the heroes, in ascending order of value. Empty for Natural.
 [[nodiscard]] std::vector<LegendEntry> legend_of(const ForestModel& model, BranchColours by);
 
 } // namespace lsys::view

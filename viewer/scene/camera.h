@@ -26,7 +26,7 @@ struct Camera {
 /// Reads parts in any order; missing ones are taken from `otherwise`. Error: unknown text, eye
 /// equal to target, a field of view outside 1 to 170 degrees.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& otherwise);
-/// `first` with the parts that `text` gives; `first` itself where parse_camera() fails.
+/// `first` with the parts that `text` gives; unchanged if parse_camera() fails.
 [[nodiscard]] Camera with_parts(std::string_view text, const Camera& first);
 
 /// Rotates the eye around the target by angles in radians; stops short of the poles.
@@ -49,7 +49,7 @@ struct Camera {
 [[nodiscard]] glm::vec3 right_of(const Camera& camera);
 
 /// Direction to a point of the picture. `right` and `up`: from the centre, in half picture heights.
-/// Its length is 1 along the view.
+/// Its component along the view is 1.
 [[nodiscard]] glm::vec3 direction_at(const Camera& camera, float right, float up);
 
 [[nodiscard]] glm::mat4 view_matrix(const Camera& camera);

@@ -31,7 +31,8 @@ struct LodOptions {
     /// Up to this factor above the limit of a coarser band, both bands are drawn, each in a part of
     /// the pixels, so that nothing pops.
     float blend = 1.25F;
-    /// Max triangles of branches; with more, all heights count as smaller by one factor.
+    /// Max triangles of branches; with more, the heights of all trees in pixels are multiplied by
+    /// DrawLists::detail, below 1.
     std::uint64_t max_triangles = 1'500'000;
     /// Max trees expanded into branches per picture; others stay impostors until the next.
     std::uint32_t max_expansions = ~0U;
@@ -45,7 +46,7 @@ struct Sway {
     float width_factor = 0.0F;  // m per metre of its width
     float flutter = 0.0F;       // m
 
-    /// m, of a tree in m.
+    /// Max displacement, m, of a tree with height and width in m.
     [[nodiscard]] float displacement(float height, float width) const {
         return height_factor * height + width_factor * width + flutter;
     }
@@ -176,7 +177,7 @@ public:
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
-    /// Bounding sphere of a tree, whichever branches it has.
+    /// Bounding sphere of a tree, for any choice of its branches.
     [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const;
     /// Bounding sphere of its impostor.
     [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const;
@@ -204,13 +205,13 @@ private:
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
     [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
-    /// `weight`: of its impostor against the cluster.
+    /// `weight`: weight of the tree's impostor; the cluster of its cell has the rest.
     void visit_tree(std::uint32_t number,
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
-    /// Max error in m of the heights at which trees at the edges of a cell appear in the picture of
-    /// its cluster, which is taken from one of few elevations.
+    /// Max error in m of the heights at which the picture of a cluster shows trees at the edges of
+    /// its cell. The error arises because the picture is taken from one of few elevations.
     [[nodiscard]] float cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,

@@ -1,4 +1,4 @@
-// The LOD band of each tree of a picture: ForestLod::select().
+// ForestLod::select(): finds the LOD band of each tree of a picture.
 #include "viewer/scene/forest_lod.h"
 #include "viewer/scene/impostor_plan.h"
 
@@ -151,10 +151,11 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const Frustum& frustum,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
-    float weight = 1.0F; // of its trees
+    float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels of a metre
-        // A picture is as wide as its cell: low trees far apart would cover few of its texels.
+        // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
+        // its texels.
         constexpr float kTallestPart = 1.0F / 6.0F;
         const float pixels =
             scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),
@@ -221,8 +222,9 @@ float ForestLod::detail_in_budget(const LodOptions& options) const {
     if (fits(1.0F)) {
         return 1.0F;
     }
-    // Bisection, so that a small move of the camera changes the level of few trees.
-    float fitting = 0.0F; // fits: no tree has branches
+    // Bisection for the largest factor that fits, so that a small move of the camera changes the
+    // level of few trees.
+    float fitting = 0.0F; // at 0 no tree has branches, so it fits
     float excessive = 1.0F;
     for (int step = 0; step < kDetailSteps; ++step) {
         const float middle = 0.5F * (fitting + excessive);
@@ -316,7 +318,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
 }
 
 void ForestLod::list_runs() {
-    // Finer levels first: they are nearer, and occlude the rest.
+    // Draw finer levels first: their trees are nearer and occlude the others.
     std::uint32_t first = 0;
     for (std::uint32_t group = 0; group <= kBlending; ++group) {
         const std::uint32_t level = std::min(group, kTreeLevels - 1);
@@ -325,7 +327,8 @@ void ForestLod::list_runs() {
             const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
             for (std::uint32_t i = 0; i < instances; ++i) {
                 std::uint32_t& place = mesh_counts_[first_mesh_[f] + group * instances + i];
-                const std::uint32_t count = std::exchange(place, first); // end of its list so far
+                // `place` becomes the end of the list filled below.
+                const std::uint32_t count = std::exchange(place, first);
                 if (count != 0) {
                     lists_.runs.push_back({f, level, i, first, count, group == kBlending});
                     lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];

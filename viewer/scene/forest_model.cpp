@@ -19,7 +19,7 @@ constexpr std::array<float, kTreeLevels> kMinTwigRadius = {0.0F, 0.0F, 0.0008F, 
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesPerShownLeaf = {1, 1, 2, 4};
 /// Max impostors of all forms together, unless there are more forms.
 constexpr std::size_t kMaxTotalImpostors = 16;
-/// Below this count all leaves are shown.
+/// Min leaves of an instance for thinning; with fewer, all are shown.
 constexpr std::size_t kMinThinnedLeaves = 24;
 
 /// Max impostors of a form.
@@ -46,7 +46,7 @@ Sphere sphere_around(const Bounds& bounds) {
     return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
 }
 
-/// Smallest sphere around both.
+/// Smallest sphere that encloses both.
 Sphere joined(const Sphere& a, const Sphere& b) {
     const float distance = glm::distance(a.centre, b.centre);
     if (distance + b.radius <= a.radius) {
@@ -57,10 +57,10 @@ Sphere joined(const Sphere& a, const Sphere& b) {
     }
     const float radius = 0.5F * (distance + a.radius + b.radius);
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
-            radius * 1.0001F}; // rounding
+            radius * 1.0001F}; // covers rounding errors
 }
 
-/// Finds the first tree whose whole plant is `instance`.
+/// Finds the first tree of which `instance` is the whole plant.
 bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,
@@ -94,8 +94,8 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t max_count) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the impostors. `meshes`: of
-/// their branches.
+/// Measures the bounding cylinder and the mean count of branches of the trees of the impostors.
+/// `meshes`: meshes of their branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
     const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
     const LargeVector<glm::vec3>& positions = meshes.mesh.positions;

@@ -42,7 +42,7 @@ struct TreeForm {
     float radius = 0.0F;
     float low = 0.0F;
     float high = 0.0F;
-    /// One tree per impostor, at the origin with yaw 0 and scale 1. It stands for all trees whose
+    /// One tree per impostor, at the origin with yaw 0 and scale 1. It represents all trees whose
     /// first branch comes from the same hero.
     std::vector<Tree> impostor_trees;
     std::vector<std::uint32_t> impostor_of; // impostor by instance of a whole plant; 0 for others
@@ -55,7 +55,8 @@ struct ForestModel {
     const Terrain* terrain = nullptr;
     GroundPictures ground; // of the terrain
     std::vector<TreeForm> forms;
-    std::vector<std::uint32_t> first_form; // by species; its stages follow
+    // By species: index of its first stage in `forms`; its other stages follow.
+    std::vector<std::uint32_t> first_form;
 
     [[nodiscard]] std::uint32_t form_of(const Tree& tree) const {
         return first_form[tree.species] + forest->stage_of(tree);
@@ -73,8 +74,8 @@ struct KnownModel {
 };
 
 /// Builds the model and reuses meshes of `known`. `user_meshes`: by species. `options.level`: of
-/// the finest level. Forest and terrain must outlive the model. Returns as make_instance_meshes()
-/// does.
+/// the finest level. Forest and terrain must outlive the model. Returns the reason if it was
+/// stopped, as make_instance_meshes() does.
 [[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,
@@ -83,8 +84,8 @@ make_forest_model(const Forest& forest,
                   ForestModel& model,
                   const KnownModel& known = {});
 
-/// Heroes of a cache at a coarser `level`: without thin twigs, and with fewer but larger leaves, at
-/// most twice as long. `height`: of a tree, m.
+/// Heroes of a cache at a coarser `level`: without thin twigs, and with fewer but larger leaves,
+/// which are at most twice as long. `height`: of a tree, m.
 [[nodiscard]] InstanceCache
 coarsened(const InstanceCache& cache, std::uint32_t level, float height);
 

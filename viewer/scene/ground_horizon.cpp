@@ -19,7 +19,7 @@ constexpr float kRatio = 1.06F;
 /// between its ends.
 constexpr float kMargin = 5e-4F;
 
-/// Number of steps up to a distance, with a fraction.
+/// Index of the step at a distance, m, as a real number.
 float steps_to(float distance) {
     return std::log(distance / kFirst) / std::log(kRatio);
 }
@@ -27,7 +27,7 @@ float steps_to(float distance) {
 } // namespace
 
 void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye) {
-    // The ground is invisible from below.
+    // Seen from below, the ground is invisible and occludes nothing.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
     const float reach = TerrainLod::range(ground.levels() - 1);
@@ -53,7 +53,8 @@ float GroundHorizon::min_between(std::uint32_t sector, float distance) const {
     };
     const glm::vec2 first = at(sector);
     const glm::vec2 last = at(sector + 1);
-    // Grid corners in between, and one cell more, since vertices morph to their neighbours.
+    // All grid corners between the two points, and one more on each side, since vertices morph to
+    // their neighbours.
     const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(first, last))) - 1;
     const glm::ivec2 high = glm::ivec2(glm::floor(glm::max(first, last))) + 2;
     const HeightGrid& grid = ground_->grid(level);

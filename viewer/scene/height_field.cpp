@@ -20,7 +20,7 @@ bool clip_axis(
     const double b = (high - origin) / direction;
     begin = std::max(begin, std::min(a, b));
     end = std::min(end, std::max(a, b));
-    // Tolerance: a border belongs to both sides, however it was rounded.
+    // Tolerance: a border belongs to the squares on both sides, whatever the rounding.
     const double slack = 1e-12 * (std::abs(begin) + std::abs(end));
     return begin <= end + slack;
 }
@@ -69,7 +69,8 @@ double HeightField::height_at(std::uint32_t column, std::uint32_t row) const {
     return static_cast<double>(heights_[std::size_t{row} * (columns_ + 1) + column]);
 }
 
-/// Part of the ray over a square; none if the ray stays above it.
+/// The part of the ray over a square; nullopt if the ray passes beside the square or above its max
+/// height.
 std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
                                                    std::uint32_t level,
                                                    std::uint32_t column,
@@ -100,7 +101,8 @@ std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
     return span;
 }
 
-/// Intersects the triangles of a cell: the height of the ray above each is linear.
+/// Intersects the ray with the two triangles of a cell. The height of the ray above a triangle is
+/// linear along the ray.
 std::optional<double> HeightField::pick_in_cell(const Ray& ray,
                                                 const Span& span,
                                                 std::uint32_t column,
@@ -167,12 +169,13 @@ std::optional<glm::dvec3> HeightField::pick(const Ray& ray) const {
             }
             continue;
         }
-        // The nearest of the four is popped first.
+        // Push the four children of the square in reverse order, so that the nearest is popped
+        // first.
         const Level& finer = levels_[square.level - 1];
         const std::uint32_t near_column = ray.direction.x < 0.0 ? 1 : 0;
         const std::uint32_t near_row = ray.direction.z < 0.0 ? 1 : 0;
-        // The order of the two beside it is irrelevant: a ray meets only one of them, or both at
-        // the corner shared by all four.
+        // The order of the two children next to the nearest one is irrelevant: a ray meets only one
+        // of them, or both at the corner shared by all four.
         for (const std::uint32_t which : {3U, 2U, 1U, 0U}) {
             const Square child{square.level - 1, 2 * square.column + (near_column ^ (which & 1U)),
                                2 * square.row + (near_row ^ (which >> 1U))};

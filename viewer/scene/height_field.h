@@ -31,7 +31,8 @@ public:
     /// Rows of columns() + 1 heights, m; rows() + 1 of them.
     [[nodiscard]] std::span<const float> heights() const { return heights_; }
 
-    /// First point of the ray on the ground or below it; none if the ray passes over or beside it.
+    /// First point of the ray on the ground or below it; nullopt if the ray passes over or beside
+    /// it.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray) const;
 
 private:
@@ -59,7 +60,7 @@ private:
     double step_x_;
     double step_z_;
     std::vector<float> heights_;
-    std::vector<Level> levels_; // from single cells to one square
+    std::vector<Level> levels_; // from a square per cell to one square
 };
 
 } // namespace lsys::view

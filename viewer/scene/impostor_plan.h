@@ -1,5 +1,5 @@
-// ImpostorPlan: contents of the impostor atlas. Each form has some single trees and, for the
-// horizon, a cluster: a cell full of trees. gl/ draws them.
+// ImpostorPlan: contents of the impostor atlas. Each form has impostors of single trees and, for
+// the horizon, of a cluster: a cell full of trees. ImpostorAtlas draws them.
 #pragma once
 
 #include "viewer/scene/forest_lod.h"
@@ -23,7 +23,7 @@ struct ImpostorLayer {
     std::vector<Tree> trees;
 };
 
-/// Size and layers of an impostor form. Lengths are of scale 1.
+/// Size and layers of an impostor form. Lengths are for trees of scale 1.
 struct ImpostorForm {
     Cylinder cylinder;
     std::uint32_t first_layer = 0;

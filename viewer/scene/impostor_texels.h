@@ -20,7 +20,8 @@ struct ImpostorTexels {
 /// Next mip level; texels are weighted by opacity.
 [[nodiscard]] ImpostorTexels halved(const ImpostorTexels& from);
 
-/// Fills empty texels with the colours of their neighbours, so that filters stay clean.
+/// Fills empty texels with the colours of their neighbours, so that texture filters do not mix in
+/// the colour of empty texels.
 void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
 /// Mean opacity.

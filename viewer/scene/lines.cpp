@@ -60,7 +60,8 @@ void add_skeleton(const Skeleton& skeleton, LineMaker& lines) {
     }
 }
 
-/// Jumps come first: later lines cover earlier ones, and a jump back along a branch lies on it.
+/// Adds jumps before segments: later lines cover earlier ones, and a jump back along a branch would
+/// cover the branch.
 void add_path(const Skeleton& skeleton, LineMaker& lines) {
     glm::vec3 at{0.0F};
     for (const Segment& segment : skeleton.segments) {

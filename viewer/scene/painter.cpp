@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22;
 constexpr std::uint32_t kPaintGeneration =
-    0x5041494EU; // separates these random numbers from those of placements
-// Tries per tree that fits the brush, and max tries per call.
+    0x5041494EU; // makes these random numbers independent of those of placements
+// Random places tried per tree that fits into the brush, and max places tried per call.
 constexpr double kTries = 4.0;
 constexpr double kMaxTries = 20'000.0;
-// Trees at random at least d apart reach about 0.7 / d^2 per square metre (Renyi's jamming limit of
-// discs is 0.547 of the area: 0.547 * 4 / pi = 0.696).
+// Max density times d^2 of trees placed at random at least d apart: the jamming limit of discs is
+// 0.547 of the area (Feder 1980), and 0.547 * 4 / pi = 0.696.
 constexpr float kJammed = 0.696F;
 
 } // namespace
@@ -141,7 +141,7 @@ void Painter::record(std::uint32_t index, bool alive) {
     changes_.push_back(log_.back());
 }
 
-/// Adds a tree as not alive.
+/// Adds a painted tree that is not alive yet.
 void Painter::add(const PaintedTree& paint) {
     const std::uint32_t cell = cell_of(paint.x, paint.z);
     paints_.push_back(paint);
@@ -163,7 +163,7 @@ void Painter::forget_undone() {
     const std::size_t first = strokes_[done_].first;
     std::size_t kept = painted_.size();
     for (std::size_t i = first; i < log_.size(); ++i) {
-        if (log_[i].alive) { // the first entry of a painted tree is its birth
+        if (log_[i].alive) { // the first log entry of a painted tree adds it
             kept = std::min<std::size_t>(kept, log_[i].index - placed_.size());
         }
     }

@@ -37,8 +37,8 @@ public:
             const Region& region,
             const Terrain& terrain,
             std::uint64_t key);
-    /// Continues with equal trees and ground at other addresses. False, without effect, if they
-    /// differ.
+    /// Continues with equal trees and ground at other addresses. Returns false, without effect, if
+    /// they differ.
     [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
     /// Count of placed trees, then of all trees ever painted.
@@ -56,8 +56,8 @@ public:
 
     /// Begins a stroke; undo() takes back whole strokes.
     void begin_stroke();
-    /// Fills the brush up to its density, within the region. Trees keep the distance of that
-    /// density. The result is valid until the next call.
+    /// Fills the brush up to its density, within the region. Trees keep the distance that the
+    /// density implies. The result is valid until the next call.
     std::span<const TreeChange> paint(float x, float z, const Brush& brush);
     /// Plants one tree with the brush's species and scales, unless a tree stands there or the place
     /// is outside the region.
@@ -106,8 +106,9 @@ private:
     LargeVector<std::uint8_t> placed_alive_;
     LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
-    std::vector<std::uint32_t> erased_before_; // numbers not among `placed`
-    std::uint64_t draws_ = 0;                  // used random numbers
+    // Erased trees of the painting whose numbers `placed` does not have.
+    std::vector<std::uint32_t> erased_before_;
+    std::uint64_t draws_ = 0; // count of random numbers used
 
     // Trees by square of the ground: placed ones in ranges, painted ones in linked lists.
     float cell_ = 1.0F; // m
@@ -120,7 +121,7 @@ private:
 
     std::vector<TreeChange> log_;
     std::vector<Stroke> strokes_;
-    std::size_t done_ = 0;  // strokes in force
+    std::size_t done_ = 0;  // count of strokes that are not undone
     std::size_t saved_ = 0; // done_ when last saved; kNone: that state is gone
     std::vector<TreeChange> changes_;
 };

@@ -65,8 +65,8 @@ public:
     [[nodiscard]] static float cell(std::uint32_t level) {
         return kFinestCell * static_cast<float>(1U << level);
     }
-    /// Height of the eye above the ground below it, m. Distances to the ground use this height
-    /// everywhere.
+    /// Height of the eye above the ground below it, m. All distances from the eye to the ground use
+    /// this height.
     [[nodiscard]] float eye_height() const { return eye_height_; }
 
 private:

@@ -18,7 +18,8 @@ layout(location = 3) uniform vec3 to_eye;
 layout(location = 4) uniform vec3 right;
 layout(location = 5) uniform vec3 up;
 layout(location = 0) out vec4 albedo_out; // square roots of linear RGB; opacity
-layout(location = 1) out vec4 normal_out; // in the frame of the impostor (2); depth; translucency
+// Normal in the frame of the impostor (2 channels); depth; translucency.
+layout(location = 1) out vec4 normal_out;
 // Stereographic projection of a normal to 0..1. It is continuous, so that mip levels may
 // average them. impostor.frag.glsl has the inverse.
 vec2 projected(vec3 normal) {
@@ -31,9 +32,9 @@ in vec2 fog;
 in vec3 from_eye; // m
 out vec4 colour;
 layout(binding = 5) uniform sampler2D relief_texture; // normals as in glTF
-// The normal of a bump. Axes of the texture come from differences between pixels, as vertices have
-// no tangents (Schueler 2006, "Normal Mapping without Precomputed Tangents", ShaderX 5).
-// `normal`: of the side that is seen.
+// Normal with the relief texture applied. The axes of the texture come from differences between
+// pixels, because vertices have no tangents (Schueler 2006, "Normal Mapping without Precomputed
+// Tangents", ShaderX 5). `normal`: that of the visible side.
 vec3 bumped(vec3 normal) {
     vec3 across = cross(dFdy(from_eye), normal);
     vec3 along = cross(normal, dFdx(from_eye));

@@ -6,8 +6,8 @@ struct Material {
     uint kind;
 };
 layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
-// By form the index of its first colour, 0 for natural colours; then square roots of linear RGB by
-// instance.
+// First one entry per form: the index of its first colour, or 0 for natural colours. Then the
+// colours by instance, as square roots of linear RGB.
 layout(std430, binding = 5) readonly buffer BranchColours { uint branch_colours[]; };
 const uint kColoured = 8u; // bit of Material.kind: one colour for all of the branch
 layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1

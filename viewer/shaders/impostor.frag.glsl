@@ -1,6 +1,6 @@
 #include "light.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots of linear RGB; opacity
-layout(binding = 4) uniform sampler2DArray normals; // normal (2), depth, translucency
+layout(binding = 4) uniform sampler2DArray normals; // normal (2 channels), depth, translucency
 #ifdef BLENDS
 #include "blend.glsl"
 flat in vec2 blend_range;
@@ -48,7 +48,7 @@ void main() {
     vec3 n = world_from_impostor * (vec3(2.0 * at, 1.0 - radius2) / (1.0 + radius2));
     vec3 crown_position = plane_crown_position + crown_step * depth;
     if (is_cluster != 0) {
-        // A place in the crown of one of its trees, with leaves facing outward.
+        // Assume a place in the crown of one tree of the cluster, with leaves facing outward.
         crown_position = vec3(0.25 * n.x, 0.05 + 0.85 * crown_position.y, 0.25 * n.z);
     }
     float lit = crown_sunlight(crown_position);

@@ -3,7 +3,7 @@
 #include "blend.glsl"
 flat in vec2 blend_range;
 #endif
-// What a pixel shows, instead of its colour: Renderer::pick().
+// Writes kind and index of the part that a pixel shows, for Renderer::pick().
 layout(location = 20) uniform uint content; // PickedKind
 #if defined(PLANT)
 layout(binding = 1) uniform sampler2D leaf_texture;
@@ -15,7 +15,7 @@ layout(binding = 2) uniform sampler2D leaf_texture;
 in vec2 uv;
 #endif
 #if !defined(PLANT) && !defined(GROUND)
-flat in uint item; // of the branch, or of the impostor
+flat in uint item; // index of the branch or of the impostor
 #endif
 layout(location = 0) out uvec4 picked;
 void main() {

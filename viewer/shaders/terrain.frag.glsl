@@ -3,7 +3,7 @@
 layout(binding = 3) uniform sampler2D colours;
 layout(binding = 4) uniform sampler2D relief; // normals as in glTF
 layout(location = 16) uniform vec4 tiles;     // a corner of a tile; its sides; m
-layout(location = 17) uniform vec3 mean;      // of the colours
+layout(location = 17) uniform vec3 mean;      // mean of the colours
 layout(location = 18) uniform int has_relief;
 #else
 layout(binding = 2) uniform sampler2D noise; // tileable
@@ -18,7 +18,7 @@ void main() {
     vec3 up = normalize(world_normal);
     vec2 uv = (world_position.xz - tiles.xy) / tiles.zw;
     vec3 normal = up;
-    // Rows of tiles would be seen far away.
+    // Far away, use the mean colour: repeated tiles would be visible as rows.
     float far = smoothstep(25.0, 100.0, fog.z * inversesqrt(tiles.z * tiles.w));
     vec3 albedo = mix(texture(colours, uv).rgb, mean, far);
     if (has_relief != 0) {

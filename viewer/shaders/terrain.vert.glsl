@@ -44,7 +44,8 @@ void main() {
     world_normal = normal;
     shadow_position = shadow_map_position(world_position, normal);
     fog = vec3(fog_to(world_position), distance(world_position, frame.eye_time.xyz));
-    // The ground ends in steps of whole patches: it fades into the horizon before.
+    // The drawn ground ends at a stepped border of whole patches, so it fades into the horizon
+    // before the border.
     fog.y *= 1.0 - smoothstep(0.7, 0.95, away / (ranges.y * float(1 << (levels - 1))));
     gl_Position = frame.view_projection * vec4(world_position, 1.0);
 }

@@ -6,13 +6,14 @@
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
 //   rare_number   a number that is kNone in most programs; kNone leaves the digest as it is
 //   rare_table    a table that most programs lack; an empty one leaves the digest as it is
-//   implied       a truth on which the word depends, computed from a field of beside_word()
-//   beside_word() the stream for fields on which no derived word depends: itself, or one that
-//                 ignores them
+//   implied       a truth that decides the derived word, computed from a field that as a whole does
+//                 not and therefore goes to beside_word(); only the digest uses it
+//   beside_word() returns the stream for fields that do not decide the derived word: itself, or an
+//                 IgnoringStream
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
-// binding, so that a field added to it does not compile before it has a name here. Hand it to the
+// binding, so that a new field does not compile until it has a name here. Pass the field to the
 // stream: then it is written, read and digested. Only a field that decides drawing, printing or
-// messages goes to beside_word(). Either way the format of .lsb files changes: raise
+// messages alone goes to beside_word(). Either way the format of .lsb files changes: raise
 // kModuleFileVersion.
 #pragma once
 
@@ -42,7 +43,7 @@ struct IgnoringStream {
     void rare_table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
 };
 
-// `Value` is const for a stream that does not change it.
+// The describe functions: `Value` is the const type for a stream that only reads the fields.
 
 template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {
@@ -210,7 +211,7 @@ void describe_production(Stream& stream, Value& production) {
     describe_word(stream, successor);
 }
 
-/// Without the slopes, which follow from the points.
+/// Leaves out the slopes: set_slopes() computes them from the points.
 template <typename Stream, typename Value>
 void describe_curve(Stream& stream, Value& curve) {
     auto& [name, points] = curve;

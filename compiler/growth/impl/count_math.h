@@ -1,4 +1,4 @@
-// The inner step of the growth analysis, fast while counts are below 2^128.
+// Multiply-add of counts: the inner step of the growth analysis, fast while counts are below 2^128.
 #pragma once
 
 #include "compiler/growth/growth.h"

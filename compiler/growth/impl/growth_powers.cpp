@@ -105,7 +105,7 @@ GrowthPowers::times(const GrowthWalk& walk, const Power& power, std::uint32_t ge
 
 void GrowthPowers::advance_to(GrowthWalk& walk, std::uint32_t age) {
     LSYS_CHECK(age >= walk.age(), age, walk.age());
-    // With cyclic rewriting, first advance to the turn of the first rule.
+    // The first power covers a whole period, which begins with the first rule in cyclic rewriting.
     while (walk.age() < age && walk.age() % period_ != 0) {
         walk.advance();
     }

@@ -15,7 +15,8 @@ class GrowthPowers {
 public:
     static constexpr std::size_t kMaxClasses = 48;
 
-    /// Returns nothing if the program has more classes, or a generation is not a linear map.
+    /// Returns nothing if the program has more than kMaxClasses classes, or a generation is not a
+    /// linear map of the counts.
     [[nodiscard]] static std::optional<GrowthPowers> make(ModuleClasses& classes);
 
     /// Moves the walk ahead to generation `age`. Precondition: age >= walk.age().
@@ -26,21 +27,21 @@ public:
     [[nodiscard]] bool never_shrinks() const { return never_shrinks_; }
 
 private:
-    using Matrix = std::vector<Count>; // row-major, from class to class
+    using Matrix = std::vector<Count>; // row-major: [class before][class after]
     struct Power {
         Matrix low;
         Matrix high;
     };
 
     GrowthPowers() = default;
-    const Power& power(std::size_t exponent); // 2^exponent periods
+    const Power& power(std::size_t exponent); // the map of 2^exponent periods
     [[nodiscard]] GrowthWalk
     times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
     std::size_t size_ = 0;
-    std::uint32_t period_ = 1; // generations of one application of the first power
+    std::uint32_t period_ = 1; // generations; the number of rules in cyclic rewriting, else 1
     bool never_shrinks_ = true;
-    std::vector<Power> powers_; // of exponents 1, 2, 4, ... in periods
+    std::vector<Power> powers_; // the maps of 1, 2, 4, ... periods
 };
 
 } // namespace lsys::analysis

@@ -10,7 +10,7 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint64_t kMaxWork = 5'000'000; // terms
+constexpr std::uint64_t kMaxWork = 5'000'000; // terms of all generations
 constexpr std::size_t kMaxClasses = 100'000;
 
 struct Bounds {
@@ -56,7 +56,7 @@ public:
             values_[i].low = size;
             all_.push_back(id);
             if (!classes.expanded(id)) {
-                continue; // the requested generations do not reach beyond it
+                continue; // a class that appears only in the last requested generation
             }
             const ClassExpansion expansion = classes.expand(id, 0);
             for (const ClassOutcome& outcome : classes.outcomes(expansion.outcomes)) {
@@ -119,9 +119,9 @@ private:
     }
 
     ModuleClasses& classes_;
-    std::vector<Bounds> values_; // of one module of each class
+    std::vector<Bounds> values_; // by class: size of what one module has become
     std::vector<ClassId> all_;
-    std::vector<std::vector<ClassId>> by_rule_; // sequential rewriting
+    std::vector<std::vector<ClassId>> by_rule_; // for sequential rewriting, else empty
     std::uint64_t terms_ = 0;
 };
 

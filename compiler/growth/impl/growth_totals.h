@@ -1,7 +1,7 @@
-// Sharper bounds of whole words of modules with several outcomes: the min and max size of the words
-// of each generation, computed backwards. The min size of a module after g generations is the min,
-// over its outcomes, of the sum of the sizes of the outcome after g - 1 generations. Modules of a
-// context-free system are rewritten independently, so the bounds are reached.
+// Sharper bounds if modules have several outcomes: the min and max size of the whole word of each
+// generation, computed backwards. The min size of a module after g generations is the min, over its
+// outcomes, of the sum of the sizes of the outcome's modules after g - 1 generations. Modules of a
+// context-free system are rewritten independently, so some seeds reach the bounds.
 #pragma once
 
 #include "compiler/growth/growth.h"

@@ -20,8 +20,8 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// a - b, at least 0. A logarithm hides small differences: the result is 0 if b is a logarithm, and
-/// a if only a is one.
+/// a - b, at least 0. Counts beyond 2^128 are logarithms, which hide small differences: the result
+/// is 0 if b is a logarithm, and a if only a is one.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -84,7 +84,7 @@ GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
 void GrowthWalk::list_rules() {
     const Bytecode& bytecode = classes_->bytecode();
     rules_.resize(bytecode.rewriting_rules());
-    std::vector<std::map<ClassId, std::uint32_t>> max_counts; // of each sequence
+    std::vector<std::map<ClassId, std::uint32_t>> max_counts; // by index in sequences_
     for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
         Rule& rule = rules_[production.rule];
@@ -202,7 +202,8 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return matches;
 }
 
-/// Lowers the lower bounds by the modules of `matches` matches, since that many may occur.
+/// Lowers the lower bounds by the modules that `matches` matches replace, since as many as that may
+/// occur.
 void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
@@ -314,7 +315,7 @@ GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool is_low) 
             size.parameters = {};
             size.bytes = count_of(code_width(bytecode.code_count()));
         }
-        // The counts of one module are small.
+        // `size` is the size of one module, so its counts fit 64 bits.
         const Count& times = counts[static_cast<std::size_t>(id)];
         add_times(sum.modules, times, 1);
         add_times(sum.parameters, times, small(size.parameters));
@@ -377,7 +378,7 @@ ProductionId GrowthWalk::dominant() {
         }
     }
     for (const SequenceRule& rule : sequences_) {
-        // The first production of the rule stands for all.
+        // All matches count for the first production of the rule, since any other may match too.
         double modules = 0.0;
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;

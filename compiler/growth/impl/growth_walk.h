@@ -1,5 +1,5 @@
 // The min, max and expected number of modules of each class in a word, generation by generation. A
-// GrowthWalk stands for one word; advance() moves it to the next generation.
+// GrowthWalk holds the counts of one generation; advance() replaces them by those of the next.
 #pragma once
 
 #include "compiler/growth/growth.h"
@@ -13,7 +13,7 @@
 
 namespace lsys::analysis {
 
-/// Whether two counts are the same number, or the same logarithm.
+/// Whether two counts are equal: as numbers, or as logarithms if both exceed 2^128 - 1.
 [[nodiscard]] bool same(const Count& a, const Count& b);
 [[nodiscard]] bool same(const GenerationSize& a, const GenerationSize& b);
 [[nodiscard]] bool less(const Count& a, const Count& b);
@@ -22,7 +22,7 @@ namespace lsys::analysis {
 
 class GrowthWalk {
 public:
-    /// Begins at the axiom. `classes` outlives the walk.
+    /// Begins at the axiom. `classes` must outlive the walk.
     explicit GrowthWalk(ModuleClasses& classes);
 
     [[nodiscard]] std::uint32_t age() const { return age_; }
@@ -36,7 +36,7 @@ public:
     /// Whether no production can change this word or the later ones.
     [[nodiscard]] bool is_final();
     /// Whether a generation is a linear map of the counts that does not depend on the age, except
-    /// for the turn of rules in cyclic rewriting.
+    /// for the choice of the rule in cyclic rewriting.
     [[nodiscard]] bool is_linear() const;
     /// The production that writes most modules of the next generation.
     [[nodiscard]] ProductionId dominant();
@@ -57,8 +57,8 @@ private:
         ProductionId first = kNoProduction;
     };
     struct Rule {
-        SymbolId symbol = kNoSymbol;    // of a predecessor of one module
-        std::uint32_t sequence = kNone; // in sequences_, for several modules
+        SymbolId symbol = kNoSymbol;    // the predecessor, if it is one module
+        std::uint32_t sequence = kNone; // index in sequences_, if it is several modules
     };
 
     static Count at(const std::vector<Count>& counts, ClassId id) {
@@ -80,7 +80,7 @@ private:
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;
     bool decided_ = true;
-    std::vector<Count> low_; // by class
+    std::vector<Count> low_; // by class: number of modules, as high_ and expected_
     std::vector<Count> high_;
     std::vector<double> expected_;
     std::vector<bool> is_present_;

@@ -41,7 +41,7 @@ struct Known : UnknownDomain<KnownValue> {
         if (x.known && y.known) {
             return known(arithmetic::apply(opcode, x.value, y.value));
         }
-        // `&&` and `||` are decided by one side alone.
+        // A false side decides `&&`, and a true side decides `||`, whatever the other side is.
         const KnownValue one = x.known ? x : y;
         const bool logical = opcode == Opcode::And || opcode == Opcode::Or;
         const bool decides = one.known && (one.value != 0.0F) == (opcode == Opcode::Or);

@@ -29,12 +29,12 @@ struct ExpressionInputs {
 /// Runs expressions in the domain of known and unknown values (interpret.h).
 class Evaluator {
 public:
-    /// For code whose stack and slots are no larger.
+    /// For code that needs at most this stack depth and number of slots.
     explicit Evaluator(std::size_t stack_depth = kUsualStack, std::size_t slots = 0)
         : stack_(std::max<std::size_t>(stack_depth, 1)), slots_(slots) {}
 
-    /// The value of the expression at `first` up to the next Emit or Test. `locals`: the code of
-    /// local values before it, or kNone.
+    /// The value of the expression at `first` up to the next Emit or Test. `locals`: first
+    /// instruction of the code that sets the local values, or kNone.
     KnownValue run(std::span<const std::uint32_t> instructions,
                    std::uint32_t first,
                    const ExpressionInputs& inputs,

@@ -13,9 +13,9 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // a NaN, which no parameter is
+constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // bits of a NaN; parameters are never NaN
 constexpr std::uint64_t kMaxGridWork = 65'536;      // points times productions
-constexpr std::size_t kMaxVariableModules = 65'536; // of one word
+constexpr std::size_t kMaxVariableModules = 65'536; // per word
 
 } // namespace
 
@@ -268,7 +268,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                      : Holds::Yes;
     };
     Matches matches;
-    // By group that is added: whether a member surely matches, with a weight surely above 0.
+    // By stochastic group that is in the list: whether a member is certain to match and to have a
+    // weight above 0.
     std::unordered_map<std::uint32_t, bool> groups;
     for (const std::uint32_t p : index_.productions_of(symbol)) {
         const BytecodeProduction& production = bytecode_->productions[p];
@@ -277,7 +278,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             continue;
         }
         const bool certain = first == Holds::Yes;
-        bool is_taken = true; // if the production matches
+        bool is_taken = true; // a match replaces the module: some weight is certain to be above 0
         if (!production.stochastic) {
             matches.list.push_back({p, 1.0});
         } else if (const auto added = groups.find(production.group); added != groups.end()) {
@@ -414,7 +415,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             outcome.production = static_cast<ProductionId>(m.production);
             formals.assign(index_.first_formal(m.production), KnownValue{});
             formals.insert(formals.end(), parameters.begin(), parameters.end());
-            // Without values a successor is counted once and need not be kept.
+            // Without relevant parameters a successor is read only once, so it is not kept.
             CountedWord once;
             CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
             if (!word.made) {

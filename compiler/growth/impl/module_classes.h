@@ -1,8 +1,8 @@
 // Classes of modules that are rewritten alike, which the growth analysis counts instead of modules.
-// A class is a code and the known values of its relevant parameters (production_index.h). A(12),
-// whose condition reads its parameter, is another class than A(11); F(2) and F(2.2) are one class
-// if no condition reads the parameter. An unknown value stands for every value. Beyond
-// kMaxValuedClasses values are dropped from new classes: bounds stay valid but become wider.
+// A class is a code and the known values of its relevant parameters (production_index.h). If a
+// condition reads the parameter of A, A(12) and A(11) are two classes; F(2) and F(2.2) are one
+// class if no condition reads the parameter. An unknown value stands for every value. Beyond
+// kMaxValuedClasses classes, new classes have no known values: bounds stay valid but become wider.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -26,10 +26,10 @@ struct ClassTerm {
     std::uint32_t count = 0;
 };
 
-/// One possible rewriting of a module of a class.
+/// A possible rewriting of a module of a class.
 struct ClassOutcome {
     ProductionId production = kNoProduction; // kNoProduction: the module is copied
-    TableRange terms;                        // in ModuleClasses::terms
+    TableRange terms;                        // range of ModuleClasses::terms
     double probability = 1.0;
 };
 
@@ -37,17 +37,17 @@ struct ClassOutcome {
 struct ClassExpansion {
     bool done = false;
     bool decided = false;   // the probabilities of the outcomes are known
-    bool copies = false;    // the module may be copied: no production may match
-    bool unchanged = false; // every outcome yields the very same module
-    TableRange outcomes;    // in ModuleClasses::outcomes
-    TableRange low;         // in ModuleClasses::terms
+    bool copies = false;    // the module may be copied, since possibly no production matches
+    bool unchanged = false; // every outcome is the module itself with the same parameters
+    TableRange outcomes;    // range of ModuleClasses::outcomes
+    TableRange low;         // range of ModuleClasses::terms, as is `high`
     TableRange high;
 };
 
 class ModuleClasses {
 public:
     static constexpr std::uint32_t kMaxValuedClasses = 4096;
-    /// Instructions and template codes after which new classes have no values.
+    /// Instructions run and template codes read after which new classes have no known values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
     /// `bytecode` is verified and outlives this; `steps` is the number of generations asked for.
@@ -87,12 +87,12 @@ public:
 private:
     struct Class {
         Code code = 0;
-        std::uint32_t first_value = 0; // in values_: its relevant parameters; kNone without any
+        std::uint32_t first_value = 0; // index in values_ of its relevant parameters, or kNone
     };
     /// A module of a word whose class depends on values.
     struct VariableModule {
         Code code = 0;
-        std::uint32_t first_argument = 0; // in argument_starts_: its relevant arguments
+        std::uint32_t first_argument = 0; // index in argument_starts_ of its relevant arguments
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
@@ -102,7 +102,7 @@ private:
         std::vector<VariableModule> variable;
     };
     struct Match {
-        std::uint32_t production = kNone; // kNone: none, the module is copied
+        std::uint32_t production = kNone; // kNone: no production matches, the module is copied
         double probability = 0.0;
 
         friend bool operator==(const Match&, const Match&) = default;
@@ -127,8 +127,9 @@ private:
     KnownValue value_of(std::uint32_t production,
                         std::uint32_t first_instruction,
                         std::span<const KnownValue> parameters);
-    /// The productions that may be taken. Evaluates conditions at `point`, but conditions of
-    /// productions with contexts for the known values of `parameters`.
+    /// The productions that may rewrite a module. Conditions are evaluated for the parameters
+    /// `point`; conditions of productions with contexts, which are not in the grid, for
+    /// `parameters`.
     Matches match(SymbolId symbol,
                   std::span<const KnownValue> point,
                   std::span<const KnownValue> parameters);
@@ -145,21 +146,21 @@ private:
     ProductionIndex index_;
     std::uint32_t steps_;
     bool covers_folded_ = false;
-    std::uint32_t age_ = 0; // of the word, in expansions_
+    std::uint32_t age_ = 0; // age of the word that expansions_ are valid for
 
     std::vector<Class> classes_;
     std::vector<KnownValue> values_;
-    std::vector<std::uint32_t> fixed_ids_;   // by code; kNone while there is none
+    std::vector<std::uint32_t> fixed_ids_;   // by code: the class without values, or kNone
     std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
     std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
-    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol: with unknown values
+    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol, for unknown values
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production
     std::vector<std::uint32_t> argument_starts_;
     std::vector<std::uint32_t> code_counts_; // scratch of count_word
-    std::vector<KnownValue> formals_;        // scratch of condition
+    std::vector<KnownValue> formals_;        // scratch of value_of
 
     Evaluator evaluator_;
     std::uint64_t work_ = 0;

@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-/// Properties of all words that rewriting can make of a symbol.
+/// Properties of the words that a symbol can become by rewriting: true if one of them has it.
 struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;
@@ -91,18 +91,18 @@ private:
     /// A `[` that waits for its `]`.
     struct Open {
         std::uint32_t index = 0;
-        std::uint32_t site = kNone; // in found_
-        std::uint32_t polygons = 0; // open at it
+        std::uint32_t site = kNone; // index in found_
+        std::uint32_t polygons = 0; // number of polygons open at the `[`
         bool valid = false;
         Effects effects;
-        std::string key; // of the modules read so far
+        std::string key; // made of the modules read so far; equal branches have equal keys
         std::vector<std::uint32_t> formals;
         std::vector<std::uint32_t> locals;
     };
     /// A closed branch, valid or not.
     struct Found {
         BranchSite site;
-        std::uint32_t kind = 0; // in found_kinds_
+        std::uint32_t kind = 0; // index in found_kinds_
         bool valid = false;
     };
     /// A set of equal branches, valid or not.
@@ -182,7 +182,8 @@ private:
         return effects_[static_cast<std::size_t>(symbol)];
     }
 
-    /// The least fixed point: a symbol has the effects of the symbols that its productions write.
+    /// Computes effects_ as a least fixed point: a symbol has the effects of the symbols that its
+    /// productions write.
     void find_effects() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
@@ -414,14 +415,14 @@ private:
     const Program& program_;
     const Names& names_;
     Diagnostics& diagnostics_;
-    std::vector<std::vector<const ProgramPattern*>> rules_of_; // by first symbol
+    std::vector<std::vector<const ProgramPattern*>> rules_of_; // predecessors, by first symbol
     std::vector<Effects> effects_;                             // by symbol
     std::vector<Open> open_;
     std::vector<Found> found_; // branches of the current word, in order of their `[`
     std::vector<FoundKind> found_kinds_;
     std::unordered_map<std::string, std::uint32_t> kind_of_key_;
     std::vector<ValueId> values_;
-    std::uint32_t local_count_ = 0; // of the current production
+    std::uint32_t local_count_ = 0; // number of local values of the current production
     Branches branches_;
     bool instanceable_ = true;
 };

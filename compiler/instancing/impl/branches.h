@@ -13,23 +13,24 @@
 
 namespace lsys {
 
-/// A `[...]` of a successor that holds a module with a production, at any depth.
+/// A `[...]` of a successor in which, at any depth, some production can rewrite a module.
 struct BranchSite {
     std::uint32_t production = 0;
     std::uint32_t number = 0; // within its successor, in text order
     std::uint32_t open = 0;   // index of `[` among the modules of the successor
-    std::uint32_t close = 0;  // of its `]`
+    std::uint32_t close = 0;  // index of `]`, likewise
     std::uint32_t id = 0;
 };
 
 /// A set of branches that are equal after names are resolved.
 struct BranchKind {
     std::uint32_t first_site = 0;
-    std::vector<std::uint32_t> formals; // used in its text, ascending
-    std::vector<std::uint32_t> locals;  // local values of its production used in it, ascending
-    /// Its drawing depends on the vertical: by `$` or tropism, at once or after rewriting.
+    std::vector<std::uint32_t> formals; // formals used in the branch, ascending
+    std::vector<std::uint32_t> locals;  // local values used in the branch, ascending
+    /// Its drawing depends on the vertical: by tropism or an operation that DependsOnVertical, in
+    /// the branch itself or after rewriting.
     bool depends_on_vertical = false;
-    /// A production that its modules can reach is stochastic or draws a number.
+    /// Some production that its modules can reach is stochastic or draws a random number.
     bool is_random = false;
 };
 
@@ -39,8 +40,9 @@ struct Branches {
     bool axiom_is_random = false;
 };
 
-/// Returns nothing if the system cannot be instanced, after reporting the reasons; also reports a
-/// system to which instancing adds no variety. Precondition: program.complete.
+/// Returns nothing if the system cannot be instanced, after reporting the reasons. Also reports a
+/// system whose plants would all be equal, or all be copies of heroes (DiagnosticCode::NoVariety).
+/// Precondition: program.complete.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// The share of each production in the weights of its group; without conditions this is its
-    /// probability. NaN: weights of the group are computed.
+    /// By production: its weight divided by the sum of the weights of its group, which is its
+    /// probability if there are no conditions. NaN if some weight of the group is not constant.
     [[nodiscard]] std::vector<double> probabilities() const {
         std::vector<double> sums(program_.group_count, 0.0);
         for (const Production& production : program_.productions) {
@@ -82,7 +82,7 @@ private:
         return number >= kFormBits || (form >> number & 1U) == 0;
     }
 
-    /// Returns false if the list has been ended.
+    /// Lists the forms of one production. Returns false if `put` ended the list.
     bool forms(const Production& production, double chance, std::span<const BranchSite> sites) {
         const std::uint64_t last = last_form(sites.size());
         if (page_.first > last || page_.count == 0) {
@@ -150,7 +150,7 @@ private:
                 end = static_cast<std::uint32_t>(end_of_arguments(text, end));
             }
             out_ += before[i];
-            // A symbol of the grammar that looks like one of instancing stands in back quotes.
+            // A module with the name of an instancing operation is written in back quotes.
             if (name == "$" && !quoted) {
                 out_ += "`$`";
                 out_ += text.substr(module.begin + 1, end - module.begin - 1);

@@ -26,7 +26,8 @@ public:
     }
 
 private:
-    /// Appends a copy of a successor with the branch sites [begin, end) instanced.
+    /// Replaces the successor `word` by an appended copy with the branch sites [begin, end)
+    /// instanced.
     void rewrite(ProgramWord& word, std::size_t begin, std::size_t end) {
         const auto first_module = static_cast<std::uint32_t>(program_.modules.size());
         const auto first_argument = static_cast<std::uint32_t>(program_.arguments.size());

@@ -1,4 +1,5 @@
-// Modules that are rewritten or drawn, but not with the number of parameters they are used with.
+// Modules with a number of parameters that no production rewrites, although productions rewrite the
+// same name with another number.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
 
@@ -79,7 +80,8 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
                 nearest = other;
             }
         }
-        // A turtle command may have a second form that is not rewritten.
+        // A turtle command may be used with two numbers of parameters, one of which is not
+        // rewritten.
         if (nearest == kNoSymbol || (row.turtle != TurtleOperation::Nothing && any_used)) {
             continue;
         }

@@ -1,7 +1,7 @@
-// Brackets that only balance across productions: one leaves a branch open that another closes.
-// A fixed point over the productions bounds, for each module over all generations, the number of
-// brackets that it leaves open and the lowest depth within it. This decides whether a `]` can ever
-// lack its `[`.
+// Brackets that only balance across productions: one leaves a branch open that another closes. A
+// fixed point over the productions bounds, for each module over all generations, the number of
+// brackets that the words it becomes leave open, and the lowest bracket depth within them. This
+// decides whether a `]` can ever lack its `[`.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -18,9 +18,10 @@ namespace {
 
 constexpr std::int64_t kUnbounded = std::int64_t{1} << 40; // beyond the depth of any text
 constexpr std::uint32_t kMaxVisits =
-    16; // changes of the bounds of a module before they are dropped
+    16; // changes of the bounds of a module before a bound that still moves becomes infinite
 
-/// Bounds of all words that a module can become: min and max depth at the end, lowest depth within.
+/// Bounds over all words that a module can become: min and max bracket depth at the end, and lowest
+/// depth within, relative to the depth before the word.
 struct Depth {
     std::int64_t low = 0;
     std::int64_t high = 0;
@@ -78,7 +79,7 @@ public:
             if (next == depth_[s]) {
                 continue;
             }
-            if (++rounds_[s] > kMaxVisits) { // grows without bound
+            if (++rounds_[s] > kMaxVisits) { // assume that the bound moves without end
                 next.low = next.low < depth_[s].low ? -kUnbounded : next.low;
                 next.high = next.high > depth_[s].high ? kUnbounded : next.high;
                 next.lowest = next.lowest < depth_[s].lowest ? -kUnbounded : next.lowest;
@@ -113,7 +114,7 @@ std::int64_t balance(const Program& program, const ProgramWord& word) {
 
 void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    // A production that leaves a branch open, and one that closes more than it opens.
+    // The first production that leaves a branch open, and the first that closes more than it opens.
     const Production* opening = nullptr;
     const Production* closing = nullptr;
     for (const Production& production : program.productions) {
@@ -137,7 +138,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
                     [&](const Axiom& axiom) { return analysis.depth_of(axiom.word).lowest < 0; })) {
         return;
     }
-    // The note stands for the warnings about the brackets of the two.
+    // The note below replaces the warnings about brackets of these two productions.
     diagnostics.rejudge([&](const Diagnostic& known) -> std::optional<Severity> {
         const auto is_of = [&](const Production* production) {
             return production != nullptr && known.span.file == production->span.file &&

@@ -16,7 +16,7 @@ void check_word(const CheckInput& input,
                 const char* where,
                 Diagnostics& diagnostics) {
     std::vector<std::size_t> open;
-    std::vector<std::size_t> extra; // the first ones
+    std::vector<std::size_t> extra; // the first `]` without `[`
     std::uint64_t extra_count = 0;
     for_each_symbol(input.program, word, [&](std::size_t index, SymbolId symbol) {
         const SymbolKind kind = kinds[static_cast<std::size_t>(symbol)];
@@ -55,7 +55,7 @@ void check_word(const CheckInput& input,
             brackets += " ]";
         }
         fix.edits = {{{word.file, word.span.end, word.span.end}, brackets}};
-        // The intended end of the branch is a guess.
+        // The place where the author meant the branch to end is a guess.
         fix.machine_applicable = false;
         if (open.size() <= 16) {
             diagnostic.fixes.push_back(std::move(fix));
@@ -66,7 +66,7 @@ void check_word(const CheckInput& input,
 } // namespace
 
 void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
-    std::vector<SymbolKind> kinds; // by symbol
+    std::vector<SymbolKind> kinds; // by symbol: Symbol::kind
     bool any = false;
     for (const Symbol& symbol : input.program.symbols) {
         kinds.push_back(symbol.kind);

@@ -1,6 +1,6 @@
-// `==` and `!=` on values that rounding may keep from being equal. Values made of whole numbers,
-// halves, quarters ... by + - * and similar operations are exact; a constant that is only passed on
-// equals itself; all other values are computed.
+// `==` and `!=` on values that rounding may keep from being equal. Each value has a Level. Exact:
+// made of whole numbers, halves, quarters ... by + - * and similar operations. Literal: a constant
+// that is only passed on, so it equals itself. Computed: everything else.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -56,7 +56,8 @@ private:
         return false;
     }
 
-    /// Maps each formal in the expressions of a production to the parameter of its module.
+    /// Sets source_ for the formals in the expressions of a production: the module parameters that
+    /// they receive.
     void trace(const Production& production) {
         std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
         for (const ProgramPattern* pattern :
@@ -166,7 +167,7 @@ private:
         }
     }
 
-    /// One round over all values and arguments. Returns whether a level changed.
+    /// Updates the levels of all values and parameters once. Returns whether a level changed.
     bool propagate() {
         for (std::size_t i = 0; i < program_.values.size(); ++i) {
             levels_[i] = level_of(i);
@@ -234,9 +235,9 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     std::vector<Level> levels_; // by value
-    /// By value: the module parameter of a formal, the value in the slot of a Local, or kNone.
+    /// By value: for a Formal its module parameter, for a Local the value in its slot, else kNone.
     std::vector<std::uint32_t> source_;
-    std::vector<std::uint32_t> base_; // by symbol: its first parameter
+    std::vector<std::uint32_t> base_; // by symbol: first index in parameter_levels_
     std::vector<Level> parameter_levels_;
 };
 

@@ -1,5 +1,5 @@
-// Conditions that always or never hold, and pairs of conditions that leave out or share a single
-// value.
+// Conditions that always or never hold, and pairs of conditions that both miss or both accept a
+// single value.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/lint/impl/rule_table.h"
@@ -43,8 +43,8 @@ void check_constant(const CheckInput& input,
     }
 }
 
-/// Checks single values of the table of a rule: `x > 2` and `x < 2` leave out 2, `x >= 2` and
-/// `x <= 2` share it.
+/// Finds single parameter values in the table of a rule that are a gap or an overlap: `x > 2` and
+/// `x < 2` both miss 2, `x >= 2` and `x <= 2` both accept it.
 class SingleValues {
 public:
     SingleValues(const CheckInput& input, SymbolId symbol, const RuleTable& table)
@@ -59,7 +59,7 @@ public:
                     continue;
                 }
                 const std::size_t here = count(point);
-                // One production on both sides leaves out the value on purpose: `x != 2`.
+                // No gap if the same production matches on both sides: `x != 2` is on purpose.
                 if (here == 0 && !gap_reported_ && count(below) != 0 && count(above) != 0 &&
                     first(below) != first(above)) {
                     gap_reported_ = true;
@@ -75,8 +75,8 @@ public:
     }
 
 private:
-    /// Finds the points beside a point at which parameter `axis` has a single value or equals
-    /// another parameter; false at other points.
+    /// Sets `below` and `above` to the points next to `point` along `axis`. Returns false unless
+    /// the cell of `axis` is a single value or parameter `axis` equals another one at `point`.
     bool neighbours(std::uint64_t point,
                     std::size_t axis,
                     std::uint64_t& below,
@@ -96,8 +96,8 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// Another parameter that equals parameter `axis` at a point, if conditions compare parameters
-    /// with both.
+    /// Another parameter that equals parameter `axis` at a point, if conditions compare each of the
+    /// two with some parameter.
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {
@@ -112,7 +112,7 @@ private:
         return std::nullopt;
     }
 
-    /// The number of productions that match at a point; all stochastic ones count as one.
+    /// The number of productions that match at a point. All stochastic ones together count as one.
     std::size_t count(std::uint64_t point) const {
         std::size_t matching = 0;
         bool stochastic = false;
@@ -136,7 +136,7 @@ private:
         return input_.program.productions[table_.productions[row]];
     }
 
-    /// The fix that makes `x > 2` an `x >= 2`, if the condition is such a comparison.
+    /// The fix that changes `x > 2` to `x >= 2`, if the condition is a single comparison.
     std::optional<Fix> inclusive(std::size_t row) const {
         const Production& p = production(row);
         const Value& value = input_.program.value(p.condition);
@@ -146,7 +146,7 @@ private:
         const std::string_view text = input_.sources.text(p.condition_span);
         const char sign = value.opcode == Opcode::Greater ? '>' : '<';
         const std::size_t at = text.find_first_of("<>");
-        // The text may write the comparison the other way round, but must have one sign only.
+        // The text must contain exactly one comparison sign: that of the opcode.
         if (at == std::string_view::npos ||
             text.find_first_of("<>=", at + 1) != std::string_view::npos || text[at] != sign ||
             text.find("/*") != std::string_view::npos) {
@@ -249,7 +249,7 @@ void check_conditions(const CheckInput& input, Diagnostics& diagnostics) {
             has_conditions = has_conditions || production.condition != kNone;
             has_unconditional = has_unconditional || production.condition == kNone;
         }
-        // With a production for every value, or with contexts, a gap may be intended.
+        // An unconditional production leaves no gap, and with contexts a gap may be intended.
         if (has_contexts || has_unconditional || !has_conditions || productions.size() < 2 ||
             productions.size() > kMaxCompared) {
             continue;

@@ -1,6 +1,6 @@
-// Productions and contexts that name the module which cuts off a branch. Cuts are made before
+// Productions and contexts that name the module `%`, which cuts off a branch. Cuts are made before
 // matching, so these patterns never match. In turtle profiles with another meaning of `%` it is an
-// ordinary module.
+// ordinary module, and nothing is reported.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 

@@ -27,8 +27,8 @@ public:
           explained_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
-        // A module that only dead productions write is missing because they are dead. Only the
-        // first production of such a chain or cycle is reported.
+        // If only dead productions write a module, the productions that need this module are dead
+        // as a consequence. Only the first production of such a chain or cycle is reported.
         std::vector<bool> written(program_.symbols.size(), false);
         for (std::size_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -82,12 +82,14 @@ private:
 
     [[nodiscard]] bool is_exempt(const Production& production, SymbolId symbol) const {
         const auto s = static_cast<std::size_t>(symbol);
-        // A library may rewrite more than a grammar uses; a declared module may be unused.
+        // An included file may rewrite more than this grammar uses; a declared module may be
+        // unused.
         return production.span.file != program_.axiom_span().file || use_.reported[s] ||
                use_.declared[s];
     }
 
-    /// Adds a label where the name occurs with another number of parameters; false if nowhere.
+    /// Adds a label at a place where the name has another number of parameters. Returns false if
+    /// there is no such place.
     bool note_other_counts(Diagnostic& diagnostic, SymbolId symbol) const {
         for (const SymbolId other : use_.same_name(program_, symbol)) {
             if (use_.reachable.occurs(other)) {
@@ -177,7 +179,7 @@ private:
     const Program& program_;
     ModuleUse& use_;
     Diagnostics& diagnostics_;
-    std::vector<bool> explained_; // by symbol
+    std::vector<bool> explained_; // by symbol: a reported production explains why it never occurs
     GroupedLists rewriters_;
     std::vector<std::string_view> candidates_;
 };

@@ -30,7 +30,8 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
                    (reachable.occurs(symbol) && info(operation).has(TurtleInfo::PreparesDrawing));
     }
     if (drawn == kNoSymbol) {
-        // Other checks report modules that never occur; a grammar may be meant for words alone.
+        // Other checks report modules that never occur. Without operations that prepare drawing,
+        // the grammar may be meant for words alone.
         if (out_of_reach || !prepared) {
             return;
         }

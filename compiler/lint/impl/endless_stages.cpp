@@ -1,6 +1,7 @@
 // Modules that #decompose or #interpret replace without end, which a run reports as an error only
-// after the last pass. Judged by names and counts: a module counts if some production always takes
-// it and every production that may take it writes a module that counts.
+// after the last pass. Decided without parameter values, as a greatest fixed point: a module is
+// endless if some production always matches it and every production that may match it writes an
+// endless module.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/lint/impl/reachable.h"
@@ -18,7 +19,7 @@ namespace lsys {
 
 namespace {
 
-/// The value of a condition: none for one that depends on parameters.
+/// The value of a condition, or nothing if it is not constant.
 std::optional<bool> constant_condition(const Program& program, const Production& production) {
     if (production.condition == kNoValue) {
         return true;
@@ -27,7 +28,7 @@ std::optional<bool> constant_condition(const Program& program, const Production&
     return value.opcode == Opcode::Literal ? std::optional(value.literal != 0.0F) : std::nullopt;
 }
 
-/// The productions of one stage by the modules that they take.
+/// The productions of one stage, by the modules that they replace.
 class StageGraph {
 public:
     StageGraph(const Program& program, Stage stage) : program_(program) {
@@ -68,7 +69,7 @@ private:
     void add(std::uint32_t p, const Production& production) {
         const auto s = static_cast<std::size_t>(production.predecessor.items.front().symbol);
         const std::optional<bool> holds = constant_condition(program_, production);
-        // Behind a production that always matches only its alternatives are tried.
+        // Once a production always matches, only its stochastic alternatives can still be chosen.
         if (holds == false || (is_certain_[s] && !production.stochastic)) {
             return;
         }
@@ -77,10 +78,11 @@ private:
                          (holds == true && (!production.stochastic || production.weight > 0.0F));
     }
 
-    /// Keeps the modules whose every production writes one that is kept.
+    /// Computes endless_: removes modules with a production that writes no endless module, until
+    /// all that are left write one.
     void remove_ending() {
         endless_ = is_certain_;
-        std::vector<std::uint32_t> kept(program_.productions.size(), 0); // modules written
+        std::vector<std::uint32_t> kept(program_.productions.size(), 0); // endless modules written
         std::vector<SymbolId> removed;
         const GroupedLists writers(program_.symbols.size(), [&](auto&& add_to) {
             for (const std::vector<std::uint32_t>& list : tried_) {
@@ -121,7 +123,7 @@ private:
 
     const Program& program_;
     std::vector<std::vector<std::uint32_t>> tried_; // by symbol: productions, in file order
-    std::vector<bool> is_certain_;                  // by symbol: one of them always matches
+    std::vector<bool> is_certain_;                  // by symbol: some production always matches
     std::vector<bool> endless_;                     // by symbol
 };
 
@@ -151,10 +153,10 @@ void check_endless_stages(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     const Reachable reachable = find_reachable(program);
-    std::uint64_t work_left = std::uint64_t{1} << 22; // modules passed
+    std::uint64_t work_left = std::uint64_t{1} << 22; // modules of successors visited
     for (const Stage stage : {Stage::Decompose, Stage::Interpret}) {
         const StageGraph graph(program, stage);
-        std::vector<bool> seen(program.symbols.size(), false); // in a cycle that is reported
+        std::vector<bool> seen(program.symbols.size(), false); // reachable from a reported cycle
         for (const Production& production : program.productions) {
             if (production.stage != stage || production.predecessor.items.size() != 1) {
                 continue;

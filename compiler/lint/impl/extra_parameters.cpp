@@ -1,5 +1,5 @@
-// Turtle commands with more parameters than they read: `+(1, 2)`. Modules that productions rewrite
-// may have any parameters.
+// Turtle commands with more parameters than the turtle reads: `+(1, 2)`. Modules that productions
+// rewrite may have more.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 #include "compiler/resolve/profiles.h"
@@ -38,7 +38,8 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
     if (!program.has_all_statements) {
         return;
     }
-    // Per symbol that is not rewritten: the command of its name with fewer parameters.
+    // By symbol: the turtle command that it gives too many parameters; null if none, or if the
+    // symbol is rewritten or reported.
     std::vector<const TurtleCommand*> exceeded(program.symbols.size(), nullptr);
     bool any = false;
     for (std::size_t i = 0; i < program.symbols.size(); ++i) {
@@ -67,7 +68,7 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
                 const TurtleCommand*& command = exceeded[static_cast<std::size_t>(module.symbol)];
                 if (command != nullptr) {
                     report(input, word, index, *command, diagnostics);
-                    command = nullptr; // reported
+                    command = nullptr; // report each symbol once
                 }
             });
     };

@@ -1,4 +1,4 @@
-// Productions of one choice that name their parameters differently.
+// Stochastic alternatives that name their parameters differently.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 

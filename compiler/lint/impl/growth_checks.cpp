@@ -61,7 +61,8 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
-    // One last generation without change shows that the word is complete.
+    // A single generation without change is not reported: authors use it to see that growth is
+    // over.
     if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,

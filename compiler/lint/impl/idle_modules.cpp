@@ -32,7 +32,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
     const Program& program = input.program;
     for (const ObjectBinding& object : program.objects) {
         if (object.name_span.file != program.axiom_span().file) {
-            continue; // a library may bind more than a grammar uses
+            continue; // an included file may bind more objects than this grammar uses
         }
         const auto named = use.by_name.find(static_cast<std::uint32_t>(object.name));
         bool occurs = false;
@@ -48,7 +48,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
         Diagnostic diagnostic = make_diagnostic(
             DiagnosticCode::UnusedObject, object.name_span,
             fmt::format("module {} never occurs, so this object is never drawn", quoted(name)));
-        // The author most likely means a module without drawing.
+        // The author most likely means a module that occurs and is not drawn.
         std::vector<SymbolId> idle;
         std::vector<std::string_view> idle_names;
         for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
@@ -87,7 +87,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
 }
 
 void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
-    // The result of a grammar that draws nothing is its word, in which every module may be final.
+    // The result of a grammar that draws nothing is its word, so any module may be a result.
     if (!use.draws) {
         return;
     }

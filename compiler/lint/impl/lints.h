@@ -1,6 +1,6 @@
-// Lints: checks for likely mistakes, and checks of brackets. One function per topic, each
-// in a file of its own; checks.cpp lists them. They report nothing in doubt: published grammars
-// that work must pass without a warning.
+// Lints: checks for likely mistakes, and checks of brackets. One function per topic, each in a file
+// of its own; checks.cpp lists them. In doubt a lint reports nothing: published grammars that work
+// must pass without a warning.
 #pragma once
 
 #include "compiler/lint/checks.h"

@@ -21,12 +21,13 @@ struct ModuleMention {
 
 struct ModuleUse {
     Reachable reachable;
-    /// Per symbol: its first place in a reachable word, and its first place in any word.
+    /// By symbol: its first place in the axioms and successors that can be used, and its first
+    /// place in any word. A null `word` means no place.
     std::vector<ModuleMention> first_place;
     std::vector<ModuleMention> any_place;
-    std::vector<std::uint32_t> first_production; // per symbol: the first that rewrites it, or kNone
-    std::vector<bool> in_context;                // by symbol
-    std::vector<bool> declared;                  // by symbol: has a #module
+    std::vector<std::uint32_t> first_production; // by symbol: the first that rewrites it, or kNone
+    std::vector<bool> in_context;                // by symbol: some context names it
+    std::vector<bool> declared;                  // by symbol: a #module declares it
     std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;
     bool draws = false;         // some module that occurs draws
     std::vector<bool> reported; // by symbol: a message about its name has been reported
@@ -37,7 +38,7 @@ struct ModuleUse {
     }
 };
 
-/// Whether the module occurs but is not rewritten, drawn, read or declared.
+/// Whether the module occurs but is not rewritten, drawn, named in a context or declared.
 [[nodiscard]] bool is_idle(const CheckInput& input, const ModuleUse& use, SymbolId symbol);
 
 void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics);

@@ -6,7 +6,7 @@ namespace lsys {
 
 namespace {
 
-/// The places of the arguments within the parenthesis that begins at `open`.
+/// The places of the arguments in the parentheses whose `(` is at offset `open`.
 std::vector<SourceSpan> read_call(std::string_view text, FileId file, std::size_t open) {
     std::vector<SourceSpan> arguments;
     std::uint32_t depth = 0;

@@ -1,4 +1,4 @@
-// Places that a Program does not keep, found again in the source for messages.
+// Places that a Program does not store, found again in the source text for messages.
 #pragma once
 
 #include "compiler/lint/checks.h"
@@ -10,7 +10,8 @@
 
 namespace lsys {
 
-/// The place of module `index` of Program::modules, which stands in `word`, with its arguments.
+/// The place of module `index` of Program::modules with its arguments. Precondition, here and
+/// below: the module belongs to `word`.
 [[nodiscard]] SourceSpan
 module_span(const CheckInput& input, const ProgramWord& word, std::size_t index);
 

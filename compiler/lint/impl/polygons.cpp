@@ -1,5 +1,5 @@
-// Polygons: `{` and `}` are of equal number in the axiom and in every successor; `.` only stands
-// within them, and a polygon has at least three vertices. In profile `carey` they do not nest.
+// Polygons: the axiom and every successor have as many `{` as `}`; `.` only stands within a
+// polygon, and a polygon has at least three vertices. In profile `carey` polygons do not nest.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -51,12 +51,12 @@ private:
         return program_.symbol(program_.modules[index].symbol).kind;
     }
 
-    /// Calls visit(symbol) for the modules of a word that stand in a polygon of it, or in one that
-    /// another word begins or ends.
+    /// Calls visit(symbol) for the modules of a word that stand in a polygon, including polygons
+    /// that begin or end in another word.
     template <typename Visit>
     void for_each_inside(const ProgramWord& word, Visit&& visit) const {
         std::size_t depth = 0;
-        std::size_t last_end = word.first_module; // of a polygon that another word begins
+        std::size_t last_end = word.first_module; // last `}` whose `{` is in another word
         const std::size_t end = std::size_t{word.first_module} + word.module_count;
         for (std::size_t i = word.first_module; i < end; ++i) {
             if (kind(i) == SymbolKind::PolygonClose && depth-- == 0) {
@@ -103,7 +103,8 @@ private:
         return depth > 0;
     }
 
-    /// Finds the modules that can stand in a polygon, directly or in place of a module that does.
+    /// Finds the modules that can stand in a polygon: they are written there, or replace a module
+    /// that is.
     void find_inside() {
         std::vector<SymbolId> work;
         const auto mark = [&](SymbolId symbol) {
@@ -130,7 +131,7 @@ private:
     /// An open polygon of a word.
     struct Open {
         std::size_t begin = 0;      // index of its `{`
-        std::uint32_t vertices = 0; // `.` in it
+        std::uint32_t vertices = 0; // number of `.` in it
         std::uint32_t moves = 0;
         bool may_grow = false; // some module in it is rewritten
     };
@@ -183,7 +184,8 @@ private:
         }
     }
 
-    /// Reports a `{` within a polygon, which the profile `carey` has not; returns whether it did.
+    /// Reports a `{` within a polygon, which profile `carey` does not allow. Returns whether it
+    /// reported one.
     bool report_nesting(const ProgramWord& word,
                         std::size_t index,
                         const std::vector<Open>& open,
@@ -199,7 +201,7 @@ private:
                 DiagnosticCode::NestedPolygon, module_name_span(input_, word, index),
                 "this polygon can begin within another one: the module that becomes it also stands "
                 "in one");
-            diagnostic.severity = Severity::Warning; // before add() counts it
+            diagnostic.severity = Severity::Warning; // set before add(), which counts errors
             diagnostics_.add(std::move(diagnostic));
         }
         return !open.empty() || may_be_inside;
@@ -216,7 +218,8 @@ private:
         diagnostics_.add(std::move(diagnostic));
     }
 
-    /// The vertices of a polygon without `.` are the start and end of every move (ABOP 1.25).
+    /// Reports a polygon with fewer than three vertices. Without `.` the vertices are the start and
+    /// end of every move (ABOP figure 1.25).
     void check_size(const ProgramWord& word,
                     std::size_t open,
                     std::size_t close,
@@ -248,7 +251,8 @@ private:
     std::vector<bool> inside_; // by symbol: can stand in a polygon
     GroupedLists rewriters_;
     bool stray_reported_ = false;
-    /// A polygon may begin in one successor and end in another, so modules behind it may be inside.
+    /// Some polygon begins in one word and ends in another, so modules outside of `{` and `}` of
+    /// their own word may be inside a polygon.
     bool crosses_words_ = false;
 };
 

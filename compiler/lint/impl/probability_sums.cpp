@@ -1,6 +1,7 @@
-// The probabilities of a choice without conditions sum to 1 (docs/language.md section 5). With
-// conditions the sum depends on the matches, and weights are normalised at run time; so are all with
-// `weights any`, whose sum has to be finite.
+// The probabilities of stochastic alternatives without conditions sum to 1 (docs/language.md
+// section 5). With conditions the sum depends on which of them match, so weights are normalised at
+// run time. With `weights any` all weights are normalised at run time, and their sum has to be
+// finite.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 
@@ -22,13 +23,13 @@ constexpr const char* kUseWeights =
 
 struct Group {
     double sum = 0.0;
-    bool has_fixed_sum = true; // has no conditions and no errors
+    bool has_fixed_sum = true; // no member has a condition or a weight in error
     std::vector<std::uint32_t> members;
 };
 
 void report(const CheckInput& input, const Group& group, Diagnostics& diagnostics) {
     const std::vector<Production>& productions = input.program.productions;
-    // The number that exceeds 1, or the last, is the place of the message.
+    // The message stands at the probability with which the sum exceeds 1, else at the last one.
     std::uint32_t culprit = group.members.back();
     double running = 0.0;
     for (const std::uint32_t member : group.members) {
@@ -56,7 +57,7 @@ void report(const CheckInput& input, const Group& group, Diagnostics& diagnostic
     error.help.emplace_back(kUseWeights);
 }
 
-/// Reports weights whose sum is not finite; `whose` names what they choose among.
+/// Reports weights whose sum overflows. `whose` names their module or "the axioms" in the message.
 void report_overflow(SourceSpan span, const std::string& whose, Diagnostics& diagnostics) {
     Diagnostic& error = diagnostics.add(
         DiagnosticCode::BadProbability, span,
@@ -68,7 +69,7 @@ bool overflows(double sum) {
     return sum > static_cast<double>(std::numeric_limits<float>::max());
 }
 
-/// The probabilities of several axioms.
+/// Checks the probabilities of several axioms.
 void check_axioms(const CheckInput& input, Diagnostics& diagnostics) {
     const std::vector<Axiom>& axioms = input.program.axioms;
     if (axioms.empty() || !axioms.front().has_weight) {
@@ -83,7 +84,7 @@ void check_axioms(const CheckInput& input, Diagnostics& diagnostics) {
         if (overflows(sum)) {
             report_overflow(last, "the axioms", diagnostics);
         }
-    } else if (std::fabs(sum - 1.0) > kTolerance) { // not if a weight is in error
+    } else if (std::fabs(sum - 1.0) > kTolerance) { // false for NaN, a weight in error
         Diagnostic& error = diagnostics.add(
             DiagnosticCode::ProbabilitySum, last,
             fmt::format("the probabilities of the axioms sum to {:.6g}, not to 1", sum));

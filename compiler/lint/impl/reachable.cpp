@@ -51,7 +51,7 @@ Reachable find_reachable(const Program& program) {
         }
     });
 
-    // The queue has the order of generations only if each step is one generation.
+    // The queue is ordered by generation only if each rewriting step is one generation.
     const bool ordered =
         program.settings.rewriting != RewritingMode::Sequential &&
         (program.productions.empty() || program.productions.back().stage == Stage::Rewrite);

@@ -1,6 +1,6 @@
-// The modules that can occur in a word and the productions that can be used, judged by names,
-// counts and contexts. Conditions count as true unless they are the constant 0, so that modules
-// which are not reachable here never occur.
+// The modules that can occur in a word and the productions that can be used, decided from names,
+// numbers of parameters and contexts. Conditions count as true unless they are the constant 0, so
+// modules that are not reachable here never occur.
 #pragma once
 
 #include "compiler/program/program.h"
@@ -11,10 +11,10 @@
 namespace lsys {
 
 struct Reachable {
-    /// Per symbol: the first generation in which it can occur, or kNone. Always 0 for sequential
-    /// rewriting, where the first generation is not known.
+    /// By symbol: the first generation in which it can occur, or kNone if it never occurs. 0 for
+    /// sequential rewriting, where the first generation is not known.
     std::vector<std::uint32_t> generation;
-    /// Per production: whether it can be used.
+    /// By production: whether it can be used.
     std::vector<bool> usable;
 
     [[nodiscard]] bool occurs(SymbolId symbol) const {

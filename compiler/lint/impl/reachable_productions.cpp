@@ -33,7 +33,8 @@ public:
                 check_covered(SymbolId{s}, productions);
             }
         }
-        // Rules of several modules: all productions of a rule compete in the same way.
+        // Rules with several predecessor modules. They have no condition grid, so check_covered()
+        // is left out.
         std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sequences;
         for (std::uint32_t p = 0; p < bytecode_.productions.size(); ++p) {
             if (bytecode_.productions[p].predecessor.count > 1) {
@@ -55,7 +56,7 @@ private:
     bool is_context_free(std::uint32_t p) const { return !code(p).has_left && !code(p).has_right; }
     bool is_reported(std::uint32_t p) const { return reported_.contains(p); }
 
-    /// The instructions of a condition, whose equality decides the equality of conditions.
+    /// The group and the instructions of a condition as text: conditions with equal keys are equal.
     std::string key(std::uint32_t p) const {
         std::string text = std::to_string(code(p).group) + ":";
         for (const Instruction each : InstructionRange(bytecode_.instructions, code(p).condition)) {
@@ -73,7 +74,7 @@ private:
             }
             const auto [place, is_new] = met.emplace(key(p), p);
             const Production& earlier = production(place->second);
-            // Two constants may be equal by chance.
+            // Conditions with different constants may be equal by chance, until a user changes one.
             const bool by_chance =
                 (names_constant(input_, production(p)) || names_constant(input_, earlier)) &&
                 input_.sources.text(production(p).condition_span) !=
@@ -93,11 +94,12 @@ private:
         }
     }
 
-    /// Reports productions behind an unconditional one that matches wherever they would.
+    /// Reports productions that come after an unconditional production which matches whenever they
+    /// do.
     void check_unconditional(std::span<const std::uint32_t> productions) {
-        std::uint32_t unconditional = kNone; // the first without condition and context
+        std::uint32_t unconditional = kNone; // the first production without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>
-            first_in_group; // by group: the first without condition
+            first_in_group; // by group: the first production without condition
         std::unordered_map<std::uint32_t, std::uint32_t>
             members; // by group: the first stochastic production
         for (const std::uint32_t p : productions) {
@@ -105,7 +107,7 @@ private:
             if (code(p).stochastic) {
                 members.emplace(group, p);
             }
-            // A stochastic production is tried at the place of the first of its group.
+            // A stochastic production is tried when the first one of its group is.
             const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
             const auto own = first_in_group.find(group);
             std::uint32_t earlier =
@@ -141,15 +143,15 @@ private:
         if (!table) {
             return;
         }
-        std::vector<bool> adjustable; // by row: the condition depends on a constant
+        std::vector<bool> adjustable; // by row: the condition names a constant, which may change
         for (const std::uint32_t p : productions) {
             adjustable.push_back(code(p).condition != kNone &&
                                  names_constant(input_, production(p)));
         }
         for (std::size_t row = 1; row < productions.size(); ++row) {
             const std::uint32_t p = productions[row];
-            bool ever = false;   // holds somewhere
-            bool usable = false; // holds where no earlier condition does
+            bool ever = false;   // the condition holds at some point
+            bool usable = false; // it holds at some point where no earlier condition does
             std::vector<std::uint32_t> before;
             for (std::uint64_t point = 0; point < table->points && !usable; ++point) {
                 if (!table->holds(row, point)) {

@@ -1,5 +1,6 @@
-// Productions that put branches on two sides by `/` and `\`, which roll: the branches of both point
-// the same way. With the turtle of Crankshaw's thesis these modules pitch, as in its equation 2.11.
+// Two productions meant to put a branch on opposite sides by `/` and `\`. These modules roll, so
+// both branches point the same way. With the turtle of Crankshaw's thesis `/` and `\` pitch, as in
+// its equation 2.11.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/program/message_words.h"
 #include "compiler/resolve/profiles.h"
@@ -18,7 +19,7 @@ bool is_roll(TurtleOperation operation) {
     return operation == TurtleOperation::RollLeft || operation == TurtleOperation::RollRight;
 }
 
-/// Whether what follows points where the turtle did before.
+/// Whether the operation leaves the heading unchanged.
 bool keeps_heading(TurtleOperation operation) {
     return operation == TurtleOperation::Nothing || draws(operation) ||
            info(operation).has(TurtleInfo::PreparesDrawing);
@@ -30,7 +31,8 @@ public:
         : input_(input), program_(input.program), diagnostics_(diagnostics),
           is_rewritten_(input.program.symbols.size(), 0) {}
 
-    /// Compares each production with the one before it for the same module. Reports the first pair.
+    /// Compares each production with the previous one of the same module. Reports the first pair
+    /// with rolled sides.
     void check() {
         for (const Production& production : program_.productions) {
             for (const ProgramPatternItem& item : production.predecessor.items) {
@@ -56,7 +58,7 @@ private:
         return program_.symbol(program_.modules[module].symbol);
     }
 
-    /// Whether the production replaces one module whatever stands beside it.
+    /// Whether the production replaces a single module, without contexts.
     [[nodiscard]] static bool is_alone(const Production& production) {
         return production.stage == Stage::Rewrite && !production.has_left &&
                !production.has_right && production.predecessor.items.size() == 1;
@@ -86,7 +88,7 @@ private:
     }
 
     /// Reports two productions that differ by rolls in opposite directions, after which something
-    /// is drawn and nothing turns until the branch ends. Returns whether they do.
+    /// is drawn and nothing changes the heading until the branch ends. Returns whether it reported.
     bool check(const Production& one, const Production& other) {
         const std::size_t count = one.successor.module_count;
         if (other.successor.module_count != count) {
@@ -144,7 +146,7 @@ private:
 } // namespace
 
 void check_rolled_sides(const CheckInput& input, Diagnostics& diagnostics) {
-    // Not with another turtle profile: an author who chose one means its rolls.
+    // An author who has chosen another turtle profile means its rolls.
     if (input.program.settings.turtle == Settings{}.turtle) {
         RolledSides(input, diagnostics).check();
     }

@@ -100,7 +100,7 @@ bool names_constant(const CheckInput& input, const Production& production) {
             continue;
         }
         if (!is_letter(text[at])) {
-            // The `e` of an exponent belongs to its number.
+            // The `e` of an exponent belongs to a number and begins no name.
             const bool number = is_part(text[at]);
             ++at;
             while (number && at < text.size() && is_part(text[at])) {

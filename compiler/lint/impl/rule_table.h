@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Row i is production productions[i]; column c is a point of the grid.
+/// The truth of conditions: row i is production productions[i], column c is point c of the grid.
 struct RuleTable {
     std::vector<std::uint32_t> productions; // in file order
     analysis::ConditionGrid grid;
@@ -26,8 +26,8 @@ struct RuleTable {
     }
 };
 
-/// The table of productions of one symbol. Returns nothing if a condition has a form without grid
-/// (condition_grid.h) or the table would be large.
+/// The table of the productions of one symbol. Returns nothing if a condition has no grid
+/// (condition_grid.h) or the table would be too large.
 [[nodiscard]] std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
                                                        const analysis::ProductionIndex& index,
                                                        SymbolId symbol,

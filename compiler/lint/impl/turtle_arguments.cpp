@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// The degrees of an angle that looks like radians: a usual fraction of a turn, written with about
-/// four decimals.
+/// The angle in degrees if `value` looks like radians: a common fraction of a turn, rounded to
+/// about four decimals. Nothing for other values.
 std::optional<int> degrees_if_radians(float value) {
     constexpr double kPi = 3.14159265358979323846;
     constexpr std::array<int, 11> kDegrees{360, 270, 180, 150, 135, 120, 90, 60, 45, 36, 30};

@@ -1,5 +1,5 @@
-// Edge rewriting in which one of two edges is never drawn: Sierpinski's gasket of `F` and `X`, of
-// which only `F` is a branch. Edges are distinguished from the tips of plants by their productions,
+// Edge rewriting in which one of two edges is never drawn: Sierpinski's gasket written with `F` and
+// `X`, of which only `F` draws. Edges differ from growing tips of plants by their productions,
 // which are mirror images of each other and have no brackets.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/reachable.h"
@@ -44,7 +44,8 @@ TurtleOperation opposite(TurtleOperation turn) {
     }
 }
 
-/// Whether one successor is the other, with edges exchanged, turns reversed, or read backwards.
+/// Whether one successor equals the other after any of: exchanging the edges, reversing the turns,
+/// reading it backwards.
 bool are_images(const std::vector<Step>& a, const std::vector<Step>& b) {
     for (std::uint32_t form = 0; form < 8; ++form) {
         std::vector<Step> image = a;
@@ -85,7 +86,8 @@ public:
 private:
     static constexpr std::uint32_t kSeveral = kNone - 1;
 
-    /// Finds the production of each symbol that has only one, without contexts or conditions.
+    /// Sets only_: the production of each symbol that has a single one, without contexts,
+    /// conditions or parameters.
     void find_productions() {
         for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -155,7 +157,7 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     Reachable reachable_;
-    std::vector<std::uint32_t> only_; // by symbol; kNone: none, kSeveral: others
+    std::vector<std::uint32_t> only_; // by symbol; kNone: no production, kSeveral: others
 };
 
 } // namespace

@@ -38,7 +38,7 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
     : program_(program), sources_(sources), bytecode_(bytecode) {
     const std::size_t count = program.values.size();
     stack_need_.resize(count, 1);
-    for (std::size_t i = 0; i < count; ++i) { // children come before parents
+    for (std::size_t i = 0; i < count; ++i) { // operands have lower ids than their users
         const Value& value = program.values[i];
         if (value.left == kNoValue) {
             continue;
@@ -51,7 +51,7 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
         const std::uint32_t right = need(value.right);
         const std::uint32_t natural = std::max(left, right + 1);
         switch (value.opcode) {
-        case Opcode::If: // the condition stays below both sides
+        case Opcode::If: // the stack holds the condition, then `left`, while `right` is computed
             stack_need_[i] = std::max({need(value.third), left + 1, right + 2});
             break;
         case Opcode::Mix:
@@ -87,7 +87,7 @@ void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
     bytecode_.instructions.push_back(encode(opcode, operand & kMaxOperand));
 }
 
-/// Sets the skip at `at` to lead to the next instruction.
+/// Sets the operand of the If or Else at index `at`, so that it skips to the next instruction.
 void CodeEmitter::end_skip(std::size_t at) {
     const std::size_t words = bytecode_.instructions.size() - at - 1;
     overflowed_ = overflowed_ || words > kMaxOperand;
@@ -103,7 +103,7 @@ void CodeEmitter::begin_site(std::uint32_t site) {
     const auto here = static_cast<std::uint32_t>(bytecode_.instructions.size());
     std::vector<SiteRange>& ranges = bytecode_.site_ranges;
     if (!ranges.empty() && ranges.back().instruction == here) {
-        ranges.back().site = site; // the last range is empty: reuse it
+        ranges.back().site = site; // the last range has no instructions: reuse it
     } else {
         ranges.push_back({here, site});
     }
@@ -125,7 +125,8 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
     case Opcode::Normal:
     case Opcode::Poisson:
     case Opcode::Binomial:
-        // Errors of a draw are reported at its text, others at the whole argument.
+        // Run-time errors of a draw are reported at the text of the draw, other errors at the whole
+        // argument or condition.
         if (swapped) {
             instruction(Opcode::Swap);
         }
@@ -187,7 +188,7 @@ void CodeEmitter::expression(ValueId root, std::uint32_t site) {
     }
 }
 
-/// Pushes the steps that compute a value, the first on top.
+/// Pushes onto frames_ the steps that compute a value, the first step on top.
 void CodeEmitter::operands(ValueId id, const Value& value, std::uint32_t site) {
     if (value.left == kNoValue) {
         leaf_or_operation(value, false, site);
@@ -232,7 +233,7 @@ std::uint32_t CodeEmitter::locals(std::span<const LocalValue> values) {
     const auto first = static_cast<std::uint32_t>(bytecode_.instructions.size());
     for (std::uint32_t i = 0; i < values.size(); ++i) {
         if (program_.value(values[i].value).left == kNoValue) {
-            continue; // a leaf stands in its uses
+            continue; // a leaf is emitted wherever it is used
         }
         const std::uint32_t site = add_site(program_.value(values[i].value).span);
         begin_site(site);

@@ -16,12 +16,12 @@ class CodeEmitter {
 public:
     CodeEmitter(const Program& program, const SourceMap& sources, Bytecode& bytecode);
 
-    /// Appends a place for messages; returns its index.
+    /// Appends a place for messages; returns its index in Bytecode::sites.
     std::uint32_t add_site(SourceSpan span);
 
     /// Emits code for `value` that ends with Test, End; returns its first instruction.
     std::uint32_t condition(ValueId value, SourceSpan span);
-    /// Emits code that moves the local value i to slot i, ending with End.
+    /// Emits code that computes each local value i and moves it to slot i, ending with End.
     std::uint32_t locals(std::span<const LocalValue> values);
     /// Emits code that computes `values` and emits each, ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);
@@ -44,16 +44,16 @@ private:
     const Program& program_;
     const SourceMap& sources_;
     Bytecode& bytecode_;
-    std::vector<std::uint32_t> stack_need_; // by ValueId
-    std::uint32_t current_site_ = kNone;    // of the next instruction
+    std::vector<std::uint32_t> stack_need_; // by ValueId: stack depth that its code needs
+    std::uint32_t current_site_ = kNone;    // site of the next instruction
     bool overflowed_ = false;
 
-    /// A part of the code of a value, written when the parts before it are.
+    /// A part of the code of a value, emitted after the parts above it in frames_.
     enum class Step : std::uint8_t { Operands, Operation, Store, If, Else, EndIf };
     struct Frame {
         ValueId value;
         Step step = Step::Operands;
-        std::size_t skip = 0; // Else, EndIf: the skip that leads behind it
+        std::size_t skip = 0; // Else, EndIf: index of the instruction that skips to behind it
     };
     std::vector<Frame> frames_;
 };

@@ -23,10 +23,10 @@ public:
 private:
     const Program& program_;
     Bytecode& bytecode_;
-    std::uint64_t capacity_;                      // codes
-    std::unordered_map<std::string, Code> codes_; // by the bytes of symbol and constants
+    std::uint64_t capacity_;                      // max number of codes
+    std::unordered_map<std::string, Code> codes_; // keys are the bytes of symbol and constants
     std::string key_;
-    std::string last_key_; // of the last module, since long axioms repeat one module
+    std::string last_key_; // key of the last module: a cache, since long axioms repeat one module
     Code last_code_ = 0;
 };
 

@@ -49,7 +49,7 @@ bool PlaceWriter::move_to(std::uint32_t offset) {
     return plain && ascii;
 }
 
-/// Inline because it runs for every module.
+/// Length of a module with its arguments, in bytes. Inline because it runs for every module.
 inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
                                             const ProgramModule& module) const {
     constexpr std::uint32_t kQuotes = 2;

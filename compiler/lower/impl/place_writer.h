@@ -32,7 +32,7 @@ private:
                                                const ProgramModule& module) const;
 
     struct Spelling {
-        std::uint32_t length = 0; // of the name
+        std::uint32_t length = 0; // of the name, in bytes
         bool has_arguments = false;
         bool may_be_quoted = true; // the name itself contains no back quote
     };
@@ -44,7 +44,7 @@ private:
     std::vector<Spelling> spellings_; // by symbol
     const SourceFile* file_ = nullptr;
     std::string_view text_;
-    std::uint32_t offset_ = 0; // of the last module
+    std::uint32_t offset_ = 0; // byte offset of the last module
     LineColumn place_;         // of the last module
 };
 

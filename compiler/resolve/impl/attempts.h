@@ -14,7 +14,7 @@ class AttemptedStatements {
 public:
     explicit AttemptedStatements(const Resolution& resolution);
 
-    /// Whether `#keyword` stands anywhere in the text.
+    /// Whether `#keyword` stands anywhere in the text. Only `w` and `n` are found.
     [[nodiscard]] bool has(std::string_view keyword) const;
     /// Whether `#define NAME` or `#param NAME` stands anywhere in the text.
     [[nodiscard]] bool defines(std::string_view name) const;

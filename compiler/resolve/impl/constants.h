@@ -18,20 +18,20 @@ enum class ConstantState : std::uint8_t {
     Unknown, // no statement defines it
     Later,   // a later statement defines it
     Known,   // constant() returns it
-    Failed,  // its definition is in error, which has been reported
+    Failed,  // an error in its definition has been reported
 };
 
 class ConstantTable {
 public:
     explicit ConstantTable(Resolution& resolution);
 
-    /// Later for a constant of a statement behind visible_until().
+    /// The state at the statement of visible_until(): Later for a constant defined after it.
     [[nodiscard]] ConstantState state(NameId name) const;
-    /// Only definitions before this statement of the Ast count from now on.
+    /// Makes state() ignore definitions after this statement (index in Ast::statements).
     void visible_until(std::size_t statement) { visible_until_ = statement; }
     /// The place of the first definition of the name. Precondition: not Unknown.
     [[nodiscard]] SourceSpan definition_span(NameId name) const;
-    /// Precondition: Known.
+    /// Precondition: state(name) is Known.
     [[nodiscard]] Constant& constant(NameId name);
 
     /// Makes the name known and adds it to Program::constants.
@@ -46,13 +46,13 @@ private:
     struct Entry {
         SourceSpan span;
         ConstantState state = ConstantState::Later;
-        std::uint32_t constant = kNone; // in Program::constants
-        std::size_t statement = 0;      // of the definition
+        std::uint32_t constant = kNone; // index in Program::constants
+        std::size_t statement = 0;      // index of the definition in Ast::statements
     };
     void declare(NameId name, SourceSpan span, std::size_t statement);
 
     Resolution& resolution_;
-    std::vector<std::uint32_t> entry_of_; // by name: in entries_, or kNone
+    std::vector<std::uint32_t> entry_of_; // by name: index in entries_, or kNone
     std::vector<Entry> entries_;
     std::size_t visible_until_ = std::numeric_limits<std::size_t>::max();
 };

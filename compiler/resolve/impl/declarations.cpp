@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether the name of the file is that of a PNG, which `#object {` puts on polygons.
+/// Whether the file name ends in `.png`. `#object {` takes a picture, which is drawn on polygons.
 bool is_picture(std::string_view file) {
     constexpr std::string_view kExtension = ".png";
     return file.size() > kExtension.size() &&
@@ -53,7 +53,7 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
-    // Formals can be dropped without loss; numbers may have a meaning.
+    // Formals can be removed without changing the meaning; numbers may be intended.
     const bool has_only_formals =
         resolution_.sources.text(parentheses).find_first_of("0123456789") == std::string_view::npos;
     error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_only_formals});

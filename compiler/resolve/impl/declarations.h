@@ -35,7 +35,7 @@ private:
     Suggestions suggestions_;
     SourceSpan first_ignore_; // kNoFile: none
     SourceSpan first_consider_;
-    std::unordered_map<NameId, std::size_t> bindings_; // in Program::objects
+    std::unordered_map<NameId, std::size_t> bindings_; // index in Program::objects
 };
 
 } // namespace lsys

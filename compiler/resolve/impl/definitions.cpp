@@ -37,7 +37,7 @@ DefinitionResolver::DefinitionResolver(Resolution& resolution,
                                        ExpressionResolver& expressions)
     : resolution_(resolution), constants_(constants), expressions_(expressions) {
     for (const Definition& definition : resolution.options.definitions) {
-        replacements_[definition.name] = definition.value; // the last one counts
+        replacements_[definition.name] = definition.value; // the last -D of a name counts
     }
 }
 
@@ -131,8 +131,8 @@ void DefinitionResolver::param(const ParamNode& node) {
     advance_draw_position(draws);
 }
 
-/// Adds a constant: with the value of -D if given, else as a global if it is drawn at random, else
-/// with its value.
+/// Adds a constant. Its value is that of -D if given, else a global if it is drawn at random, else
+/// the literal `value`.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
     const auto replaced = replacements_.empty()
                               ? replacements_.end()

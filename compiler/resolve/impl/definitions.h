@@ -1,4 +1,4 @@
-// Resolves #n, #define and #param, which have one value each.
+// Resolves #n, #define and #param.
 #pragma once
 
 #include "compiler/resolve/impl/constants.h"
@@ -13,13 +13,14 @@
 
 namespace lsys {
 
-/// Reports a second statement of a kind that may occur once; returns the message.
+/// Reports a second statement of a kind that may occur only once; returns the message.
 Diagnostic& report_duplicate(Resolution& resolution,
                              SourceSpan second,
                              SourceSpan first,
                              const std::string& what);
 
-/// The exact value of a literal that is nothing but digits, if it fits; binary32 lacks 16,777,217.
+/// The exact value of a literal of digits only, if it fits 64 bits. Read from the text, since
+/// binary32 cannot represent all whole numbers above 2^24.
 [[nodiscard]] std::optional<std::uint64_t> exact_whole_number(const Resolution& resolution,
                                                               ExpressionId expression);
 
@@ -32,10 +33,10 @@ public:
     void generations(const GenerationsNode& node, SourceSpan statement);
     void define(const DefineNode& node);
     void param(const ParamNode& node);
-    /// Names of -D without #define or #param.
+    /// Names of -D that no #define or #param has.
     [[nodiscard]] std::vector<std::string> unknown_definitions() const;
 
-    /// Index of the next random range among those of #define, #param and #w.
+    /// Index of the next draw among the draws of #define, #param and #w.
     [[nodiscard]] std::uint32_t draw_position() const { return draw_position_; }
     void advance_draw_position(std::uint32_t count) { draw_position_ += count; }
 
@@ -47,7 +48,7 @@ private:
     Resolution& resolution_;
     ConstantTable& constants_;
     ExpressionResolver& expressions_;
-    std::unordered_map<std::string, float> replacements_; // from -D
+    std::unordered_map<std::string, float> replacements_; // values of -D, by name
     std::optional<SourceSpan> first_generations_;
     std::uint32_t draw_position_ = 0;
 };

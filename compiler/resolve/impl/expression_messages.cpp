@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether a word of `text` is `name`.
+/// Whether `text` contains `name` as a whole word.
 bool has_word(std::string_view text, std::string_view name) {
     for (std::size_t at = text.find(name); at != std::string_view::npos;
          at = text.find(name, at + 1)) {
@@ -27,7 +27,7 @@ bool has_word(std::string_view text, std::string_view name) {
     return false;
 }
 
-/// The texts between the commas of a call's parentheses.
+/// The texts of the arguments of a call.
 std::vector<std::string_view> arguments_in(std::string_view call) {
     std::vector<std::string_view> arguments;
     const std::size_t open = call.find('(');
@@ -53,7 +53,8 @@ std::vector<std::string_view> arguments_in(std::string_view call) {
     return arguments;
 }
 
-/// The text that can replace a call of another language's function; empty: none is sure enough.
+/// The text that replaces a call of a function of another language. Empty if no text is certain
+/// enough.
 std::string replaced_call(const Synonym& synonym, std::string_view call) {
     const std::vector<std::string_view> arguments = arguments_in(call);
     const std::string_view spelling = synonym.spelling;
@@ -193,7 +194,8 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     }
 }
 
-/// The smallest place of a fault: a divisor that is zero, the `^` of a power, else the expression.
+/// The smallest span that shows why a result is not finite: a divisor that is zero, the `^` of a
+/// power, else the whole expression.
 SourceSpan ExpressionResolver::fault_place(Opcode opcode,
                                            std::optional<float> right,
                                            const Expression& expression) const {
@@ -212,8 +214,8 @@ SourceSpan ExpressionResolver::fault_place(Opcode opcode,
     return expression.span();
 }
 
-/// Whether the parameter of the production, which has only one, must be meant by `text`: both are
-/// one letter, there are no constants, and nothing else after the predecessor reads the parameter.
+/// Whether the unknown name `text` must mean the only parameter of the production: both are one
+/// letter, there are no constants, and nothing else after the predecessor reads the parameter.
 bool ExpressionResolver::is_only_choice(std::string_view text, const Expression& unknown) const {
     if (formals_.size() != 1 || text.size() != 1 || !resolution_.program.constants.empty() ||
         formal_spans_[0].file != unknown.file || formal_spans_[0].end > unknown.begin) {
@@ -352,14 +354,15 @@ bool ExpressionResolver::check_range(const Expression& expression,
     return true;
 }
 
-/// Whether a distribution with these arguments can be drawn from, as far as they are known.
+/// Reports a constant argument with which the distribution cannot be drawn from. Returns whether
+/// there is none.
 bool ExpressionResolver::check_distribution_of(const Expression& expression,
                                                Opcode opcode,
                                                ValueId first,
                                                ValueId second) {
     const auto x = constant_value(first);
     const auto y = constant_value(second);
-    // Arguments that are not known are taken to be right.
+    // Arguments that are not constant are replaced by valid ones.
     const bool has_mean = opcode != Opcode::Binomial;
     const DistributionFault fault =
         check_distribution(opcode, x.value_or(0.0F), y.value_or(has_mean ? 0.0F : 1.0F));
@@ -396,7 +399,7 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
         const Value& node = values_[value];
         if (value != kPoison && (node.opcode == Opcode::Divide || node.opcode == Opcode::Mod) &&
             constant_value(node.right) == 0.0F) {
-            // The divisor may stand in a function.
+            // A division inside a called #function has no divisor in this statement.
             const SourceSpan divisor = zero_divisors_.empty()
                                            ? resolution_.ast.expression(root).span()
                                            : zero_divisors_.back();

@@ -37,7 +37,8 @@ constexpr std::array kFunctions{
     FunctionRow{"binomial", Opcode::Binomial},
 };
 
-/// `clamp(x, low, high)` is min(max(x, low), high); a choice has both sides as operands.
+/// Number of arguments of a function. Two differ from the operands of their opcode: `clamp(x, low,
+/// high)` becomes min(max(x, low), high), and `if` has both sides as arguments.
 constexpr std::uint32_t argument_count(const FunctionRow& row) {
     return row.name == "clamp" || row.name == "if"
                ? 3
@@ -64,7 +65,7 @@ bool in_production(ExpressionPlace place) {
            place == ExpressionPlace::Successor;
 }
 
-/// Whether `{min, max}` and distributions may be written here.
+/// Whether `{min, max}` and distributions are allowed in this place.
 bool ranges_allowed(ExpressionPlace place) {
     return place == ExpressionPlace::Define || place == ExpressionPlace::Param ||
            place == ExpressionPlace::Axiom || place == ExpressionPlace::Local ||
@@ -112,8 +113,8 @@ ExpressionResolver::ExpressionResolver(Resolution& resolution,
 }
 
 void ExpressionResolver::begin_statement() {
-    // Children come before parents and statements follow each other, so every expression before
-    // the last root has been resolved.
+    // In the Ast, operands come before their users and statements follow each other, so every
+    // expression before the last root has been resolved.
     if (!keeps_expressions_) {
         resolution_.ast.expressions.release_before(last_root_);
     }
@@ -285,7 +286,7 @@ ValueId ExpressionResolver::apply(Opcode opcode,
     return result;
 }
 
-/// Whether weights may depend on parameters and on step().
+/// Whether weights may depend on parameters and on step(): with `#set weights any`.
 bool ExpressionResolver::weights_may_vary() const {
     return resolution_.program.settings.weights == WeightRule::Any;
 }
@@ -355,7 +356,7 @@ ValueId ExpressionResolver::distribution_value(const Expression& expression,
                : kPoison;
 }
 
-/// Whether a range or distribution may stand here; reports one that may not.
+/// Whether a range or distribution is allowed in `place`; reports one that is not.
 bool ExpressionResolver::may_draw(const Expression& expression, ExpressionPlace place) {
     is_random_ = true;
     if (!ranges_allowed(place)) {
@@ -365,7 +366,7 @@ bool ExpressionResolver::may_draw(const Expression& expression, ExpressionPlace 
     return true;
 }
 
-/// The next draw of the statement.
+/// A value with the next draw number of the statement.
 ValueId ExpressionResolver::draw_value(Opcode opcode,
                                        ValueId first,
                                        ValueId second,
@@ -441,14 +442,14 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
 ValueId ExpressionResolver::choice_value(const Expression& expression,
                                          std::span<const ValueId> arguments) {
     if (const auto condition = constant_value(arguments[0])) {
-        // A fault on the side that is not chosen is none.
+        // A division by zero or an overflow on the side that is not chosen is no error.
         const bool holds = *condition != 0.0F;
         forget_faults(resolution_.ast.expression(operand(expression, holds ? 2 : 1)).span());
     }
     return values_.choice(arguments[0], arguments[1], arguments[2], expression.span());
 }
 
-/// Forgets the causes of faults within `unchosen`.
+/// Forgets divisors that are zero and causes of infinite values within `unchosen`.
 void ExpressionResolver::forget_faults(SourceSpan unchosen) {
     const auto is_inside = [&](SourceSpan span) {
         return span.file == unchosen.file && span.begin >= unchosen.begin &&

@@ -30,18 +30,18 @@ enum class ExpressionPlace : std::uint8_t {
     Probability,
     Function, // the body of a #function
     Curve,    // a coordinate of a #curve
-    Local,    // the value of a `let`
+    Local,    // the expression of a `let`
     Successor,
 };
 
-/// Whether constants that are drawn when the derivation starts may be used here.
+/// Whether constants that are drawn when the derivation starts are allowed in this place.
 [[nodiscard]] bool drawn_constants_allowed(ExpressionPlace place);
 
 class ExpressionResolver {
 public:
     ExpressionResolver(Resolution& resolution, ValueBuilder& values, ConstantTable& constants);
 
-    /// Begins a statement: clears formals and reported names, numbers ranges from 0.
+    /// Begins a statement: clears formals, local values and reported names; numbers draws from 0.
     void begin_statement();
     /// Adds a formal of the current production; `where` is its place in messages. Returns false if
     /// the name is a formal already.
@@ -50,26 +50,28 @@ public:
     /// Defines the function of a #function or #curve, or reports why it cannot be used.
     void define_function(const FunctionNode& node);
     void define_curve(const CurveNode& node);
-    /// Slots below `count` are those of local values.
+    /// Reserves the slots below `count` for local values. Arguments of functions get later slots.
     void reserve_slots(std::uint32_t count) { slot_count_ = count; }
-    /// Expressions of the Ast stay until keep_expressions(false).
+    /// True: expressions of the Ast are not released after use, until keep_expressions(false).
     void keep_expressions(bool keep) { keeps_expressions_ = keep; }
 
-    /// Names a local value of the current production that add_local() will define, for messages.
+    /// Announces a local value of the current production that add_local() will define. Messages
+    /// about an earlier use can then say so.
     void expect_local(NameId name);
-    /// Defines a local value: its name means `value`, or slot `slot` if that is no leaf.
+    /// Defines a local value: its name means `value` if that is a leaf, else the content of slot
+    /// `slot`.
     void add_local(NameId name, ValueId value, std::uint32_t slot);
-    /// Whether an expression since add_local() has the name of a local value.
+    /// Whether an expression after add_local() has used the local value.
     [[nodiscard]] bool is_local_used(NameId name) const { return used_locals_.contains(name); }
     /// Suppresses messages about unknown names, since the head of the production is in error.
     void set_formals_incomplete() { formals_incomplete_ = true; }
 
-    /// The value of an expression, or kPoison after an error was reported here or before. A value
-    /// of a module or condition that can never be finite is an error.
+    /// The value of an expression, or kPoison if it contains an error, which has been reported. A
+    /// parameter of a module or a condition that can never be finite is an error.
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
-    /// The value of a single name, as after #set.
+    /// The value of a single name, for values of #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
-    /// Whether the last resolved value depends on a range.
+    /// Whether the last resolved value depends on a draw.
     [[nodiscard]] bool is_random() const { return is_random_; }
     /// Number of draws since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }
@@ -80,7 +82,7 @@ public:
 private:
     struct Frame {
         ExpressionId expression{};
-        std::uint32_t next = 0; // operand to visit
+        std::uint32_t next = 0; // index of the next operand to visit
     };
     /// The cause of a constant that is infinite or NaN.
     struct Culprit {
@@ -92,17 +94,17 @@ private:
         Opcode opcode;
         std::uint32_t argument_count;
     };
-    /// A function of the grammar.
+    /// A function defined by the grammar: a #function or a #curve.
     struct UserFunction {
         explicit UserFunction(SourceSpan place) : span(place) {}
 
         SourceSpan span; // of its name in its first definition
         ConstantState state = ConstantState::Later;
         bool is_curve = false;
-        std::uint32_t curve = 0; // in Program::curves
-        /// By formal, whose number is that of a leaf of Opcode::Formal: the number of its uses.
+        std::uint32_t curve = 0; // index in Program::curves
+        /// By formal, numbered as Value::index of Opcode::Formal: number of its uses in the body.
         std::vector<std::uint32_t> uses;
-        std::vector<ValueId> nodes; // of the body but for literals, operands first
+        std::vector<ValueId> nodes; // of the body without literals, operands before users
         ValueId body = kPoison;
         bool has_choice = false;
     };
@@ -166,10 +168,10 @@ private:
     bool files_missing_ = false;
     std::unordered_map<NameId, Function> functions_;
     std::unordered_map<NameId, UserFunction> user_functions_;
-    std::uint32_t slot_count_ = 0;   // of the current statement
-    std::size_t expanded_count_ = 0; // values of calls in the current statement
+    std::uint32_t slot_count_ = 0;   // slots in use in the current statement
+    std::size_t expanded_count_ = 0; // values made by calls in the current statement
     bool keeps_expressions_ = false;
-    NameId defining_ = kNoName; // the function whose body is read
+    NameId defining_ = kNoName; // the function whose body is being resolved
     NameId step_;
     NameId steps_;
 
@@ -177,7 +179,7 @@ private:
     std::vector<NameId> formals_;
     std::vector<SourceSpan> formal_spans_;
     bool formals_incomplete_ = false;
-    /// By name: the value of a local value, or kNoValue for one that is not defined yet.
+    /// By name: the local value, or kNoValue after expect_local() alone.
     std::unordered_map<NameId, ValueId> locals_;
     std::unordered_set<NameId> used_locals_;
     std::unordered_set<NameId> reported_; // names with an error in this statement

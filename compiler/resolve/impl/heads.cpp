@@ -140,7 +140,7 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
     } else {
         open_.pop_back();
     }
-    if (rewritten) { // an ordinary module
+    if (rewritten) { // with `rewriting leftmost` a predecessor has brackets as ordinary modules
         const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
         const bool ok = formals(module);
         append(module, first_formal, out);

@@ -25,7 +25,7 @@ std::uint64_t group_hash(const Production& production) {
     return hash_of(production.right, hash_of(production.left, rule_hash(production)));
 }
 
-/// Whether names, parameter counts and brackets agree.
+/// Whether two patterns have the same symbols and brackets in the same order.
 bool equal_patterns(const ProgramPattern& a, const ProgramPattern& b) {
     if (a.items.size() != b.items.size()) {
         return false;

@@ -1,6 +1,7 @@
-// Rules and groups (docs/language.md section 5): productions with equal predecessors, and among
-// them productions with equal contexts. Hash tables of production numbers that look up the
-// productions in the Program, so that a million productions take a few megabytes.
+// Numbers rules and groups (docs/language.md section 5). A rule is the productions with equal
+// predecessors; a group is those of a rule with equal contexts. The hash tables store production
+// numbers only and compare the productions in the Program, so that a million productions take a few
+// megabytes.
 #pragma once
 
 #include "compiler/program/program.h"

@@ -137,7 +137,7 @@ bool ProductionResolver::is_new_local(const LocalNode& node, const Production& p
     return true;
 }
 
-/// Sets what stands behind `~`: a number, or with `weights any` an expression.
+/// Resolves the probability or weight behind `~`: a number, or with `weights any` an expression.
 void ProductionResolver::resolve_weight(ExpressionId probability, Production& production) {
     production.stochastic = true;
     production.weight = std::numeric_limits<float>::quiet_NaN();

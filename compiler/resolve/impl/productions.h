@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// A probability or weight that is a constant; NaN after it was reported as none.
+/// Returns `weight`, or NaN after reporting that it is no valid probability or weight.
 [[nodiscard]] float checked_weight(Resolution& resolution, float weight, SourceSpan span);
 
 class ProductionResolver {
@@ -35,8 +35,8 @@ private:
     ConstantTable& constants_;
     HeadResolver heads_;
     ProductionClasses classes_;
-    std::array<std::vector<Production>, 2> later_; // of Decompose, of Interpret
-    std::vector<SourceSpan> first_of_name_;        // by name; kNoFile: none
+    std::array<std::vector<Production>, 2> later_; // productions of Decompose and of Interpret
+    std::vector<SourceSpan> first_of_name_;        // by name: first production, or kNoFile
 };
 
 } // namespace lsys

@@ -47,7 +47,7 @@ private:
     std::size_t work_left_ = 4'000'000;
 };
 
-/// Adds "did you mean `name`?" to a message, with a fix that is only offered.
+/// Adds "did you mean `name`?" to a message, with a fix that is not machine-applicable.
 void suggest(Diagnostic& diagnostic, SourceSpan span, std::string_view name);
 
 } // namespace lsys

@@ -24,7 +24,7 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 #include "compiler/bytecode/settings.def"
 });
 
-/// Forms of module names that a front end reads.
+/// Values of `#set names`.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {
@@ -123,7 +123,7 @@ void SetResolver::report_bad_value(const SetNode& node,
     }
 }
 
-/// The one word of the statement; empty after an error.
+/// The word that is the only value of the statement; empty after an error is reported.
 std::string_view SetResolver::word_of(const SetNode& node, const char* choices) {
     if (node.values.count != 1) {
         report_bad_value(node, node.key_span, fmt::format("takes one of {}", choices));
@@ -182,7 +182,7 @@ SetResolver::number_of(const SetNode& node, std::uint32_t index, ExpressionResol
 void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressions) {
     const std::string_view key = resolution_.text(node.key);
     if (first_.at(scope_of(node)) != node.key_span) {
-        return; // a duplicate
+        return; // a duplicate, which read_modes() has reported
     }
     expressions.begin_statement();
     Settings& settings = resolution_.program.settings;
@@ -197,7 +197,7 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
     } else if (key == "spring") {
         read_spring(node, expressions);
     }
-    // Modes have been read, and unknown keys reported.
+    // Other keys are modes or unknown: read_modes() has handled both.
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
     else if (key == #field) {                                                                      \
         const NumberRange range{min, -kLowestNumber, false, wanted};                               \

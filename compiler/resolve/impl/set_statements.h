@@ -15,10 +15,10 @@ namespace lsys {
 
 class SetResolver {
 public:
-    /// Origin of the statements of `resolution`.
+    /// Origin of the `#set` statements.
     enum class Origin : std::uint8_t {
         Grammar,
-        Options, // replace values of the grammar; `names` only that of the root file
+        Options, // of --set: they replace values of the grammar, `names` that of the root file
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 
@@ -38,7 +38,7 @@ private:
     void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);
     [[nodiscard]] std::optional<float>
     number_of(const SetNode& node, std::uint32_t index, ExpressionResolver& expressions);
-    /// Numbers that a setting takes.
+    /// The numbers that are valid for a setting.
     struct NumberRange {
         float min;
         float max;
@@ -56,7 +56,7 @@ private:
     Resolution& resolution_;
     Origin origin_;
     Suggestions suggestions_;
-    std::unordered_map<std::uint64_t, SourceSpan> first_; // by scope_of()
+    std::unordered_map<std::uint64_t, SourceSpan> first_; // first statement, by scope_of()
 };
 
 } // namespace lsys

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-/// Per name: whether a module uses it.
+/// By name: whether a module of the Ast has it.
 std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     std::vector<std::uint8_t> used(resolution.names.count());
     const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;
@@ -98,7 +98,8 @@ void NameSplitter::for_each_known_prefix(std::string_view text, Function found) 
             return;
         }
         const char next = text[length];
-        // Sorted names all agree if the first and last do; then no search is needed.
+        // If the first and last of the sorted names have character `next`, all have it, and no
+        // search is needed.
         if ((*first)[length] != next || (*(last - 1))[length] != next) {
             first = std::lower_bound(first, last, next, [length](std::string_view name, char c) {
                 return name[length] < c;

@@ -27,7 +27,7 @@ public:
     /// Precondition: no module of the Ast is released yet.
     NameSplitter(Resolution& resolution, const std::vector<bool>& known);
 
-    /// Whether parts() may split this name.
+    /// Whether the name is an unknown identifier, which parts() may split.
     [[nodiscard]] bool may_split(NameId name) const { return unknown_[index_of(name)]; }
     /// The parts of a name, or nothing if it is one module. Precondition: not in back quotes.
     [[nodiscard]] std::span<const NamePart>
@@ -63,7 +63,7 @@ private:
     std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
     std::unordered_set<std::size_t> use_lengths_;
     std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
-    /// Steps left; beyond them names that are costly to split stay whole.
+    /// Work left. When it is used up, names that are costly to split stay whole.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
 };
 

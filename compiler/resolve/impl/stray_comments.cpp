@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-/// Larger files are not searched for words.
+/// Max file size in bytes; larger files are not searched.
 constexpr std::size_t kMaxSearched = std::size_t{1} << 20;
 
 std::string_view line_at(std::string_view text, std::size_t at) {
@@ -21,7 +21,8 @@ std::string_view line_at(std::string_view text, std::size_t at) {
     return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-/// `text` without what stands in parentheses, as arguments of modules do, or in `/* ... */`.
+/// `text` with blanks in place of parentheses and their contents (arguments of modules), and of
+/// comments `/* ... */`.
 std::string without_arguments(std::string_view text) {
     std::string kept;
     std::size_t depth = 0;
@@ -53,7 +54,7 @@ void for_each_word(std::string_view text, const Visit& visit) {
     }
 }
 
-/// The words of a file outside of comments and behind no `//`.
+/// The words of a file that are neither in a comment `/* ... */` nor behind `//` in their line.
 class FileWords {
 public:
     FileWords(std::string_view text, bool letters) {
@@ -76,8 +77,8 @@ public:
     }
 
     [[nodiscard]] bool has(std::string_view word) const { return words_.count(word) != 0; }
-    /// Whether the letters of a word are those of a remark: none is a module of the file, or three
-    /// or more are not.
+    /// For a file with `names letters`: whether a word looks like part of a remark, since none of
+    /// its letters is a module of the file, or three or more are not.
     [[nodiscard]] bool has_foreign_letters(std::string_view word) const {
         const auto foreign = std::count_if(
             word.begin(), word.end(), [&](char letter) { return letters_.count(letter) == 0; });
@@ -86,7 +87,7 @@ public:
 
 private:
     std::unordered_set<std::string_view> words_;
-    std::unordered_set<char> letters_; // of all words
+    std::unordered_set<char> letters_; // letters of all words, only with `names letters`
 };
 
 class CommentSearch {
@@ -94,8 +95,8 @@ public:
     CommentSearch(Resolution& resolution, const std::vector<bool>& known, NameSplitter& splitter)
         : resolution_(resolution), known_(known), splitter_(splitter) {}
 
-    /// Whether `comment`, the text behind a `//`, has words outside of parentheses that are no modules: one of several
-    /// letters, or two in a row.
+    /// Whether `comment`, the text behind a `//`, is meant as a comment: outside of parentheses it
+    /// has a word of several letters that is no module, or two such words in a row.
     [[nodiscard]] bool is_comment(std::string_view comment, FileId file) {
         bool found = false;
         bool was_foreign = false;

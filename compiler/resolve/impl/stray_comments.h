@@ -7,8 +7,8 @@
 namespace lsys {
 
 /// Reports each `//` whose line goes on with a word that is no module of the grammar: neither known
-/// nor used outside of such lines, nor split into modules. `known`: by name. Precondition: no
-/// module of the Ast is released yet.
+/// nor used outside of such lines, nor split into modules. `known`: by name, whether the module
+/// name is known. Precondition: no module of the Ast has been released.
 void check_stray_comments(Resolution& resolution,
                           const std::vector<bool>& known,
                           NameSplitter& splitter);

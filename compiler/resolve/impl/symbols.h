@@ -23,7 +23,8 @@ public:
     void ignore_all_but_considered() { others_ignored_ = true; }
     [[nodiscard]] bool is_ignored(NameId name) const;
 
-    /// Precondition: all bind() and ignore() have been called.
+    /// The symbol, made at the first call. Precondition: all calls of bind(), ignore() and
+    /// consider() have been made.
     [[nodiscard]] SymbolId get(NameId name, std::uint32_t parameter_count);
 
 private:
@@ -41,7 +42,7 @@ private:
     std::vector<Latest> latest_; // by name: the last symbol looked up
     std::unordered_map<std::uint64_t, SymbolId> symbols_;
     std::unordered_map<std::uint32_t, Binding> bindings_;
-    std::vector<bool> ignored_; // by name
+    std::vector<bool> ignored_; // by name, as considered_
     std::vector<bool> considered_;
     bool others_ignored_ = false;
 };

@@ -1,5 +1,5 @@
-// The functions of a grammar, #function and #curve: their definitions, and their calls, in whose
-// place the body stands.
+// The functions of a grammar, #function and #curve: their definitions, and their calls, which are
+// inlined.
 #include "compiler/bytecode/distributions.h"
 #include "compiler/resolve/impl/expressions.h"
 
@@ -16,13 +16,13 @@ namespace {
 constexpr std::uint32_t kMaxFormals = 8;
 constexpr std::uint32_t kMinPoints = 2;
 constexpr std::uint32_t kMaxPoints = 256;
-/// Maximum of values that the calls of one statement may stand for. Functions that call each other
-/// twice each stand for 2^n values.
+/// Max number of values that inlining the calls of one statement may make: n functions that each
+/// call the next one twice make 2^n values.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 22;
 
 } // namespace
 
-/// Whether nothing else has the name of a function; reports what has.
+/// Whether no other function has the name; reports one that has.
 bool ExpressionResolver::is_free_name(NameId name, SourceSpan span) {
     const std::string_view text = resolution_.text(name);
     UserFunction& function = user_functions_.at(name);
@@ -41,7 +41,7 @@ bool ExpressionResolver::is_free_name(NameId name, SourceSpan span) {
     return true;
 }
 
-/// Adds the formals; reports those that are no names of their own.
+/// Adds the formals; reports formals that are not names or not distinct.
 bool ExpressionResolver::read_formals(const FunctionNode& node) {
     if (node.formals.count == 0 || node.formals.count > kMaxFormals) {
         resolution_.diagnostics.add(DiagnosticCode::BadFunction, node.formals_span,
@@ -127,7 +127,7 @@ std::optional<std::vector<CurveKnot>> ExpressionResolver::read_points(const Curv
         const SourceSpan span = resolution_.ast.expression(root).span();
         const std::optional<float> number = constant_value(resolve(root, ExpressionPlace::Curve));
         if (!number) {
-            return std::nullopt; // reported
+            return std::nullopt; // already reported
         }
         CurveKnot& point = points[i / 2];
         (i % 2 == 0 ? point.x : point.y) = *number;
@@ -232,7 +232,7 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
     return expanded(function, arguments, span);
 }
 
-/// Whether a value draws a number, so that computing it may be at fault.
+/// Whether a value draws a random number, so that computing it may be a run-time error.
 bool ExpressionResolver::draws(ValueId root) const {
     std::vector<ValueId> work{root};
     while (!work.empty()) {
@@ -251,12 +251,12 @@ bool ExpressionResolver::draws(ValueId root) const {
     return false;
 }
 
-/// A copy of the body with the arguments for the formals. An argument is computed once, in a slot
-/// if it is used more than once or perhaps not at all.
+/// Inlines a call: a copy of the body with the arguments in place of the formals. An argument that
+/// is used more than once, or possibly not at all, is computed once into a slot.
 ValueId ExpressionResolver::expanded(const UserFunction& function,
                                      std::span<const ValueId> arguments,
                                      SourceSpan span) {
-    std::vector<std::pair<std::uint32_t, ValueId>> slots; // and their values
+    std::vector<std::pair<std::uint32_t, ValueId>> slots; // new slots with their values
     std::vector<std::uint32_t> slot_of(arguments.size(), kNone);
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const bool stands_in_body = values_.is_leaf(arguments[i]) ||
@@ -268,7 +268,7 @@ ValueId ExpressionResolver::expanded(const UserFunction& function,
         }
     }
     std::unordered_map<ValueId, ValueId> copies;
-    std::unordered_map<std::uint32_t, ValueId> values_of_slots; // inner ones, before they are read
+    std::unordered_map<std::uint32_t, ValueId> values_of_slots; // slots set in the body
     for (const ValueId id : function.nodes) {
         if (values_[id].opcode == Opcode::SetLocal) {
             values_of_slots.emplace(values_[id].index, values_[id].left);
@@ -277,7 +277,7 @@ ValueId ExpressionResolver::expanded(const UserFunction& function,
     std::unordered_map<std::uint32_t, std::uint32_t> inner_slots;
     const auto copy_of = [&](ValueId id) {
         const auto found = copies.find(id);
-        return found == copies.end() ? id : found->second; // a literal
+        return found == copies.end() ? id : found->second; // literals are not copied
     };
     const auto slot_for = [&](std::uint32_t slot) {
         const auto [found, is_new] = inner_slots.try_emplace(slot, slot_count_);
@@ -285,7 +285,7 @@ ValueId ExpressionResolver::expanded(const UserFunction& function,
         return found->second;
     };
     for (const ValueId id : function.nodes) {
-        const Value value = values_[id]; // adding values may move it
+        const Value value = values_[id]; // a copy, since adding values may move the node
         ValueId copy = kPoison;
         switch (value.opcode) {
         case Opcode::Formal:
@@ -296,7 +296,7 @@ ValueId ExpressionResolver::expanded(const UserFunction& function,
                        : arguments[value.index];
             break;
         case Opcode::Local: {
-            // A value that has become a literal or a name is written where it is used.
+            // A slot whose value has become a leaf is replaced by that leaf.
             const ValueId known = copy_of(values_of_slots.at(value.index));
             copy = values_.is_leaf(known)
                        ? values_.leaf_at(known, span)

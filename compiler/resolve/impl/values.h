@@ -13,29 +13,29 @@ namespace lsys {
 
 class ValueBuilder {
 public:
-    /// Adds kPoison to `values`, which is empty and which nothing else changes.
+    /// Adds kPoison to `values`. `values` must be empty, and only this object may change it.
     explicit ValueBuilder(ChunkedVector<Value>& values);
 
     [[nodiscard]] ValueId literal(float value, SourceSpan span);
     /// A value without operands: Formal, Global, Local, Step, Steps.
     [[nodiscard]] ValueId leaf(Opcode opcode, std::uint32_t index, SourceSpan span);
-    /// A range or distribution, which is never folded since it draws. `second` is kNoValue where
-    /// it takes one argument.
+    /// A range or distribution. It is never folded, since each run draws a new number. `second` is
+    /// kNoValue for a distribution of one argument.
     [[nodiscard]] ValueId
     draw(Opcode opcode, ValueId first, ValueId second, std::uint32_t number, SourceSpan span);
     /// An operation on one or two values: a literal if all operands are, kPoison if one is.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
-    /// arithmetic::mix().
+    /// arithmetic::mix() of three values.
     [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);
     /// `yes` where the condition is not 0, else `no`; one of these if the condition is a literal.
     [[nodiscard]] ValueId choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span);
     /// The value of curve `index` with these points at `x`.
     [[nodiscard]] ValueId
     curve(std::uint32_t index, std::span<const CurveKnot> points, ValueId x, SourceSpan span);
-    /// `body` with slot `slot` set to `value` before it.
+    /// The value of `body`, computed after slot `slot` has been set to `value`.
     [[nodiscard]] ValueId
     with_local(std::uint32_t slot, ValueId value, ValueId body, SourceSpan span);
-    /// A value without operands at another place.
+    /// The same leaf with another span.
     [[nodiscard]] ValueId leaf_at(ValueId leaf, SourceSpan span);
 
     [[nodiscard]] std::size_t size() const { return values_.size(); }
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] std::size_t slot_of(std::uint32_t bits) const;
 
     ChunkedVector<Value>& values_;
-    std::vector<ValueId> literals_; // open addressing by the bits of the literal
+    std::vector<ValueId> literals_; // hash table with open addressing, by the bits of the literal
     std::size_t literal_count_ = 0;
 };
 

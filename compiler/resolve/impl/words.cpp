@@ -24,7 +24,8 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
 
 namespace {
 
-/// Appends a module, or the modules that its name is split into; the last one gets the arguments.
+/// Appends a module, or the modules that its name is split into, the last of which gets the
+/// arguments.
 void append_module(ModuleReading& reading, const ModuleView& module) {
     Program& program = reading.resolution.program;
     const std::uint32_t count = module.arguments.count;
@@ -48,8 +49,8 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
     }
 }
 
-/// Appends modules from `index` on while they are known names without arguments, as nearly all
-/// modules of a long word are; returns the index of the first that is not.
+/// Appends modules from `index` on while they have no arguments and a cached symbol, as nearly all
+/// modules of a long word do. Returns the index of the first module that does not.
 std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
     ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;
     const std::span<const SymbolId> bare = reading.bare;

@@ -18,7 +18,8 @@ struct ModuleReading {
     NameSplitter& splitter;
     ExpressionResolver& expressions;
     SplitReport splits;
-    /// Cache per unsplit name: the symbol of its modules without arguments.
+    /// Cache by name: the symbol of its modules without arguments; kNoSymbol if not cached. Split
+    /// names are never cached.
     std::vector<SymbolId> bare;
 };
 

@@ -102,7 +102,8 @@ private:
         }
     }
 
-    /// Whether a left side stands before the parameters of module `last`.
+    /// Whether `left` matches the modules up to `last`, so that the parameters of `last` follow the
+    /// match.
     static bool matches(const std::vector<TextModule>& left,
                         const std::vector<TextModule>& modules,
                         std::size_t last) {
@@ -115,8 +116,8 @@ private:
             [](const TextModule& a, const TextModule& b) { return a.form == b.form; });
     }
 
-    /// Hands the parameters of a module to the last symbol of the rule's right side; returns false
-    /// after reporting that it cannot have them.
+    /// Hands the parameters of a module to the last symbol of the rule's right side. Reports and
+    /// returns false if that symbol cannot have parameters.
     bool follow(const TextRule& rule, const TextModule& module) {
         if (takes_parameters(rule)) {
             enqueue({{rule.right.back().form.first, module.form.second}, module.span});
@@ -134,7 +135,8 @@ private:
         return false;
     }
 
-    /// Whether the last module of the right side can have parameters beside its own.
+    /// Whether the last module of the right side can take the parameters: it has none of its own
+    /// and is not a bracket, `.` or `#`.
     static bool takes_parameters(const TextRule& rule) {
         if (rule.right.empty() || rule.right.back().form.second != 0) {
             return false;
@@ -146,7 +148,7 @@ private:
 
     void note(const TextRule& rule, const TextModule& module) {
         if (!takes_parameters(rule)) {
-            return; // an error
+            return; // follow() reports the error
         }
         const std::string_view whole = context_.sources.text(module.span);
         const std::string parameters(whole.substr(std::min(whole.find('('), whole.size())));

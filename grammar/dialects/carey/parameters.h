@@ -10,15 +10,15 @@
 
 namespace lsys {
 
-/// By rule of the file: the numbers of parameters, rising, that can stand behind its left side.
+/// Per rule of the file, ascending: the parameter counts that can follow its left side.
 struct LeftParameters {
     std::vector<std::vector<std::size_t>> of_rule;
     bool any = false;
 };
 
-/// Follows the parameters of axiom and right sides through the rules. Reports as a note what
-/// becomes of them, and as an error what no module can hold. Mistakes within the texts are left to
-/// the CareyWriter.
+/// Follows the parameters of axiom and right sides through the rules. A note reports each parameter
+/// that moves to another symbol, an error each one that no module can take. Mistakes within the
+/// texts are left to the CareyWriter.
 [[nodiscard]] LeftParameters find_left_parameters(const CareyFile& file,
                                                   const ParseContext& context);
 

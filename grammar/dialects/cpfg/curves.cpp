@@ -188,7 +188,8 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             if (const auto curve = beside(function->substr(0, function->find_first_of(" \t")))) {
                 read_curves(*curve, view.curves);
             }
-            view.curves.resize(before + 1); // a missing file counts: later curves keep their number
+            // A missing file takes a number, so that later curves keep theirs.
+            view.curves.resize(before + 1);
         }
     }
     return view;

@@ -120,7 +120,7 @@ CpfgTerm CpfgExpressions::name(const CpfgExpression& node) {
     if (formals_.count(node.text) != 0) {
         return {node.text, false, 0};
     }
-    if (node.text == "Q") { // the step, from 1
+    if (node.text == "Q") { // the number of the step, which cpfg counts from 1
         return {stage_ == Stage::Rewrite ? "(step() + 1)" : "step()", false, 0};
     }
     if (node.text == "Z") {
@@ -215,7 +215,7 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
             return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
         }
     }
-    if (node.text == "atan2" && wants(2)) { // its first argument is x
+    if (node.text == "atan2" && wants(2)) { // in cpfg the first argument is x, in .lsys y
         return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
     }
     if (node.text == "trunc" && wants(1)) {
@@ -226,7 +226,7 @@ CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
         return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), is_random || u.is_random,
                 0};
     }
-    if (node.text == "nran" && wants(2)) { // by Box and Muller
+    if (node.text == "nran" && wants(2)) { // a normal distribution by the Box-Muller transform
         const CpfgTerm u = draw();
         const CpfgTerm v = draw();
         return {in_cpfg_parentheses(arguments[0].text) + " + " +
@@ -244,7 +244,7 @@ CpfgTerm CpfgExpressions::binary(const CpfgExpression& node) {
     const CpfgTerm a = term(node.parts[0]);
     const CpfgTerm b = term(node.parts[1]);
     const bool is_random = a.is_random || b.is_random;
-    if (node.text == "%") { // of whole numbers
+    if (node.text == "%") { // the remainder of the operands cut to whole numbers
         if (is_random) {
             return chosen_by_chance(node.span, "the remainder of a random number");
         }

@@ -32,13 +32,13 @@ struct CpfgConstant {
 enum class CpfgDraws : std::uint8_t {
     Inline,    // in the expression that uses them
     Bound,     // in advance, as parameters of the module
-    Elsewhere, // by another statement; terms made here do not depend on them
+    Elsewhere, // by another .lsys statement; the terms of this one do not depend on them
 };
 
 /// Random numbers that a production needs.
 struct CpfgNeeds {
     bool bound_draws = false; // a random number is used twice or decides a choice
-    int draws = 0;            // random numbers, where they are bound
+    int draws = 0;            // count of bound random numbers
 };
 
 class CpfgExpressions {

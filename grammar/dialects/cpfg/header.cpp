@@ -46,7 +46,8 @@ void CpfgWriter::find_names() {
     }
 }
 
-/// `~s(x) --> ~s(y)` rewrites the `s` after a `~`, which stays.
+/// Removes the leading `~` of `~s(x) --> ~s(y)`, so that the production rewrites the `s` after a
+/// `~` and keeps the `~`.
 void CpfgWriter::keep_tilde(CpfgProduction& production) const {
     const auto begins = [](const std::vector<CpfgModule>& list) {
         return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
@@ -288,7 +289,7 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
         out_.put(name, header_);
     }
     if (spelled_names.empty()) {
-        out_.put("`none`", header_); // no module counts
+        out_.put("`none`", header_); // `#consider` needs a name; no module is named `none`
     }
     out_.put(";\n", header_);
 }

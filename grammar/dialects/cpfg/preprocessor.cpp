@@ -88,7 +88,7 @@ private:
                            [](const Condition& each) { return each.holds; });
     }
 
-    /// Whether a known directive follows the `#`, which is also a symbol of the turtle.
+    /// Whether a known directive follows the `#`. A `#` alone is a symbol of the turtle.
     static bool is_directive(std::string_view text) {
         const std::string_view rest = trimmed(text.substr(1));
         const std::string_view word = rest.substr(0, name_length(rest));

@@ -101,9 +101,10 @@ public:
     // --- for the scanner
     enum class Mode : std::uint8_t { Line, Symbols, Expression };
     Mode mode = Mode::Line;
-    int nesting = 0;           // brackets open in an expression
-    bool in_arguments = false; // of a module: the last `)` leads back to symbols
-    bool label = false;        // in the words of the label
+    int nesting = 0; // brackets open in an expression
+    // In the arguments of a module; the `)` that closes them ends Mode::Expression.
+    bool in_arguments = false;
+    bool label = false; // in the label `Lsystem: 1`
 
     /// The place of the next `length` bytes.
     SourceSpan take(std::uint32_t length) {

@@ -57,7 +57,7 @@ void CpfgExpressions::read_each_step() {
             reset_.insert(variable);
         }
     }
-    std::set<std::string> unknown; // with the variables that depend on an unknown one
+    std::set<std::string> unknown; // includes the variables that depend on an unknown one
     for (std::size_t before = changed_globals_.size() + 1; before != unknown.size();) {
         before = unknown.size();
         for (const std::string& variable : changed_globals_) {

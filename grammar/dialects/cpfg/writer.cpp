@@ -12,7 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// Maximum random numbers of one choice; each production of the module has them all as parameters.
+/// Maximum random numbers of one choice, since each production of the module has all of them as
+/// parameters.
 constexpr int kMaxDraws = 1000;
 
 } // namespace
@@ -44,13 +45,13 @@ bool CpfgWriter::is_always(const CpfgProduction& production) const {
     return test.kind == CpfgKind::Number && !is_cpfg_zero(test.text);
 }
 
-/// Returns true when the production is chosen among others by chance.
+/// Returns true if the production is chosen at random among others.
 bool CpfgWriter::is_random_choice(const CpfgProduction& production) const {
     return session_.seed >= 0 && production.stage == Stage::Rewrite &&
            !production.predecessor.empty() && alternatives_.at(key_of(production)) > 1;
 }
 
-/// Finds the productions whose random numbers are bound.
+/// Finds the productions whose random numbers must be bound.
 void CpfgWriter::find_bindings() {
     bindings_.resize(session_.productions.size());
     std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
@@ -391,7 +392,7 @@ void CpfgWriter::write_group(std::size_t index) {
         write_modules(production.successor);
         out_.put(";\n", production.arrow);
     }
-    if (!always) { // without a match the module stays
+    if (!always) { // if no production matches, the module stays
         out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
                      drawing_module(index),
                  first.span);

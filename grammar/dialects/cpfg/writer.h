@@ -1,8 +1,8 @@
 // Writes a parsed cpfg file as .lsys text.
 //
 // A random range of .lsys draws a number at each place where it is written. So a random number that
-// is used twice, or that decides something, becomes a parameter of an intermediate module, which is
-// decomposed at once: `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
+// is used twice, or on which a decision depends, becomes a parameter of an intermediate module,
+// which is decomposed at once: `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -85,7 +85,7 @@ private:
     SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
-    std::vector<BoundDraws> bindings_;                       // of each production
+    std::vector<BoundDraws> bindings_;                       // by production
     std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
     std::set<Stage> bound_;                                  // stages with bindings
     std::set<std::string> used_;                             // names of all modules

@@ -30,7 +30,8 @@ std::vector<FractintEntry> read_fractint_entries(FileId root, const ParseContext
     LineReader reader(whole_file(root, context), kFormat, context);
     std::vector<FractintEntry> entries;
     SourceSpan name{root, 0, 0};
-    std::size_t words = 0; // of this line, or of the one above, which may name the next entry
+    // Count on this line; a line of one word may name the entry that begins on the next line.
+    std::size_t words = 0;
     LinePiece piece;
     while ((piece = reader.next(word_length)).kind != LinePieceKind::TextEnd) {
         if (piece.kind == LinePieceKind::LineEnd) {

@@ -78,7 +78,7 @@ void FractintWriter::write(std::string_view turtle) {
         known = &line;
     }
     if ((axiom == nullptr || angle == nullptr) && has_unknown_key_) {
-        return; // which may be meant as the one that is missing
+        return; // the unknown key may be the missing one, misspelt
     }
     if (axiom == nullptr || axiom->texts.empty()) {
         report_syntax(axiom == nullptr ? name_ : axiom->key, "the system has no axiom");
@@ -160,7 +160,7 @@ bool FractintWriter::check_key(const FractintLine& line) {
     return true;
 }
 
-/// Reports words that Fractint does not read as a part of the rule.
+/// Reports the words of a line that Fractint does not read.
 void FractintWriter::check_texts(const FractintLine& line) {
     const bool is_rule = line.kind == FractintLineKind::Rule;
     bool begun = false;

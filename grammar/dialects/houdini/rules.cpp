@@ -8,8 +8,8 @@ namespace lsys {
 
 namespace {
 
-/// The parameter counts of a symbol of the turtle in words; if no word has it, its count in the
-/// head.
+/// The parameter counts with which the axiom and the successors have a turtle symbol; if they do
+/// not have it, its count in the head.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {
@@ -34,7 +34,8 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
     return group;
 }
 
-/// Probability of the condition `rand(seed) < number`, or `>`; empty: another condition.
+/// Probability that the condition `rand(seed) < number` or `rand(seed) > number` holds, as an
+/// expression; empty for other conditions.
 std::string HoudiniWriter::chance_of(int condition) const {
     const auto node_at = [&](int index) -> const HoudiniNode& {
         const HoudiniNode* node = &session_.node(index);
@@ -62,8 +63,8 @@ std::string HoudiniWriter::chance_of(int condition) const {
     return sign[0] == '<' ? number : "(1 - " + number + ")";
 }
 
-/// Finds pairs of rules that are a random choice: the only two of a group, the first with the
-/// condition `rand(seed) < number`, the second without a condition.
+/// Finds pairs of rules that together are a random choice: the only two rules of a group, the first
+/// with the condition `rand(seed) < number`, the second without a condition.
 void HoudiniWriter::find_chances() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
     std::map<std::string_view, std::size_t> rules_of; // by symbol

@@ -49,7 +49,7 @@ struct HoudiniRule {
     std::vector<HoudiniModule> successor;
     int condition = -1;           // a node; -1: none
     int probability = -1;         // a node; -1: none
-    std::uint32_t first_node = 0; // of the nodes of its line
+    std::uint32_t first_node = 0; // nodes of the line are [first_node, end_node)
     std::uint32_t end_node = 0;
     SourceSpan span;
     std::vector<std::string_view> formals; // names of parameters of the head, sorted
@@ -80,7 +80,8 @@ public:
     /// Puts the last `length` bytes of the last match back.
     void put_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
-    /// The token of a line's first word with the blanks behind it; 0 if it is no key.
+    /// The token of a line's first word; 0 if the word is no key. `text` includes the blanks after
+    /// the word.
     int key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }

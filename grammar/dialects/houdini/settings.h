@@ -11,7 +11,7 @@ enum class HoudiniSettingKind : std::uint8_t {
     Generations,
     Number,  // a `#set`
     Value,   // b, c or d
-    Gravity, // of T without a parameter
+    Gravity, // the default parameter of the command T
     Seed,
     Ignore, // symbols that contexts do not see
 };
@@ -22,7 +22,7 @@ struct HoudiniSettingRow {
     std::string_view name; // of the setting in .lsys
 };
 
-/// Null: there is none. Several keys may be one setting.
+/// The row of a key; null if there is none. Several keys may name one setting.
 [[nodiscard]] const HoudiniSettingRow* find_houdini_setting(std::string_view key);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// Facts about each symbol of a Houdini rule text: numbers of parameters, whether rules rewrite it,
-// whether they read its age. Houdini takes 0 for parameters that are left out; in .lsys modules
+// Properties of each symbol of a Houdini rule text: parameter counts, whether rules rewrite it,
+// whether rules read its age. Houdini takes 0 for parameters that are left out; in .lsys modules
 // with different numbers of parameters are different modules.
 #pragma once
 
@@ -15,7 +15,7 @@ struct HoudiniSymbol {
     bool is_command = false; // turtle command: an omitted parameter has its own default
     bool is_rewritten = false;
     bool has_age = false;        // one of its rules reads `g`
-    std::uint64_t counts = 0;    // bit k: a word has it with k parameters
+    std::uint64_t counts = 0;    // bit k: the axiom or a successor has the symbol with k parameters
     std::uint32_t max_count = 0; // max parameters in words and heads
 };
 

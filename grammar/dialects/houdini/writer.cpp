@@ -45,7 +45,7 @@ void HoudiniWriter::read_settings() {
     }
 }
 
-/// A setting as it is written, or the default of lsc.
+/// The value of a setting as the file has it, or `fallback`.
 std::string HoudiniWriter::number(std::string_view name, const char* fallback) const {
     const auto found = settings_.find(name);
     std::string digits = found != settings_.end() ? std::string(text(found->second)) : fallback;
@@ -159,7 +159,7 @@ void HoudiniWriter::write_word(const std::vector<HoudiniModule>& word, const Hou
     }
 }
 
-/// Warns once per symbol of an effect that lsc does not have.
+/// Warns, once per symbol, that lsc does not have the effect of the symbol.
 void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
     if (warned_.find(symbol) != std::string::npos) {
         return;
@@ -191,7 +191,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& module,
     const std::uint32_t count = symbols_.count(module);
     const int first = count != 0 ? module.arguments.front() : -1;
     switch (symbol) {
-    case '~': // drawn when the module is written
+    case '~': // random angles are drawn when the module is written
         translation_.put("`~`(", module.symbol);
         for (int turn = 0; turn < 3; ++turn) {
             translation_.put(turn == 0 ? "{-abs(" : ", {-abs(", module.symbol);
@@ -255,7 +255,7 @@ bool HoudiniWriter::write_special(const HoudiniModule& module,
     }
 }
 
-/// Writes the value that Houdini takes for a parameter left out before others.
+/// Writes the value that Houdini takes for an omitted parameter with others after it.
 void HoudiniWriter::write_left_out(const HoudiniModule& module,
                                    std::uint32_t index,
                                    SourceSpan place) {

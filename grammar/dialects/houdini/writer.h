@@ -65,10 +65,11 @@ private:
     const HoudiniSession& session_;
     Translation& translation_;
     HoudiniSymbols symbols_;
-    std::map<std::string_view, SourceSpan> settings_; // by the name of .lsys
+    std::map<std::string_view, SourceSpan> settings_; // by name of the setting in .lsys
     HoudiniExpressions expressions_;
-    std::map<std::string, bool> has_probability_;       // by group
-    std::map<const HoudiniRule*, std::string> chances_; // in place of a condition with `rand`
+    std::map<std::string, bool> has_probability_; // by group
+    // Probability in place of a condition with `rand`.
+    std::map<const HoudiniRule*, std::string> chances_;
     std::map<std::string_view, bool> aged_;
     std::vector<std::string_view> zeros_;
     std::string warned_; // symbols that have been reported

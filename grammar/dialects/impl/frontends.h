@@ -1,5 +1,5 @@
-// The functions of every dialect's front end, by the rows of dialects.def. Each dialect's folder
-// defines its own.
+// Declares recognise_X() and translate_X() for each row of dialects.def; the folder of the dialect
+// defines them.
 #pragma once
 
 #include "grammar/dialects/dialect.h"

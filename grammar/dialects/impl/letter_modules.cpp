@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 
-/// One past the `)` that closes the `(` at the start of `text`; 0: none does.
+/// One past the `)` that closes the `(` at the start of `text`; 0 if no `)` closes it.
 std::size_t closed_at(std::string_view text) {
     std::uint32_t depth = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -80,7 +80,7 @@ bool SyntaxMessage::report_look_alike() {
     return report_foreign_look_alike(place_, context_);
 }
 
-/// A line that begins with a word near to a keyword.
+/// Reports a line that begins with a misspelt keyword; returns false for other lines.
 bool SyntaxMessage::report_key() {
     if (words_ == nullptr) {
         return false;
@@ -106,7 +106,7 @@ bool SyntaxMessage::report_key() {
     return true;
 }
 
-/// An arrow of another language at the place, or before it.
+/// Reports an arrow of another language at the place or before it; returns false if there is none.
 bool SyntaxMessage::report_arrow() {
     constexpr std::array<std::string_view, 5> kArrows{"-->", "->", "=>", "==>", ":="};
     if (words_ == nullptr || words_->arrow.empty()) {

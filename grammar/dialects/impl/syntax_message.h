@@ -1,5 +1,6 @@
 // The messages of a syntax error of a dialect: the tokens that were expected, and the one found; or
-// the mistake behind it: a character that looks like another, a misspelt keyword, another arrow.
+// the likely cause: a character that looks like another, a misspelt keyword, an arrow of another
+// language.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -41,10 +42,10 @@ private:
     int count_ = 0;
 };
 
-/// Reports the character at the begin of `place` if it looks like an ASCII character, with the
-/// repair.
+/// Reports the character at the begin of `place` with a fix, if it looks like an ASCII character;
+/// returns whether it does.
 bool report_foreign_look_alike(SourceSpan place, const ParseContext& context);
-/// Adds "did you mean `name`?" with the repair, if a name is near.
+/// Adds "did you mean `name`?" with a fix, if a name is similar.
 void suggest_key(Diagnostic& diagnostic,
                  SourceSpan place,
                  std::string_view written,

@@ -1,7 +1,7 @@
 // .l, .l3d and .l++: the texts of L3D and its L+System. Three numbers (generations, angle,
 // thickness in percent), an axiom, lines `key=value`, and a line `@`. Rewriting replaces text, key
-// after key; each generation takes one of the values of a key. A word is a text too, so each
-// character is a module, and the turtle reads parameters from characters.
+// after key; each generation takes one of the values of a key. L3D stores the derived word as text
+// too, so each character is a module, and the turtle reads parameters from characters.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/impl/frontends.h"

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxKeys = 256;
 constexpr std::size_t kMaxText = std::size_t{1} << 16; // characters of a word
 constexpr std::size_t kMaxWork = std::size_t{1} << 20; // characters read in one derivation
-// Derivations with different choices, where a key has several values.
+// Number of derivations to compare, each with other choices, if a key has several values.
 constexpr std::uint32_t kChoices = 8;
 
 /// A key and its values.
@@ -28,7 +28,7 @@ struct Key {
     std::vector<std::string_view> values;
 };
 
-/// Numbers of keys in the order in which they are replaced.
+/// Indices of keys in the order in which a generation replaces them.
 using Order = std::vector<std::size_t>;
 
 std::vector<Key> keys_of(const std::vector<L3dRule>& rules, const SourceMap& sources) {
@@ -63,7 +63,8 @@ public:
 
     [[nodiscard]] const Key& key(std::size_t number) const { return keys_[number]; }
 
-    /// The first generation whose words differ; none within the limits.
+    /// The first generation in which orders `a` and `b` give different words; nullopt if none does
+    /// within the limits.
     [[nodiscard]] std::optional<std::uint32_t>
     first_difference(const Order& a, const Order& b, std::uint32_t choice) const {
         std::string first(axiom_);
@@ -78,7 +79,7 @@ public:
                 return i;
             }
             if (first == before && !has_choice()) {
-                return std::nullopt; // no later word differs
+                return std::nullopt; // the word is a fixed point, so later words are equal too
             }
         }
         return std::nullopt;
@@ -89,7 +90,7 @@ public:
     }
 
 private:
-    /// A generation; false when the text is too long.
+    /// Rewrites `text` once; returns false if it exceeds kMaxText.
     bool rewrite(const Order& order,
                  std::uint32_t generation,
                  std::uint32_t choice,
@@ -113,7 +114,8 @@ private:
     std::uint32_t generations_;
 };
 
-/// The swaps of an insertion sort of `order`, in order: the index of the first of two neighbours.
+/// The swaps that an insertion sort of `order` makes, in sequence; a swap is the index of the first
+/// of two neighbours.
 std::vector<std::size_t> exchanges(Order order) {
     std::vector<std::size_t> places;
     for (std::size_t i = 1; i < order.size(); ++i) {

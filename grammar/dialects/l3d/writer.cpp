@@ -105,7 +105,7 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
     }
 }
 
-/// Warns of a parameter that L3D reads in another way.
+/// Warns of a parameter that L3D does not read as it is written.
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);
@@ -138,7 +138,7 @@ void L3dWriter::write(SourceSpan text) {
     source_ = context_.sources.file(text.file).text();
     const std::string_view whole = source_.substr(0, text.end);
     translation_.put("`", text);
-    char command = '\0';   // the last one, if a parameter may follow
+    char command = '\0';   // the last command, if a parameter may follow it
     std::size_t close = 0; // the next `)`, or the end
     const auto next_close = [&](std::size_t from) {
         if (close < from) {

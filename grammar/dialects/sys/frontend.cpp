@@ -1,6 +1,6 @@
-// .sys: the grammars of the forest of 2005. A header `LSYSTEM`, the number of rules, the axiom,
-// then a line `A R p` for each rule: symbol, replacement, probability. Its turtle is the profile
-// `sys`.
+// .sys: the grammars of a forest program of 2005. A header `LSYSTEM`, the number of rules, the
+// axiom, then a line `A R p` for each rule: symbol, replacement, probability. Its turtle is the
+// profile `sys`.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/impl/frontends.h"
@@ -153,7 +153,7 @@ void write_modules(SourceSpan text,
 /// successor has those of the module that it replaces.
 using Arities = std::map<char32_t, std::set<std::size_t>>;
 
-/// The symbol of a rule; none where it is not one symbol.
+/// The symbol that a rule replaces, the last one if it has several; nullopt if it has none.
 std::optional<char32_t> symbol_of(const SysRule& rule, const ParseContext& context) {
     Diagnostics ignored;
     const ParseContext quiet{context.sources, context.names, ignored, context.load};
@@ -164,7 +164,7 @@ std::optional<char32_t> symbol_of(const SysRule& rule, const ParseContext& conte
 }
 
 Arities find_arities(const SysFile& file, const ParseContext& context) {
-    Diagnostics ignored; // writing reports mistakes
+    Diagnostics ignored; // mistakes are reported when the rules are written
     const ParseContext quiet{context.sources, context.names, ignored, context.load};
     Arities arities;
     const auto add = [&](SourceSpan text, std::optional<char32_t> replaced) {

@@ -48,7 +48,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
         for (const std::uint32_t blanks : row.cells) {
             added += blanks;
         }
-        // Columns must not break a line.
+        // Alignment must not make a line so long that it is broken.
         const bool too_long = row.first_line <= kColumns && row.first_line + added > kColumns;
         if (too_long || row.head + added + row.first_module_width > kColumns) {
             row.cells.fill(0);

@@ -22,8 +22,9 @@ struct LayoutRow {
     std::uint32_t end = 0;
     std::uint32_t comments_end = 0; // end of the comments after it on its line; `end` without any
     std::uint32_t column = 0;       // first column
-    std::uint32_t head = 0;         // end column of the part before the modules, or of all
-    std::uint32_t first_line = 0;   // end column of the author's first line
+    // End column of the part before the modules, or of the statement if it has none.
+    std::uint32_t head = 0;
+    std::uint32_t first_line = 0;         // end column of the author's first line
     std::uint32_t first_module_width = 0; // columns of the first module, on the line of the head
     std::array<std::uint32_t, kCells - 1> cells{}; // widths, then blanks to add
     std::uint8_t cell_count = 1;
@@ -37,7 +38,7 @@ struct LayoutRow {
 /// Replaces the widths of cells by blanks.
 void line_up(std::span<LayoutRow> rows);
 
-/// Stands for the padding of a cell that is not aligned.
+/// Value of a padding: the cell is not aligned.
 inline constexpr std::uint32_t kUnaligned = 0xFFFFFFFFu;
 
 /// Replaces each width by its difference from the common column, or by kUnaligned.

@@ -137,7 +137,7 @@ char LexemeReader::next_character() const {
 /// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an axiom,
 /// `#w ~` probability `:` modules.
 void LexemeReader::next_part() {
-    if (has_chance_) { // behind it the axiom begins
+    if (has_chance_) { // the modules of the axiom follow the probability
         has_chance_ = false;
         area_ = Area::Modules;
         after_value_ = false;

@@ -26,8 +26,8 @@ bool closes_bracket(const Lexeme& lexeme) {
     return is_module(lexeme, ']') || is_module(lexeme, '}');
 }
 
-/// Whether a blank separates two tokens of a statement. Comments always have one, so that no
-/// adjacent `/` changes them.
+/// Whether a blank separates two tokens of a statement. Comments always have blanks around them,
+/// because an adjacent `/` could change where they begin or end.
 bool blank_between(const Lexeme& before, const Lexeme& after) {
     using enum LexemeKind;
     if (before.kind == BlockComment) {
@@ -180,7 +180,7 @@ BreakClass PieceReader::break_class() const {
     case Module:
         return BreakClass::Fine;
     default:
-        // Behind a `:`, and behind the `,` between local values.
+        // A cell begins after a `:` and after the `,` between local values.
         return (previous_.kind == Colon || (previous_.kind == Comma && parentheses_ == 0)) &&
                        current_.kind != Semicolon
                    ? BreakClass::Fine

@@ -1,7 +1,7 @@
 // Pieces of a statement, which contain no line ends: a module with its arguments, or another word
 // with its punctuation. Each describes the place before it: blanks, the begin of a cell, the
-// author's line end, a possible line break. Within a piece `^`, `*` and `/` have no blanks, other
-// binary operators have.
+// author's line end, a possible line break. Within a piece `^`, `*` and `/` have no blanks around
+// them; other binary operators have.
 #pragma once
 
 #include "grammar/format/impl/lexemes.h"
@@ -24,7 +24,7 @@ struct Piece {
     bool blank_before = false;
     bool begins_cell = false;
     bool in_list = false;  // of modules, after the last colon
-    bool own_line = false; // the author began a line here
+    bool own_line = false; // the author began a line with this piece
     BreakClass break_class = BreakClass::Never;
     std::uint32_t rank = 0;  // of breaks of one class; the lowest is best
     std::uint32_t depth = 0; // open brackets before the piece, or after it if it is a `]`

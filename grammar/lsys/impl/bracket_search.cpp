@@ -49,7 +49,7 @@ std::optional<std::uint32_t> unmatched_parenthesis(std::string_view text, std::u
 std::optional<std::uint32_t>
 unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
     std::vector<std::uint32_t> open;
-    std::uint32_t later = 0; // open `[` after `at`
+    std::uint32_t later = 0; // count of `[` after `at` that are still open
     for_each_significant(text, begin, [&](std::uint32_t offset, char c) {
         if (c == '[' && offset < at) {
             open.push_back(offset);

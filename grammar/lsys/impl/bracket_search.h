@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kMaxBracketSearch = 4096;
 /// Maximum number of searches in a text.
 inline constexpr std::uint32_t kMaxBracketSearches = 1000;
 
-/// The first `)` of the statement after `at` without its `(` after `at`.
+/// The first `)` after `at` in the statement whose `(` is not after `at`.
 [[nodiscard]] std::optional<std::uint32_t> unmatched_parenthesis(std::string_view text,
                                                                  std::uint32_t at);
 

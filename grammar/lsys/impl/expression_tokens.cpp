@@ -120,8 +120,8 @@ void report_conditional(ParseSession& session, TextRange word) {
     }
 }
 
-/// Whether the fix must be a comma between two values. Several blanks may be the place of a lost
-/// operator, and equal values may be a repetition.
+/// Whether a comma is the certain fix between two values. It is not if several blanks separate
+/// them, which may have held an operator, or if the values are equal, which may be a repetition.
 bool lacks_comma(std::string_view text,
                  std::uint32_t before_end,
                  std::uint32_t begin,
@@ -135,7 +135,7 @@ bool lacks_comma(std::string_view text,
               !is_word_character(before[before.size() - value.size() - 1])));
 }
 
-/// Whether `text` compares something outside of parentheses.
+/// Whether `text` is a condition: a comparison outside of parentheses, or `*`.
 bool compares(std::string_view text) {
     int depth = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
@@ -193,7 +193,7 @@ bool report_exchanged_parts(ParseSession& session) {
     return true;
 }
 
-/// Reports a name whose `(` is lost: values follow it, and a `)` closes nothing.
+/// Reports a name without its `(`: values follow the name, and a later `)` closes nothing.
 bool report_lost_open(ParseSession& session) {
     ScanState& scan = session.scan;
     if (!scan.name_before || scan.bracket_searches++ >= kMaxBracketSearches) {

@@ -37,7 +37,8 @@ namespace lsys {
 [[nodiscard]] bool is_setting(std::string_view word);
 /// The key of `#set` with the nearest name.
 [[nodiscard]] std::optional<std::string_view> nearest_setting(std::string_view word);
-/// The keyword that stands here for a word of another program, if it is one alone.
+/// The .lsys keyword for a word of another program; nullopt if the equivalent is more than a
+/// keyword.
 [[nodiscard]] std::optional<Keyword> keyword_of(const Synonym& synonym);
 /// The keyword with the nearest name.
 [[nodiscard]] std::optional<Keyword> nearest_keyword(std::string_view word);

@@ -129,8 +129,8 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
 
 namespace {
 
-/// The `//` before the current character, on its line and among the same modules, with a blank
-/// behind it, as comments have.
+/// The `//` that may have been meant as a comment around the current character: before it, on its
+/// line, in the same module list, and followed by a blank.
 std::optional<std::uint32_t> comment_before(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -223,7 +223,7 @@ StrayHandling report_extra_parenthesis(ParseSession& session) {
         may_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
     if (branch) {
         report_missing_open(session, scan.begin, branch);
-        // No head has such a branch.
+        // In a head, reading the `)` as `]` would make a branch of the predecessor: illegal.
         return scan.part == Part::Head ? StrayHandling::Discard : StrayHandling::ReadAsModule;
     }
     if (character_before(text, scan.begin) != ')') {

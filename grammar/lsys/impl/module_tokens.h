@@ -38,7 +38,8 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
 void report_unclosed_back_quote(ParseSession& session);
 Token unclosed_quote(ParseSession& session);
 
-/// Length of the run in `text`, a run and a `*`: without the `/` of a comment.
+/// Length of the run in `text`, which is a run followed by `*`. A `/` before the `*` begins a
+/// comment and is no part of the run.
 [[nodiscard]] int run_before_star(std::string_view text);
 
 /// Reports control characters, once per sequence, and reads them as a blank.

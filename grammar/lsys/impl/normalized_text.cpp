@@ -314,7 +314,8 @@ void normalize_quoted(ParseSession& session, std::string_view text) {
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
         if (confusable != nullptr && !is_translation) {
             record_stray(session, begin, true);
-        } else if (confusable != nullptr && point.value > 0xA0) { // a blank is no name
+            // U+00A0 and the characters below are blanks or controls, not names.
+        } else if (confusable != nullptr && point.value > 0xA0) {
             report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
                                       point.value, *confusable);
         }

@@ -19,8 +19,8 @@ constexpr std::string_view kSuperscript = "superscript";
 constexpr std::string_view kFraction = "fraction";
 constexpr std::string_view kDegreeSign = "degree sign";
 
-/// The decimals of a fraction behind a whole number, `1` and a third: `.3333333`, as many as
-/// binary32 keeps.
+/// The decimals of a fraction character after a whole number: `.3333333` for one third, with the
+/// digits that binary32 keeps.
 std::string_view decimals_of(std::string_view fraction) {
     return fraction == "(1/3)"   ? ".3333333"
            : fraction == "(2/3)" ? ".6666667"
@@ -53,7 +53,7 @@ std::string normalized_form(char32_t point) {
 }
 
 void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
-    // The replacement of a letter is less than twice as long, and offsets have 32 bits.
+    // Offsets have 32 bits, and replacing letters makes a text less than twice as long.
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
@@ -169,7 +169,7 @@ void Normalizer::report_unknown(std::uint32_t begin, const CodePoint& point) {
     std::uint32_t first = begin;
     std::uint32_t end = begin + point.length;
     if (is_letter) {
-        constexpr std::uint32_t kMaxWordLength = 64; // for the message
+        constexpr std::uint32_t kMaxWordLength = 64; // limits the word that the message quotes
         while (first > 0 && begin - first < kMaxWordLength && is_word_at(first - 1)) {
             --first;
         }

@@ -117,7 +117,8 @@ private:
     CheckedDiagnostics checked_;
     PartDiagnostics part_diagnostics_;
     std::size_t line_search_end_ = 0;
-    std::size_t line_first_ = std::string_view::npos; // first character that is not blank
+    // First character that is not a blank on the line searched last; npos: none.
+    std::size_t line_first_ = std::string_view::npos;
 };
 
 } // namespace lsys

@@ -93,7 +93,7 @@ struct ScanState {
     bool name_before = false;                   // the last token is a name in an expression
     LocalPlace local_place = LocalPlace::Value; // what is next in Part::Locals
     std::uint32_t statement_begin = 0;
-    std::optional<std::uint32_t> colons; // of the statement, once counted
+    std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted
     std::size_t first_diagnostic = 0;    // of the statement, as an index of the diagnostics
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
@@ -109,7 +109,8 @@ struct ScanState {
     Insertion inserting = Insertion::None;
     SourceSpan pending_span;       // of the written `:` or `;` that follows the inserted tokens
     std::uint32_t control_end = 0; // end of the last control character
-    std::uint32_t bracket_searches = 0; // of the text, see bracket_search.h
+    // Count in this text; limited by kMaxBracketSearches (bracket_search.h).
+    std::uint32_t bracket_searches = 0;
 
     void enter(Part next) {
         part = next;

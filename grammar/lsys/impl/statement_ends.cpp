@@ -50,7 +50,8 @@ bool occurs_elsewhere(std::string_view text,
     return false;
 }
 
-/// Whether a word of `text`[begin, end) occurs nowhere else, and so is not a module.
+/// Whether a word of `text`[begin, end) occurs nowhere else in the text; such a word is not the
+/// name of a module.
 bool has_foreign_word(std::string_view text, std::size_t begin, std::size_t end, bool letters) {
     if (text.size() > kMaxSearchedText) {
         return false;

@@ -13,7 +13,8 @@ namespace lsys::lsys_grammar {
 /// A `//` among modules that may be meant as a comment to the end of its line.
 struct LikelyComment {
     std::uint32_t begin = 0;
-    /// Whether a word of the comment occurs nowhere else in the text, and so is not a module.
+    /// Whether a word of the comment occurs nowhere else in the text; such a word is not the name
+    /// of a module.
     bool certain = false;
 };
 

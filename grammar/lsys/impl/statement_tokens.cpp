@@ -130,7 +130,7 @@ Token setting_without_set(ParseSession& session, std::string_view word) {
     return begin_parts(session, spelling(Keyword::Set), word.front());
 }
 
-/// The key of the `#set` statement that stands here for `word`; empty: none.
+/// The key of the `#set` statement that replaces a word of another program; empty if there is none.
 std::string_view meant_setting(const Synonym* synonym) {
     constexpr std::string_view kSet = "#set ";
     return synonym != nullptr && synonym->spelling.starts_with(kSet)
@@ -493,7 +493,7 @@ Token colon_after_modules(ParseSession& session) {
 
 namespace {
 
-/// The part behind the `:` that ends at scan.end.
+/// The part after the `:` that ends at scan.end.
 Part part_after_colon(const ParseSession& session) {
     const ScanState& scan = session.scan;
     switch (scan.part) {
@@ -554,8 +554,8 @@ std::optional<Token> local_value_token(ParseSession& session, std::string_view t
 
 namespace {
 
-/// The number of `:` that the production lacks behind the current `;` if it stands for one; none:
-/// the `;` ends the statement.
+/// The number of `:` that must follow the current `;` if the `;` is a mistyped `:`; nullopt if the
+/// `;` ends the statement.
 std::optional<std::ptrdiff_t> colons_after_semicolon(const ScanState& scan) {
     if (!scan.open.empty() || scan.skipping) {
         return std::nullopt;
@@ -578,7 +578,8 @@ std::optional<std::ptrdiff_t> colons_after_semicolon(const ScanState& scan) {
     }
 }
 
-/// Whether the condition before the current `;` is one, so that only a successor can follow.
+/// Whether the text before the current `;` is surely a condition, so that only a successor can
+/// follow.
 bool has_condition_before(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view condition =
@@ -587,7 +588,7 @@ bool has_condition_before(const ParseSession& session) {
            condition.find_first_not_of(" \t\r\n*") == std::string_view::npos;
 }
 
-/// The current `;` as the `:` that is meant; none: it ends the statement.
+/// The `:` token if the current `;` is a mistyped `:`; nullopt if the `;` ends the statement.
 std::optional<Token> semicolon_for_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -604,7 +605,7 @@ std::optional<Token> semicolon_for_colon(ParseSession& session) {
         add_fix(diagnostic, "write `:`", span, ":", true);
     }
     const SourceSpan span = session.token();
-    scan.colons = 3; // with those behind this one
+    scan.colons = 3; // includes the `:` after this `;`
     if (scan.part == Part::Opening) {
         after_opening_colon(session);
     } else {
@@ -859,7 +860,8 @@ bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
            has_plain_head(session);
 }
 
-/// Reports a production of three parts at its first module that cannot stand in a condition.
+/// Reports a production of three parts, whose condition is missing. The current character is the
+/// first that cannot stand in a condition.
 bool report_missing_condition(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

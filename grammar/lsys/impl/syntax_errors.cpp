@@ -110,7 +110,7 @@ bool is_attribute(const ParseSession& session) {
            is_letter(text[scan.end]);
 }
 
-/// Explains `random.uniform(1, 2)`: what stands here for the word behind the `.`.
+/// Explains `random.uniform(1, 2)`: adds the .lsys equivalent of the word after the `.`.
 void explain_attribute(const ParseSession& session, Diagnostic& diagnostic) {
     const std::string_view word = leading_word(session.scanned.text.substr(session.scan.end));
     const Synonym* const synonym = find_synonym(SynonymKind::Function, word);

@@ -8,7 +8,7 @@
 
 namespace lsys::lsys_grammar {
 
-/// `expected`: all tokens allowed at `place` instead of `token`.
+/// Reports the unexpected `token`. `expected`: all tokens allowed at `place` instead of it.
 void report_unexpected_token(ParseSession& session,
                              Parser::symbol_kind_type token,
                              SourceSpan place,

@@ -159,8 +159,9 @@ constexpr std::size_t kReach = std::size_t{4} * kMaxColumns;
 /// The text after edits of adjoining lines.
 struct Preview {
     std::string text;
-    std::vector<std::pair<std::size_t, std::size_t>> added; // new bytes of `text`
-    std::vector<char> characters;                           // `+` or `~` under each of them
+    // Ranges [first, last) of new bytes in `text`.
+    std::vector<std::pair<std::size_t, std::size_t>> added;
+    std::vector<char> characters; // `+` or `~` under each of them
     bool more_before = false;
     bool more_after = false;
 };
@@ -288,7 +289,7 @@ void append_fix(const Fix& fix,
         };
         bool cut = false;
         while (last < edits.size() && joins(*edits[last])) {
-            // Further edits of a very long line lie outside the excerpt.
+            // Edits further than kReach from the first lie outside the excerpt of a very long line.
             cut = cut || edits[last]->span.begin - edits[first]->span.begin > kReach;
             last_line = file.line_column(edits[last]->span.end).line;
             ++last;

@@ -34,7 +34,7 @@ bool Chooser<C>::condition(const Candidate& candidate,
     return true;
 }
 
-/// The value of the code of a candidate at `first`.
+/// Evaluates the expression of a candidate at instruction `first`. Returns false on a fault.
 template <typename C>
 bool Chooser<C>::evaluate_for(const Candidate& candidate,
                               std::uint32_t first,
@@ -47,7 +47,7 @@ bool Chooser<C>::evaluate_for(const Candidate& candidate,
            blame(candidate, false);
 }
 
-/// Notes that fault_ is that of a candidate; returns false.
+/// Records the candidate to which fault_ belongs. Returns false.
 template <typename C>
 bool Chooser<C>::blame(const Candidate& candidate, bool in_weight) {
     faulty_candidate_ = static_cast<std::uint32_t>(&candidate - &plan_.candidate(0));
@@ -55,7 +55,7 @@ bool Chooser<C>::blame(const Candidate& candidate, bool in_weight) {
     return false;
 }
 
-/// The weight of a candidate that matches, added to `sum`.
+/// Computes the weight of a matching candidate and adds it to `sum`. Returns false on a fault.
 template <typename C>
 bool Chooser<C>::weight(const Candidate& candidate,
                         const ModulePlace& place,
@@ -124,7 +124,7 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     return true;
 }
 
-/// The stochastic choice among the group of candidate `first`, which is known to match.
+/// The stochastic choice among the candidates in the group of `first`, which is known to match.
 template <typename C>
 bool Chooser<C>::choose_among(const Family& family,
                               std::uint32_t first,

@@ -15,7 +15,7 @@
 
 namespace lsys {
 
-/// No such module.
+/// Index of a module that does not exist.
 inline constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
 /// The role of a code in a context search.

@@ -24,11 +24,12 @@ struct CountResult {
     ModulePlace end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
-    bool fault = false; // a condition of the module at `end` has no finite value
+    bool fault = false; // a condition or weight of the module at `end` is at fault
 };
 
 /// Writes a record (R: uint8_t or uint32_t, as Plan::record_width says) for each module whose row
-/// is not Fixed; with a predecessor of several modules, for each match and each miss.
+/// is not Fixed; with a predecessor of several modules, one for each match and one for each module
+/// without a match.
 template <typename C, typename R>
 [[nodiscard]] CountResult count_modules(const Plan& plan,
                                         Chooser<C>& chooser,

@@ -37,7 +37,7 @@ namespace {
 
 constexpr std::uint32_t kUsualSlots = 32;
 
-/// The domain of numbers.
+/// The Domain of interpret() whose values are numbers.
 struct Numbers : UnknownDomain<float> {
     static constexpr bool kKnowsChoices = true;
 

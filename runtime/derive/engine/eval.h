@@ -70,7 +70,7 @@ struct EvalFault {
     std::uint32_t instruction = 0;
     float value = 0.0F;   // for NotFinite and NegativeWeight
     float minimum = 0.0F; // for faults of ranges; the first argument of a distribution
-    float maximum = 0.0F; // its second argument
+    float maximum = 0.0F; // the second argument of a distribution
 };
 
 /// The fault of the range `{minimum, maximum}`; None if it can be drawn from.
@@ -78,7 +78,7 @@ struct EvalFault {
 
 /// Runs the instructions from `first` to End. Operands of Emit and Test are appended at `out`, in
 /// order. On failure returns false with the cause in `fault` and the earlier values in `out`.
-/// `draws` may be null where no range occurs.
+/// `draws` may be null if there is no random range, distribution or branch.
 [[nodiscard]] bool evaluate(const Bytecode& bytecode,
                             std::uint32_t first,
                             const EvalFrame& frame,

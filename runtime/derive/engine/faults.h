@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// What a fault says of its error; the production and module at fault are to be set.
+/// The error of a fault, without production and module, which the caller sets.
 [[nodiscard]] RuntimeError error_of(const Bytecode& bytecode, const EvalFault& fault);
 
 /// The first fault among the modules from `begin` to `end`; a match of several modules may reach

@@ -21,7 +21,7 @@ namespace lsys {
 /// The steps between levels: generations of rewriting, and passes of a later stage over the word of
 /// each age.
 struct LevelSteps {
-    const Plan* rewriting = nullptr; // may be null for a single generation
+    const Plan* rewriting = nullptr; // may be null if first_age is last_age
     const Plan* passes = nullptr;    // plan of a later stage; null: `depth` is 0
     std::uint64_t seed = 0;
     std::uint32_t first_age = 0;

@@ -18,8 +18,8 @@ namespace {
 
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// Modules of the shortest word that all threads count faster than the census, after which one
-/// thread writes in order.
+/// Modules of the shortest word for which counting on all threads is faster than the census, after
+/// which one thread writes in order.
 constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;

@@ -69,7 +69,8 @@ struct Row {
     bool slow = false;  // entries read the parameters of a folded module
 };
 
-/// The productions that are tried for a module, in file order: all of its symbol, or of one rule.
+/// The productions that are tried for a module, in file order: all those of its symbol, or in a
+/// pass of one rule those of the rule.
 struct Family {
     std::uint32_t first = 0; // in candidates
     std::uint32_t count = 0;

@@ -69,7 +69,8 @@ void Plan::shape_condition(Candidate& candidate) {
 
 void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    // Ranges in slots may be at fault where no argument uses them.
+    // A random range of a local value can be at fault even if no argument uses the value, so all
+    // are evaluated.
     const bool has_drawn_locals = bytecode_.local_count != 0 && successor.draw_count != 0;
     entry.general = has_drawn_locals;
     entry.reads_own = false;

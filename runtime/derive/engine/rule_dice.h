@@ -1,6 +1,6 @@
 // RuleDice: the draws of `choice generation` under `random glibc`: one call of rand() per rule and
-// generation, in order, whether the rule has a choice or not. Alternative rand() mod c of c is
-// taken.
+// generation, in order, whether the rule has a choice or not. Of c alternatives, number rand() mod
+// c is taken.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -146,7 +146,7 @@ private:
         return true;
     }
 
-    /// The values of the formals; `formals_` holds them.
+    /// The inputs of the expressions of an attempt; `formals_` holds the values of the formals.
     TracedFrame frame_of(const Attempt& attempt) {
         const BytecodeProduction& tried = production_of(attempt);
         formals_.assign(std::max(tried.formal_count, 1U), 0.0F);

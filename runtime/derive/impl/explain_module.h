@@ -1,5 +1,5 @@
 // The decision about one module in one pass, read from docs/language.md sections 5 and 6: every
-// production that has its name, the choice among several, and the successor.
+// production for modules of its name, the choice among several, and the successor.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// What a pass reads; `word` is its input.
+/// The input of a pass; `word` is the word that it rewrites.
 struct TracedPass {
     const Bytecode& bytecode;
     const TraceInputs& inputs;

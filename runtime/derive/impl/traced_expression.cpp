@@ -21,7 +21,7 @@ namespace {
 /// Longer texts of expressions are cut.
 constexpr std::size_t kMaxText = 160;
 
-/// How tightly an operation binds (docs/language.md section 4).
+/// Precedence of an operation, ascending (docs/language.md section 4).
 enum class Binding : std::uint8_t { Or, And, Equal, Less, Add, Multiply, Unary, Power, Leaf };
 
 struct Infix {
@@ -80,7 +80,7 @@ struct Shown {
     float number = 0.0F;
     std::string text;
     Binding binding = Binding::Leaf;
-    bool is_new_slot = true; // of a slot: it has no name yet
+    bool is_new_slot = true; // of a slot that has just been set: it has no name yet
     bool is_truth = false;   // a comparison or a logical operation
 };
 
@@ -96,7 +96,7 @@ Shown leaf(float number, std::string text) {
     return {number, std::move(text), Binding::Leaf};
 }
 
-/// The value of an operand of `&&`, `||` or `!`: a truth if it is one.
+/// The value of an operand of `&&`, `||` or `!`: `true` or `false` if it is a truth value.
 std::string truth_text(const Shown& shown) {
     if (!shown.is_truth) {
         return number_text(shown.number);
@@ -113,7 +113,7 @@ Binding tighter(Binding binding) {
     return static_cast<Binding>(static_cast<std::uint8_t>(binding) + 1);
 }
 
-/// The domain of numbers with texts.
+/// The Domain of interpret() whose values are numbers with their texts.
 struct ShownNumbers : UnknownDomain<Shown> {
     static constexpr bool kKnowsChoices = true;
 
@@ -131,8 +131,8 @@ struct ShownNumbers : UnknownDomain<Shown> {
     std::vector<Shown> taken;
     std::string fault;
 
-    /// Gives slots of local values that were just set their names. Others are arguments of
-    /// functions.
+    /// Names the slots of local values that the last instruction has set. Other slots hold
+    /// arguments of functions.
     bool enter() {
         const std::size_t named =
             frame.names == nullptr || !has_locals ? 0 : frame.names->locals.size();
@@ -198,7 +198,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
             return call(info(opcode).mnemonic, {&x, &y}, number);
         }
         const bool chains =
-            infix.binding != Binding::Equal && infix.binding != Binding::Less; // from left to right
+            infix.binding != Binding::Equal && infix.binding != Binding::Less; // `a - b - c`
         const bool to_right = infix.binding == Binding::Power;
         const Binding next = tighter(infix.binding);
         const std::string sign = " " + std::string(infix.sign) + " ";
@@ -220,7 +220,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         return call("mix", {&x, &y, &t}, arithmetic::mix(x.number, y.number, t.number));
     }
     bool holds(const Shown& x) {
-        if (!x.is_truth) { // else it is a part of its own
+        if (!x.is_truth) { // a truth value is a part already
             parts.push_back({"if(" + x.text + ", ...)", "if(" + number_text(x.number) + ", ...)",
                              x.number != 0.0F ? 1.0F : 0.0F, true});
         }
@@ -280,7 +280,8 @@ struct ShownNumbers : UnknownDomain<Shown> {
         return fault.empty();
     }
 
-    /// The local values that are leaves, which no code computes. Others come before them.
+    /// Adds the local values that are leaves, such as a literal or a formal, which no code
+    /// computes. Called after run(), which adds the others.
     void add_leaves() {
         const std::size_t named = frame.names == nullptr ? 0 : frame.names->locals.size();
         for (std::size_t i = 0; i < named; ++i) {

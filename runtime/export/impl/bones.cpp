@@ -15,11 +15,12 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlaceTolerance = 1e-5; // of the plant's size, at which no more joints are made
-// By which a key left out may move the plant, as part of the greatest way in the clip.
+constexpr double kPlaceTolerance = 1e-5; // of the plant's size: smaller errors need no joints
+// Max displacement of the plant by leaving out a key, relative to the max displacement of a tip in
+// the clip.
 constexpr double kKeyTolerance = 2e-3;
 constexpr double kMaxKeyAngle = 0.01;     // rad
-constexpr std::uint32_t kMaxSamples = 16; // frames that decide where cuts go
+constexpr std::uint32_t kMaxSamples = 16; // frames in which errors are measured
 constexpr std::uint32_t kNoBone = ~std::uint32_t{0};
 constexpr int kFitRounds = 4;
 
@@ -37,7 +38,7 @@ Rigid place_of(const SegmentPlace& place) {
     return {glm::normalize(glm::dquat(place.frame)), glm::dvec3(place.base)};
 }
 
-/// Motion from `from` to `to`, in the world.
+/// The rigid motion that takes `from` to `to`, in world coordinates.
 Rigid motion(const Rigid& from, const Rigid& to) {
     const glm::dquat turn = to.turn * glm::conjugate(from.turn);
     return {turn, to.place - turn * from.place};
@@ -67,7 +68,7 @@ Tree tree_of(const Skeleton& plant) {
         tree.next_sibling[i] = tree.first_child[parent];
         tree.first_child[parent] = i;
         tree.sizes[parent] += tree.sizes[i];
-        // Where branches are as thick, the one in fewer brackets continues.
+        // Of equally thick children the one in fewer brackets continues the segment.
         std::uint32_t& thickest = tree.thickest[parent];
         const Segment& child = plant.segments[i];
         if (thickest == kNoSegment || child.base_radius > plant.segments[thickest].base_radius ||
@@ -93,8 +94,8 @@ public:
         start_ = animation.frame(0);
     }
 
-    /// Segments at which pieces begin, rising; pieces move to within `tolerance` or are
-    /// `max_pieces`.
+    /// The segments at which pieces begin, ascending. Cuts until each piece moves rigidly to within
+    /// `tolerance` metres, or until there are `max_pieces`.
     std::vector<std::uint32_t> run(double tolerance, std::uint32_t max_pieces) {
         pieces_.push_back({kNoSegment, kNoSegment, 0.0});
         for (std::uint32_t i = 0; i < owners_.size(); ++i) {
@@ -123,9 +124,9 @@ public:
 
 private:
     struct Piece {
-        std::uint32_t root = kNoSegment; // kNoSegment: stands still
-        std::uint32_t worst = kNoSegment;
-        double error = 0.0; // m, of the tip of `worst`
+        std::uint32_t root = kNoSegment;  // kNoSegment: the piece that stands still
+        std::uint32_t worst = kNoSegment; // segment with the largest error
+        double error = 0.0;               // m, of the tip of `worst`
     };
 
     [[nodiscard]] glm::dvec3 tip(std::uint32_t segment,
@@ -148,7 +149,7 @@ private:
         return std::sqrt(most);
     }
 
-    /// Gives the part of the piece of `top` that is at or behind it to `piece`.
+    /// Moves `top` and its descendants in the same piece to `piece`, and measures their errors.
     void measure(std::uint32_t top, std::uint32_t piece) {
         const std::uint32_t before = owners_[top];
         std::vector<Rigid> moves;
@@ -183,19 +184,21 @@ private:
         }
     }
 
-    /// Cuts a piece on the way to its worst segment, where the errors of both parts are alike.
+    /// Cuts a piece on the path from its root to its worst segment, where the errors of both parts
+    /// are about equal.
     void cut(std::uint32_t piece) {
         const std::uint32_t root = pieces_[piece].root;
         const std::uint32_t worst = pieces_[piece].worst;
-        std::vector<std::uint32_t> way; // from the worst segment down
+        std::vector<std::uint32_t> way; // path from the worst segment to the root
         for (std::uint32_t at = worst; at != kNoSegment && at != root; at = tree_.parents[at]) {
             way.push_back(at);
         }
-        if (way.empty()) { // rounding far from the origin
+        if (way.empty()) { // the error is one of rounding, far from the origin
             pieces_[piece].error = 0.0;
             return;
         }
-        // Nearer to the root, the error behind the cut grows and the one before it sinks.
+        // The nearer the cut is to the root, the larger is the error of the part behind it, and the
+        // smaller that of the part before it.
         std::size_t low = 0;
         std::size_t high = way.size() - 1;
         while (low < high) {
@@ -239,14 +242,15 @@ private:
     std::vector<std::uint32_t> open_;
 };
 
-/// A point of a piece, which its joint is to take to its places.
+/// A point of a piece, which the joint of the piece should move to its place in each frame.
 struct FitPoint {
     std::uint32_t segment = 0;
-    bool is_base = false; // of the segment, else its tip
+    bool is_base = false; // the point is the base of the segment, else its tip
     double weight = 1.0;
 };
 
-/// The rotation about `centre`, moved to `target`, that takes points nearest to their places.
+/// The rotation that takes `arms` nearest to `targets` by weighted least squares, found from
+/// `start` on. Both are relative to the joint.
 glm::dquat fitted(const glm::dquat& start,
                   std::span<const glm::dvec3> arms,
                   std::span<const glm::dvec3> targets,
@@ -261,7 +265,8 @@ glm::dquat fitted(const glm::dquat& start,
             matrix += weights[i] * (glm::dmat3(square) - glm::outerProduct(arm, arm));
             torque += weights[i] * glm::cross(arm, targets[i] - arm);
         }
-        // Keeps the twist of points on a line, which they do not tell.
+        // Damping: points on a line do not determine the twist about the line, which then stays as
+        // it is.
         const double trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
         if (!(trace > 0.0)) {
             break;
@@ -273,8 +278,8 @@ glm::dquat fitted(const glm::dquat& start,
     return turn;
 }
 
-/// Frames that need keys: between two the interpolated rotation is within `half_sine` of half an
-/// angle.
+/// Frames that need keys, so that rotations interpolated between keys are off by at most the angle
+/// whose half has the sine `half_sine`. Empty: the rotation never changes.
 std::vector<std::uint32_t> keys_of(std::span<const glm::quat> rotations, double half_sine) {
     const auto is_near = [half_sine](const glm::dquat& a, const glm::dquat& b) {
         const glm::dquat turn = glm::conjugate(a) * b;
@@ -377,8 +382,8 @@ private:
         return moves_[std::size_t{joint} * animation_.frame_count + frame];
     }
 
-    /// Turns a joint in each frame so that its piece, and the joints that hang on it, are nearest
-    /// to their places.
+    /// Turns a joint in each frame so that its piece, and the joints that are its children, are
+    /// nearest to their places.
     void fit(std::uint32_t joint) {
         Bone& bone = bones_.joints[joint];
         const std::vector<FitPoint>& points = points_[joint];
@@ -500,7 +505,7 @@ private:
             const std::uint32_t parent = tree_.parents[i];
             const BoneWeights at_parent =
                 parent == kNoSegment ? BoneWeights{{0}, {1.0F}} : bones_.segments[parent][1];
-            if (joint == 0 || along[i] < 0.0) { // still, or goes rigidly with the place it leaves
+            if (joint == 0 || along[i] < 0.0) { // stands still, or is no part of the axis: rigid
                 bones_.segments[i] = {at_parent, at_parent};
                 continue;
             }
@@ -514,7 +519,8 @@ private:
         }
     }
 
-    /// Weights at `along` metres of the axis of a piece that grows from a place with `root`.
+    /// Weights at `along` metres from the start of the axis of a piece. `root`: the weights at the
+    /// place that the piece grows from.
     static BoneWeights weights_on(std::span<const Axis> axes,
                                   std::uint32_t joint,
                                   double along,
@@ -545,11 +551,11 @@ private:
     const Skeleton& plant_;
     const Tree& tree_;
     const PlantAnimation& animation_;
-    double way_ = 0.0; // m, greatest of a tip in the clip
+    double way_ = 0.0; // m, max displacement of a tip in the clip
     Bones bones_;
     std::vector<std::uint32_t> owners_; // joint of each segment
     std::vector<std::vector<FitPoint>> points_;
-    std::vector<Rigid> moves_; // joint by joint
+    std::vector<Rigid> moves_; // by joint, then by frame
 };
 
 double size_of(const Skeleton& plant) {

@@ -18,8 +18,8 @@
 
 namespace lsys {
 
-/// Joints of a place and their weights, the greatest first; the weights add up to 1. Unused ones
-/// have weight 0 and joint 0.
+/// Joints that move a point and their weights, the greatest first; the weights add up to 1. Unused
+/// ones have weight 0 and joint 0.
 struct BoneWeights {
     std::array<std::uint16_t, 4> joints{};
     std::array<float, 4> weights{};
@@ -34,8 +34,8 @@ struct Bone {
     glm::vec3 translation{0.0F}; // relative to the parent
     /// Relative to the parent, in all frames; consecutive ones have a positive dot product.
     std::vector<glm::quat> rotations;
-    /// Frames with a key, rising; the rotations between two follow from them. Empty: the rotation
-    /// never changes.
+    /// Frames with a key, ascending; rotations between two keys are interpolated. Empty: the
+    /// rotation never changes.
     std::vector<std::uint32_t> keys;
 };
 
@@ -45,13 +45,14 @@ struct Bones {
     std::vector<std::array<BoneWeights, 2>> segments;
     const Skeleton* plant = nullptr; // in the first frame
 
-    /// Weights of a vertex at `position` in the first frame that hangs on `bound`.
+    /// Weights of a vertex that is bound to the segments `bound`, at `position` in the first frame.
     [[nodiscard]] BoneWeights weights_of(const VertexSegments& bound,
                                          const glm::vec3& position) const;
 };
 
-/// At most `max_joints` joints, at least 2: each cut goes where the greatest distance of a segment
-/// from its place is. `plant` is the first frame of `animation`, and outlives the result.
+/// Makes at most `max_joints` joints, joint 0 included. Each cut divides the piece that has the
+/// segment farthest from its place. Precondition: `max_joints` is at least 2. `plant` is the first
+/// frame of `animation`, and outlives the result.
 [[nodiscard]] Bones
 make_bones(const Skeleton& plant, const PlantAnimation& animation, std::uint32_t max_joints);
 

@@ -17,15 +17,17 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kSides = 8; // of a cross-section
-/// Max distance of joints from the chord of a piece, in radii and of the size of the plant.
+/// Max distance of joints from the chord of a piece: the larger of kBendRadii times its thinnest
+/// radius and kBendSize times the size of the plant.
 constexpr float kBendRadii = 1.0F;
 constexpr float kBendSize = 0.01F;
-/// Max ratio of the radii in a piece, and difference that never matters, of the size of the plant.
+/// Max ratio of the radii in a piece. A difference of kTaperSize times the size of the plant is
+/// always allowed.
 constexpr float kTaper = 1.6F;
 constexpr float kTaperSize = 0.002F;
-constexpr double kShare = 0.9; // of the area of all pieces
+constexpr double kShare = 0.9; // of the area of all pieces, which shapes cover
 constexpr std::size_t kFewest = 10;
-/// Engines take hulls of at most 255 triangles: 2 * 128 - 4.
+/// Engines take hulls of at most 255 triangles; one of 128 vertices has 2 * 128 - 4.
 constexpr std::size_t kMaxRings = 128 / kSides;
 
 bool is_drawn(const Segment& segment) {
@@ -36,8 +38,8 @@ float mean_radius(const Segment& segment) {
     return 0.5F * (segment.base_radius + segment.tip_radius);
 }
 
-/// For each segment the next of its bough: of the linked children the thickest, then the longest,
-/// then the first.
+/// For each segment the next of its bough: of the linked children the thickest, then the one in
+/// fewest brackets, then the longest, then the first.
 std::vector<std::uint32_t> find_next(const Skeleton& skeleton) {
     const auto& segments = skeleton.segments;
     std::vector<std::uint32_t> next(segments.size(), kNoSegment);
@@ -98,8 +100,8 @@ private:
             std::size_t count = 1;
             std::size_t step = 1;
             bool growing = true;
-            // Runs grow by doubled steps, then by halved ones: not each of the pieces of a long
-            // axis is looked at from each of its segments.
+            // Steps double while the run fits, then halve (galloping search), so that is_even() is
+            // called a logarithmic number of times per run.
             while (step > 0) {
                 const bool fits =
                     first + count + step <= axis.size() && is_even(axis, first, count + step);
@@ -160,7 +162,8 @@ private:
     std::vector<BoughPiece> pieces_;
 };
 
-/// Two unit vectors across `axis` and each other, right-handed with it as the third.
+/// Two unit vectors at right angles to `axis` and to each other; with `axis` as the third they are
+/// right-handed.
 std::array<glm::vec3, 2> across(const glm::vec3& axis) {
     const glm::vec3 other =
         std::abs(axis.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
@@ -168,7 +171,7 @@ std::array<glm::vec3, 2> across(const glm::vec3& axis) {
     return {first, glm::cross(axis, first)};
 }
 
-/// cos and sin of the angles of a cross-section.
+/// cos and sin of the angle of corner `side` of a cross-section.
 glm::vec2 corner_of(std::size_t side) {
     constexpr double kHalf = std::numbers::sqrt2 / 2.0;
     constexpr std::array<double, kSides> kCosines{1, kHalf, 0, -kHalf, -1, -kHalf, 0, kHalf};
@@ -219,7 +222,7 @@ void make_capsule(const BoughPiece& piece, CollisionShape& shape) {
     }
 }
 
-/// The hull of the ends of segments, of at most kMaxRings of them.
+/// The hull of the cross-sections at the ends of segments, at most kMaxRings of them.
 void make_hull(const Skeleton& skeleton, const BoughPiece& piece, CollisionShape& shape) {
     std::vector<glm::vec3> points;
     const std::size_t joints = piece.segments.size() + 1;

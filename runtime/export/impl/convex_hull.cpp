@@ -1,7 +1,7 @@
 // Incremental hull (Preparata and Hong 1977; de Berg et al., "Computational Geometry", chapter 11):
-// a point outside replaces the triangles that it sees by a fan to the edge of what it sees. The
-// points have whole coordinates of at most 20 bits, so that six times the volume of a tetrahedron
-// fits into 64 bits.
+// a point outside replaces the triangles that it sees by a fan to their outer edge, the horizon.
+// The points have whole coordinates of at most 20 bits, so that six times the volume of a
+// tetrahedron fits into 64 bits.
 #include "runtime/export/impl/convex_hull.h"
 
 #include <glm/common.hpp>
@@ -109,8 +109,8 @@ private:
         return true;
     }
 
-    /// Extends the hull to a point. Of a hull that it lies outside of, it also sees the triangles in
-    /// whose planes it lies: no edge around what it sees is in line with it.
+    /// Extends the hull to the point `apex`. A point outside the hull also sees the triangles in
+    /// whose planes it lies, so that no edge of the horizon is in line with it.
     void add(std::uint32_t apex) {
         volumes_.clear();
         for (const Corners& triangle : triangles_) {

@@ -14,8 +14,8 @@ namespace {
 constexpr int kVertices = 34962;
 constexpr int kIndices = 34963;
 
-/// The view of an array of several slices, for which glTF asks for a stride; in buffer 0 or,
-/// decoded, in buffer 1.
+/// The view of an array of several slices, for which glTF asks for a stride; in buffer 0. That of a
+/// compressed array is in buffer 1, which holds decoded items.
 void put_array_view(JsonWriter& json, const ForestView& view) {
     const bool indices = view.array == GltfArray::Indices;
     const bool compressed = !view.compressed.empty();
@@ -32,7 +32,7 @@ void put_array_view(JsonWriter& json, const ForestView& view) {
     json.end();
 }
 
-/// The view of compressed transforms: items of instances, which are no vertices.
+/// The view of compressed transforms, without a target: items of instances are no vertices.
 void put_transform_view(JsonWriter& json, const ForestView& view) {
     json.object().member("buffer", 1).member("byteOffset", view.decoded_offset);
     json.member("byteLength", view.item_bytes());
@@ -80,7 +80,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
     put_extras(json);
     json.end();
     if (ground > 0) {
-        json.object().member("name", "ground").member("mesh", 0).end(); // positions are exact
+        json.object().member("name", "ground").member("mesh", 0).end(); // never quantised
     }
     std::uint64_t child = 1 + ground + cells;
     std::vector<bool> met(collisions_.size()); // as in for_each_collider()
@@ -88,7 +88,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
         json.array("children");
         std::uint64_t count = instanced() ? cell.group_count : cell.branches;
-        // Shapes of instances follow their trees, as nodes beside them.
+        // Nodes of collision shapes follow the node of their group, as its siblings.
         for (std::size_t i = 0; instanced() && !collisions_.empty() && i < cell.group_count; ++i) {
             const std::uint32_t instance = plan_.groups()[cell.first_group + i].instance;
             if (!(met[instance] && collides_once())) {

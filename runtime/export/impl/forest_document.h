@@ -45,8 +45,8 @@ struct ForestBlock {
     GltfForm form;
     std::vector<ForestView> attributes;
     ForestView wide_indices;    // 32 bits; no view without items
-    ForestView narrow_indices;  // 16 bits, likewise
-    std::size_t first_view = 0; // of the attributes; wide indices, narrow ones follow
+    ForestView narrow_indices;  // 16 bits; no view without items
+    std::size_t first_view = 0; // of the attributes; then wide, narrow indices
     bool coloured = false;      // vertices have colours of their own
 };
 
@@ -65,9 +65,9 @@ struct PackedTransforms {
     std::uint64_t group_count = 0;   // at least 1
     std::array<ForestView, 3> views; // translations, rotations, scales
 };
-/// Compresses the transforms `floats` of `groups`. Translations are rounded to the power of two at
-/// or below half a step of positions (the scale of an instance is its step in metres), rotations to
-/// 16 bits, scales to 16 bits of their number.
+/// Compresses the transforms `floats` of `groups`. Translations are rounded to multiples of the
+/// largest power of two up to half a step of positions (the scale of an instance is its step in
+/// metres), components of rotations to 16 bits, scales to 16 significant bits.
 [[nodiscard]] PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
                                                std::span<const float> floats,
                                                std::uint32_t threads);
@@ -81,7 +81,8 @@ public:
 
     [[nodiscard]] std::uint64_t data_bytes() const { return bytes_; }
     [[nodiscard]] std::uint64_t node_count() const;
-    /// Size of the buffer that exists when the arrays have been decoded; 0: there is none.
+    /// Size of buffer 1, the decoded items of compressed arrays (GltfFile::decoded_bytes); 0:
+    /// nothing is compressed.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
     /// Writes all members of the document but `buffers`.
     void put_members(JsonWriter& json) const;
@@ -101,7 +102,7 @@ private:
     /// Makes the shapes of collision of all instances in use.
     void add_collisions();
     /// Whether the shapes are written for the first tree of a hero only: Unreal Engine adds them to
-    /// the mesh.
+    /// the mesh, which all trees of the hero share.
     [[nodiscard]] bool collides_once() const {
         return info_.collision_names == CollisionNames::Unreal;
     }
@@ -110,12 +111,12 @@ private:
     /// of nodes.
     template <typename Visit>
     void for_each_collider(const Visit& visit) const;
-    /// Plans the views of a surface, without their places.
+    /// Plans the views of a surface, without their offsets in the buffer.
     void add_views(ForestSurface& surface);
     void compress_views();
     void compress_transforms();
     void place_views();
-    /// Gives a view its place behind the others.
+    /// Sets the offsets of a view, behind the views before it.
     void place(ForestView& view);
     /// Calls visit(surface, material of the mesh, view) for each view in order.
     template <typename Visit>
@@ -147,9 +148,9 @@ private:
     const ForestExportInfo& info_;
     ForestMaterials materials_;
     std::vector<ForestSurface> surfaces_;
-    std::vector<ItemGrid> grids_;           // of kinds
+    std::vector<ItemGrid> grids_;           // by kind
     std::vector<GltfCollision> collisions_; // by instance among all kinds; empty: there are none
-    std::vector<std::size_t> collision_meshes_; // numbers of the first mesh of each
+    std::vector<std::size_t> collision_meshes_; // number of the first mesh, by instance
     std::size_t first_collision_accessor_ = 0;
     std::size_t first_collision_view_ = 0;
     std::uint64_t collisions_offset_ = 0;
@@ -163,10 +164,10 @@ private:
     std::size_t view_count_ = 0;
     std::vector<std::string> images_;
     std::vector<PackedTransforms> packed_; // empty: transforms are floats
-    std::size_t transforms_view_ = 0;      // the first
+    std::size_t transforms_view_ = 0;      // the first one of transforms
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
-    std::uint64_t transforms_offset_ = 0; // of floats, else of the images
+    std::uint64_t transforms_offset_ = 0; // of transforms that are floats, else of the images
     std::uint64_t bytes_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };

@@ -111,7 +111,7 @@ void ForestDocument::add_collisions() {
             GltfCollision& made = collisions_[kind.first + i];
             made.shapes =
                 make_collision(skeleton_of(*kind.cache, kind.cache->instances[i]), shapes);
-            for (CollisionShape& shape : made.shapes) { // in the steps of the tree's positions
+            for (CollisionShape& shape : made.shapes) { // to grid items, like positions
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
                                        static_cast<double>(grid.step));
@@ -142,7 +142,7 @@ void ForestDocument::add_surface(std::size_t kind,
     }
     GltfForm form = form_of(info_.compression, bounds);
     if (kind == kNoKind) {
-        form.step = 0.0F; // steps of a wide ground would leave trees in the air
+        form.step = 0.0F; // quantised heights of a wide ground would leave trees in the air
     } else if (form.step > 0.0F) {
         grids_[kind] = {form.low, form.step};
     }
@@ -225,8 +225,9 @@ void ForestDocument::add_views(ForestSurface& surface) {
 
 namespace {
 
-/// The indices of a part, within its slice. For compression triangles come in the order of their
-/// last vertices: those of nested lists first, as if each slice were a mesh of its own.
+/// The indices of a part, within its slice. `ordered`, for compression: triangles are sorted by
+/// their highest index, so that those of nested lists come first, as if each slice were a mesh of
+/// its own.
 void read_indices(const ForestSurface& surface,
                   std::size_t number,
                   bool ordered,
@@ -243,7 +244,7 @@ void read_indices(const ForestSurface& surface,
     const auto last_of = [&](std::ptrdiff_t first) {
         return std::max({from[first], from[first + 1], from[first + 2]});
     };
-    LargeVector<std::uint32_t> places; // of the triangles of each last vertex
+    LargeVector<std::uint32_t> places; // of the triangles of each highest index
     places.assign(slice.vertex_count + 1, 0);
     for (std::ptrdiff_t i = 0; i + 2 < count; i += 3) {
         ++places[last_of(i) + 1];

@@ -1,5 +1,6 @@
 // Transforms of instances compressed by EXT_meshopt_compression (Khronos, vendor extension), whose
-// filters are written here: a filter of meshoptimizer rounds as the machine does.
+// filters are implemented here, because those of meshoptimizer round differently on different
+// machines.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_document.h"
 
@@ -20,7 +21,7 @@ void append(std::string& items, const T& value) {
     items.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// The power of two at or below a number, as an exponent.
+/// The exponent of the largest power of two that is not above `value`.
 int exponent_of(float value) {
     int exponent = 0;
     static_cast<void>(std::frexp(value, &exponent));
@@ -28,7 +29,7 @@ int exponent_of(float value) {
 }
 
 /// An item of the filter EXPONENTIAL: `value` rounded to a multiple of two to the power of
-/// `exponent`, or of the first greater one whose multiples reach so far.
+/// `exponent`, or of the first larger exponent with which the mantissa fits.
 std::uint32_t exponential_item(float value, int exponent) {
     exponent = std::clamp(exponent, -kMaxExponent, kMaxExponent);
     double steps = std::ldexp(static_cast<double>(value), -exponent);
@@ -42,8 +43,9 @@ std::uint32_t exponential_item(float value, int exponent) {
            (static_cast<std::uint32_t>(mantissa) & 0xFFFFFFU);
 }
 
-/// An item of the filter QUATERNION: the largest part is left out and made positive, the others
-/// are fractions of the root of a half; the last number has its place in the two lowest bits.
+/// An item of the filter QUATERNION: the largest component is made positive and left out, the
+/// others are fractions of the root of a half; the two lowest bits of the last number hold the
+/// index of the largest component.
 std::array<std::int16_t, 4> quaternion_item(std::span<const float> quaternion) {
     constexpr double kSteps = 32767.0;
     std::size_t largest = 0;

@@ -180,7 +180,8 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
             materials.of_ground.push_back(add_material(materials.samples, material));
         }
     }
-    finish_samples(materials.samples, textured, tangents); // species may have files of one name
+    // Makes names unique: species may have files of one name.
+    finish_samples(materials.samples, textured, tangents);
     return materials;
 }
 

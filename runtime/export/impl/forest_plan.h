@@ -30,7 +30,7 @@ struct ForestGroup {
 
 /// Consecutive trees of one cell: the unit of work of a thread.
 struct ForestPiece {
-    std::uint64_t first_tree = 0; // in the order of the plan
+    std::uint64_t first_tree = 0; // in the order of the plan: cell by cell
     std::uint64_t tree_count = 0;
     /// Pairs (instance, its count in earlier pieces of the cell) for the instances of this piece,
     /// sorted by instance.
@@ -46,7 +46,7 @@ struct ForestCell {
     std::size_t piece_count = 0;
     std::size_t first_group = 0;
     std::size_t group_count = 0;
-    std::uint64_t branches = 0; // with triangles
+    std::uint64_t branches = 0; // branch instances with triangles
 };
 
 class ForestPlan {
@@ -125,7 +125,7 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
 /// Distinct materials of a scene, and the numbers of the kinds' and the ground's materials among
 /// them.
 struct ForestMaterials {
-    Mesh samples; // no vertices; a part for each material
+    Mesh samples; // of material_samples.h: a part for each material
     std::vector<std::vector<std::uint32_t>> of_kinds;
     std::vector<std::uint32_t> of_ground;
 };

@@ -7,7 +7,8 @@ namespace lsys {
 
 namespace {
 
-/// Items of the heroes in one numbering: segments, then polygons, then objects.
+/// Calls visit(begin, end) for each run of items of an instance. One numbering has all items of the
+/// heroes: segments, then polygons, then objects.
 template <typename Visit>
 void for_each_run(const InstanceCache& cache, const Instance& instance, const Visit& visit) {
     const std::uint64_t segments = cache.skeleton.segments.size();
@@ -21,7 +22,7 @@ void for_each_run(const InstanceCache& cache, const Instance& instance, const Vi
 }
 
 /// For each used instance the innermost used one around it, kNone if there is none. Instances are
-/// numbered as they begin, so the enclosing ones have lower numbers.
+/// numbered in the order in which they begin, so enclosing instances have lower numbers.
 std::vector<std::uint32_t> find_parents(const ForestKind& kind, const ForestPlan& plan) {
     const InstanceCache& cache = *kind.cache;
     const Skeleton& heroes = cache.skeleton;
@@ -81,7 +82,7 @@ public:
 
 private:
     /// Adds the vertices of a part that the lists nested in its own do not have. `begin`: the place
-    /// of the first vertex of these lists.
+    /// in SlicedMesh::vertices of the first vertex of these lists.
     void add_part(std::size_t number, std::uint64_t begin, SliceBlock& block) {
         const MeshPart& part = mesh_.parts[number];
         LargeVector<std::uint32_t>& vertices = result_.vertices;
@@ -119,7 +120,8 @@ std::vector<PartList> nested_lists(const ForestKind& kind, const ForestPlan& pla
     const std::vector<std::uint32_t> parents = find_parents(kind, plan);
     const auto count = static_cast<std::uint32_t>(parents.size());
     const auto is_used = [&](std::uint32_t i) { return plan.uses()[kind.first + i] > 0; };
-    // Children of each instance as linked lists, by rising number; the last one: of no instance.
+    // Children of each instance as linked lists, by rising number; the last entry: instances
+    // without a parent.
     std::vector<std::uint32_t> first_child(count + std::size_t{1}, kNone);
     std::vector<std::uint32_t> next(count, kNone);
     for (std::uint32_t i = count; i-- > 0;) {

@@ -1,7 +1,7 @@
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
 // "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, relative
-// to its entry: orientations are half floats, whose rounding would displace vertices far from the
-// origin.
+// to the frame in which it begins: orientations are half floats, whose rounding would displace
+// vertices far from the origin.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -27,7 +27,7 @@ public:
           names_(usda_part_names(materials_.samples)) {}
 
     [[nodiscard]] const Mesh& material_samples() const { return materials_.samples; }
-    /// Writes the layer; as often as wanted.
+    /// Writes the layer. May be called several times.
     void write(PieceWriter& out) {
         out_ = &out;
         put_header();
@@ -156,8 +156,8 @@ private:
     }
 
     /// Writes each part of the transforms as an array of its own, by one pass over the trees; no
-    /// scales if all are 1, because readers of text take as long as it is large.
-    /// `place_digits`: digits behind the point of positions.
+    /// scales if all are 1, because the time to read text grows with its size. `place_digits`:
+    /// digits behind the point of positions.
     void put_branches(const ForestKind& kind, int place_digits) {
         bool scaled = false;
         put_array("int[] protoIndices", kind, [&](const BranchInstance& branch, char* at) {
@@ -180,7 +180,7 @@ private:
             return;
         }
         put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
-            // Six digits: a millionth.
+            // Six significant digits: an error of at most 5 millionths.
             const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);
             const std::string_view digits(at + 1, static_cast<std::size_t>(end - at - 1));
             *at = '(';

@@ -24,7 +24,7 @@ struct ExportJob {
 #include "runtime/export/formats.def"
 #undef LSYS_EXPORT_FORMAT
 
-/// A point or a direction of the mesh with the axis of the file.
+/// A point or a direction of the mesh in the axes of the file.
 [[nodiscard]] inline glm::vec3 turned(UpAxis up, const glm::vec3& v) {
     return up == UpAxis::Z ? glm::vec3(v.x, 0.0F - v.z, v.y) : v; // 0 - z avoids -0
 }

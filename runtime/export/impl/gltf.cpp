@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// A material for each primitive; those of a film share the ones of earlier shapes.
+    /// Numbers a material for each primitive; the shapes of a film share equal materials.
     void number_materials() {
         const std::vector<GltfPrimitive>& list = streams_.primitives.list;
         std::size_t count = 0;
@@ -93,7 +93,7 @@ private:
         }
     }
 
-    /// Whether positions have a node of their own that decodes them. Joints decode those of a skin.
+    /// Whether a node of its own decodes quantised positions. In a skin the joints decode them.
     [[nodiscard]] bool has_decoding_node() const {
         return streams_.forms.front().quantized() && motion_ == nullptr;
     }
@@ -152,7 +152,7 @@ private:
         json_.end();
     }
 
-    /// Meshes but those of the shapes of collision.
+    /// Number of meshes without those of collision shapes.
     [[nodiscard]] std::size_t mesh_count() const {
         return film_ != nullptr ? drawn_shapes(*film_).size() : 1;
     }
@@ -208,8 +208,8 @@ private:
         json_.end();
     }
 
-    /// The name of the mesh of a shape, and those of its targets, which glTF has no place for but
-    /// which readers look for here.
+    /// The names of the mesh of a shape and of its morph targets. glTF has no property for names of
+    /// targets; readers look for them in `extras.targetNames`.
     void put_target_names(std::uint32_t number) {
         const MeshFilm::Shape& shape = film_->shapes[number];
         json_.member("name", fmt::format("shape {}", number + 1));
@@ -301,7 +301,8 @@ Outcome<Contents> refused(Outcome<void> refusal) {
 Outcome<Contents> plan(const ExportJob& job) {
     const ExportInfo& info = job.info;
     Contents contents;
-    // Before the vertices are visited: most or all of them are in the file.
+    // A quick check with the min size of a vertex, before the vertices are visited: most or all of
+    // them are in the file.
     const std::uint64_t vertex_bytes = info.compression == ExportCompression::None       ? 24
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;

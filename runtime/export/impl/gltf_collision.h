@@ -22,7 +22,8 @@ struct GltfCollision {
     [[nodiscard]] std::uint64_t byte_count() const;
 };
 
-// Items of the arrays of the document; `first_...`: the number of the first one that is referred to.
+// Each function writes items of one array of the document. `first_...`: the number of the first
+// mesh, accessor or view that they refer to.
 void put_collision_nodes(JsonWriter& json, const GltfCollision& collision, std::size_t first_mesh);
 void put_collision_meshes(JsonWriter& json,
                           const GltfCollision& collision,
@@ -33,7 +34,7 @@ void put_collision_accessors(JsonWriter& json,
 /// `offset`: of the arrays in the buffer.
 void put_collision_views(JsonWriter& json, const GltfCollision& collision, std::uint64_t offset);
 
-/// Hands over the arrays.
+/// Writes the positions and indices of all shapes, padded to a multiple of 4 bytes.
 void write_collision(const GltfCollision& collision, const GltfSink& write);
 
 } // namespace lsys

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// A frame from which on a shape is there or not.
+/// A frame from which on a shape is shown or hidden.
 struct Switch {
     std::uint32_t frame = 0;
     bool shown = false;

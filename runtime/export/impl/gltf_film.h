@@ -1,6 +1,6 @@
 // The part of a glTF file that shows a film: a node and a mesh for each shape, whose vertices move
 // by morph targets, and an animation that shows one shape at a time (glTF 2.0, sections 3.7.2.2 and
-// 3.11). Target k of a mesh is frame k of its shape; the mesh itself is the last one.
+// 3.11). Target k of a mesh is frame k of its shape; the mesh itself is the last frame.
 #pragma once
 
 #include "runtime/export/impl/gltf_motion.h"
@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Counts of items in the arrays of the animation; all 0 for a single picture.
+/// Counts of items in the arrays of the animation; all 0 for a film of one frame.
 struct GltfFilmCounts {
     std::uint64_t times = 0;
     std::uint64_t scales = 0;
@@ -21,17 +21,18 @@ struct GltfFilmCounts {
 [[nodiscard]] GltfFilmCounts count_film_items(const MeshFilm& film);
 /// Times of the frames, then those at which each shape appears and disappears.
 void write_film_times(const MeshFilm& film, const GltfBytes& write);
-/// Scales at the latter times: 1 while a shape is there, else 0.
+/// Scales at the times at which shapes appear and disappear: 1 while a shape is shown, else 0.
 void write_film_scales(const MeshFilm& film, const GltfBytes& write);
 /// Weights of the targets of each shape, frame by frame.
 void write_film_weights(const MeshFilm& film, const GltfBytes& write);
 
 /// Shapes with something to draw. Only these have a mesh, in order from mesh 0 on, and a node.
 [[nodiscard]] std::vector<std::uint32_t> drawn_shapes(const MeshFilm& film);
-/// A node for each mesh. Without animation the last shape is there.
+/// A node for each mesh. Readers without animations show the last shape.
 void put_film_nodes(JsonWriter& json, const MeshFilm& film);
-/// Accessors: for each shape times and scales, then times and weights, as far as it has them. The
-/// views of times, scales and weights follow each other from `first_view` on, without empty ones.
+/// Accessors: for each shape times and scales, then times and weights, without those that have no
+/// items. The views of times, scales and weights follow each other from `first_view` on, without
+/// empty ones.
 void put_film_accessors(JsonWriter& json, const MeshFilm& film, std::size_t first_view);
 /// The member `animations`. `first_node`: of put_film_nodes(); `accessor`: the first of
 /// put_film_accessors().

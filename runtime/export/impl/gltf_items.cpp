@@ -14,12 +14,11 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
-// Bits of a position. Readers decode 16 bits into as many bytes as 14, but compressed they take
-// more.
+// Bits of a position. 14 bits compress to fewer bytes than 16; decoded, both take 2 bytes.
 constexpr unsigned kPositionBits = 16;
 constexpr unsigned kCompressedPositionBits = 14;
-// Bits of a texture coordinate: the fewest that keep a step within half a texel of our pictures,
-// which are 256 texels wide. Floats where 16 bits leave steps of more than 4 texels.
+// Bits of a texture coordinate: the fewest that keep a step within half a texel of the built-in
+// textures, which are 256 texels wide. Floats where 16 bits leave steps of more than 4 texels.
 constexpr unsigned kMinTextureBits = 12;
 constexpr unsigned kMaxTextureBits = 16;
 constexpr float kMaxTextureStep = 1.0F / 512.0F;
@@ -32,8 +31,8 @@ float max_value(unsigned bits) {
     return static_cast<float>((1U << bits) - 1U);
 }
 
-/// Rounds half up, the same on any machine; within whole bounds, where a cast is std::floor(), which
-/// old processors have to call.
+/// Rounds half up, the same on any machine. The clamped value is not negative, so that a cast
+/// rounds down; std::floor() is a function call on processors without SSE 4.1.
 std::uint16_t rounded(float value, float most) {
     return static_cast<std::uint16_t>(std::clamp(value + 0.5F, 0.0F, most));
 }
@@ -84,7 +83,7 @@ Item<std::uint16_t, 2> texture_item(const GltfTextureForm& form, const glm::vec2
         if (form.transform) {
             return steps;
         }
-        // All 16 bits, so that the highest step is 1.
+        // Without a transform the steps are scaled to 16 bits, so that the highest one reads as 1.
         return rounded(static_cast<float>(steps) * 65535.0F / most, 65535.0F);
     };
     return {item(0), item(1)};
@@ -104,7 +103,8 @@ void write_colours(const Mesh& mesh,
     });
 }
 
-/// Sets the versions that the extension has, which meshoptimizer keeps for all threads.
+/// Selects the versions of the codecs that EXT_meshopt_compression has. meshoptimizer keeps them in
+/// global variables, so they are set once.
 void set_versions() {
     static const bool set = [] {
         meshopt_encodeVertexVersion(0);

@@ -24,13 +24,14 @@ namespace lsys {
 
 // Component types of accessors.
 inline constexpr int kGltfSignedByte = 5120;
-inline constexpr int kGltfByte = 5121; // all others unsigned
+inline constexpr int kGltfByte = 5121; // names without Signed: unsigned
 inline constexpr int kGltfSignedShort = 5122;
 inline constexpr int kGltfShort = 5123;
 inline constexpr int kGltfInteger = 5125;
 inline constexpr int kGltfFloat = 5126;
 
-/// Indices of primitives with more vertices take 32 bits: the highest 16-bit one restarts strips.
+/// Indices of primitives with more vertices take 32 bits: the highest 16-bit index means primitive
+/// restart.
 inline constexpr std::uint64_t kMaxNarrowVertices = 65535;
 
 /// KHR_texture_transform: a texture is read at `offset + scale * coordinates`.
@@ -44,7 +45,7 @@ struct GltfTextureForm {
     bool quantized = false;
     unsigned bits = 0; // of a quantised coordinate; 0: no texture is read, and all are 0
     std::optional<GltfTextureTransform> transform; // none: coordinates are from 0 to 1
-    glm::vec2 low{0.0F};                           // of the coordinates that become 0
+    glm::vec2 low{0.0F};                           // coordinates whose item is 0
     glm::vec2 extent{1.0F};
 };
 /// The form of quantised coordinates from `low` to `high`: floats where 16 bits are too few. Those
@@ -77,7 +78,8 @@ struct GltfItem {
     std::uint32_t stride = 0; // bytes from one item to the next
     bool padded = false;      // items are shorter than the stride
 };
-/// The type of an attribute. Joints are bytes here.
+/// The type of an attribute. Joints are bytes; the writer of plants changes them if there are more
+/// than 256.
 [[nodiscard]] GltfItem item_of(GltfArray array, const GltfForm& form);
 /// The name of an attribute: "POSITION".
 [[nodiscard]] std::string_view attribute_name(GltfArray array);
@@ -131,9 +133,9 @@ GltfBuffer written_items(std::uint64_t bytes, const Write& write) {
     });
     return items;
 }
-/// A stream compressed by EXT_meshopt_compression. `stride`: bytes of an item.
+/// Compresses items of `stride` bytes by EXT_meshopt_compression.
 [[nodiscard]] GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride);
-/// As compress_items(), of the indices of triangles. All are below `vertices`.
+/// Compresses indices of triangles; all are below `vertices`.
 [[nodiscard]] GltfBuffer compress_indices(std::span<const std::uint32_t> indices,
                                           std::uint64_t vertices);
 

@@ -43,7 +43,7 @@ GlbFile parse_glb(const std::string& bytes) {
             data < bytes.size() ? bytes.substr(data) : std::string()};
 }
 
-/// Items of `document` under `list`; none where it has no such list.
+/// Takes the array `list` out of `document`; empty if there is none.
 Json take_list(Json& document, const char* list) {
     return document.contains(list) ? std::move(document[list]) : Json::array();
 }
@@ -109,7 +109,7 @@ public:
             if (node.contains("name")) {
                 node["name"] = level_name(node["name"], level);
             }
-            node.erase("extras"); // as those of level 0
+            node.erase("extras"); // equal to those of level 0
             if (node.contains("mesh")) {
                 node["mesh"] = node["mesh"].get<std::size_t>() + meshes;
             }
@@ -185,8 +185,8 @@ private:
         return found->second;
     }
 
-    /// Adds items that are not there yet, after `adapt` has set their references. Returns the new
-    /// numbers of all items.
+    /// Adds the items that `list` does not have yet, after `adapt` has set their references.
+    /// Returns the new numbers of all items.
     template <typename Adapt>
     std::vector<std::size_t> add_missing(const char* list, Json items, const Adapt& adapt) {
         std::vector<std::size_t> numbers;
@@ -202,7 +202,7 @@ private:
         return numbers;
     }
 
-    /// As add_missing(); a material that only has the name of another one gets its own.
+    /// As add_missing(); a material that looks different from one of its name gets a new name.
     template <typename Adapt>
     std::vector<std::size_t> add_materials(Json items, std::size_t level, const Adapt& adapt) {
         Json& there = file_.document["materials"];
@@ -247,7 +247,7 @@ private:
 
     GlbFile file_;
     std::size_t decoded_bytes_ = 0;
-    std::map<std::size_t, std::size_t> views_; // of the file that is being added
+    std::map<std::size_t, std::size_t> views_; // new number of each view of the file being added
 };
 
 } // namespace
@@ -277,7 +277,8 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
             return written;
         }
         ids.push_back(joined.add(parse_glb(bytes), i + 1));
-        // Each level is shown down to where the next one begins, the last one always.
+        // Each level is shown down to the coverage at which the next one begins; the last one is
+        // always shown.
         coverages.push_back(coarser[i].coverage);
     }
     coverages.push_back(0);

@@ -10,7 +10,7 @@ struct ExportJob;
 class PieceWriter;
 
 /// Writes the mesh of the job and ExportInfo::coarser, which is not null. Equal pictures, samplers,
-/// textures and materials are there once. Memory: the size of the file.
+/// textures and materials are written once. Memory: the size of the file.
 Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& out);
 
 } // namespace lsys

@@ -183,7 +183,7 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
 
 namespace {
 
-/// Nodes of a light skeleton: each joint is a child of the one that its piece grows from.
+/// Nodes of Bones: each joint is a child of the one that its piece grows from.
 void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
     std::vector<std::vector<std::size_t>> children(bones.joints.size());
     for (std::size_t i = 1; i < bones.joints.size(); ++i) {
@@ -230,7 +230,7 @@ void put_bone_accessors(JsonWriter& json,
     }
 }
 
-/// Channels and samplers of a light skeleton. `accessor`: of the first times.
+/// Channels and samplers of Bones. `accessor`: of the first times.
 void put_bone_animation(JsonWriter& json,
                         const Bones& bones,
                         std::size_t first_node,

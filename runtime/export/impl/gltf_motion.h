@@ -17,9 +17,9 @@
 namespace lsys {
 
 struct GltfMotion {
-    Skin skin;                   // without `bones`
+    Skin skin;                   // unused if `bones` is set
     const PlantAnimation& poses; // at least one frame
-    std::optional<Bones> bones;  // a light skeleton instead of `skin`
+    std::optional<Bones> bones;  // instead of `skin`
 
     [[nodiscard]] std::size_t joint_count() const {
         return bones ? bones->joints.size() : skin.joint_count();
@@ -42,7 +42,7 @@ void write_vertex_weights(const Mesh& mesh,
                           std::span<const std::uint32_t> vertices,
                           const GltfMotion& motion,
                           const GltfBytes& write);
-/// `decode` turns items of the positions into positions; it comes first.
+/// `decode`, which turns items of positions into positions, is the first matrix, that of joint 0.
 void write_inverse_binds(const GltfMotion& motion, const glm::mat4& decode, const GltfBytes& write);
 void write_times(const GltfMotion& motion, const GltfBytes& write);
 /// Joint by joint, frame by frame within a joint.
@@ -51,9 +51,9 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
 /// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
-/// Accessors: inverse binds, times, then two for each joint that moves. With bones: inverse binds,
-/// then times and rotations of each joint with keys. The views of the arrays that are not empty are
-/// consecutive, from `first_view` on.
+/// Accessors: inverse binds, times, then two for each joint that moves. With `bones`: inverse
+/// binds, then times and rotations of each joint with keys. The views of the arrays that are not
+/// empty are consecutive, from `first_view` on.
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view);
 /// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,

@@ -73,8 +73,8 @@ struct GltfFile {
     std::function<void(const GltfSink&)> put_data;
     /// Name of the file that holds the buffer; empty: this file does.
     std::string data_name = {};
-    /// Size of a second buffer that exists only when EXT_meshopt_compression has been decoded; 0:
-    /// there is none.
+    /// Size of buffer 1, the fallback buffer of EXT_meshopt_compression: it holds the decoded items
+    /// and is not stored. 0: there is none.
     std::uint64_t decoded_bytes = 0;
 };
 /// Returns false where a GLB would be too large; nothing is written then.

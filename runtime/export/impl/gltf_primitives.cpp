@@ -27,7 +27,8 @@ bool is_in_range(const glm::vec4& colour) {
     return colour == glm::clamp(colour, 0.0F, 1.0F);
 }
 
-/// Gives the primitive a colour for which its materials' colours are fractions.
+/// Gives the primitive the max of its materials' colours in each channel, so that these are
+/// fractions of it, 0 to 1.
 void merge_colours(const Mesh& mesh, GltfPrimitive& primitive) {
     glm::vec3 most(0.0F);
     for (const GltfPart& part : primitive.parts) {
@@ -103,7 +104,8 @@ bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
 /// Orders the triangles of parts for compression and numbers their vertices.
 class PartOrderer {
 public:
-    /// `users`: the part that used a vertex last. `vertices`: those of the file so far.
+    /// `users`: for each vertex of the mesh the part that used it last. `vertices`: those of the
+    /// file so far.
     PartOrderer(const Mesh& mesh,
                 const GltfVertexUse& use,
                 LargeVector<std::uint32_t>& users,
@@ -121,7 +123,7 @@ public:
                     is_complete(mesh_, mesh_.texture_coordinates);
         tangents_ = shown.relief && is_complete(mesh_, mesh_.tangents);
         coloured_ = primitive.colours == GltfColours::Palette;
-        std::array<std::uint32_t, kSlots> near; // numbers of vertices by their positions
+        std::array<std::uint32_t, kSlots> near; // by hash of the position: number of a vertex
         near.fill(kUnused);
         for (std::uint32_t& index : part.indices) {
             const std::uint32_t vertex = index;
@@ -163,7 +165,7 @@ private:
     const GltfVertexUse& use_;
     LargeVector<std::uint32_t>& users_;
     LargeVector<std::uint32_t>& vertices_;
-    LargeVector<std::uint32_t> numbers_; // in the part that used the vertex last
+    LargeVector<std::uint32_t> numbers_; // of each vertex, in the part that used it last
     bool textured_ = false;
     bool tangents_ = false;
     bool coloured_ = false;
@@ -231,7 +233,8 @@ void order_triangles(std::span<std::uint32_t> triangles) {
             if (!run.empty()) {
                 end_run();
             }
-            // The first quad of a run, whose second triangle does not lead on.
+            // Swaps the triangles of the first quad of a run if the first one shares an edge with
+            // the next quad, and the second does not.
             swapped = pair && i + 2 < count && !meet(i + 1, i + 2) &&
                       (meet(i, i + 2) || (i + 3 < count && meet(i, i + 3)));
         }

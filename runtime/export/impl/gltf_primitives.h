@@ -36,7 +36,7 @@ enum class GltfColours : std::uint8_t {
 /// Parts that are drawn with one material.
 struct GltfPrimitive {
     std::vector<GltfPart> parts;
-    std::uint32_t shape = 0; // of the film; 0 without one
+    std::uint32_t shape = 0; // of the film; 0 without a film
     glm::vec3 colour{1.0F};  // of the material, linear
     GltfColours colours = GltfColours::None;
     std::uint64_t first_vertex = 0;
@@ -47,8 +47,8 @@ struct GltfPrimitive {
 
 struct GltfPrimitives {
     std::vector<GltfPrimitive> list;
-    /// The vertex of the mesh for each vertex of the file. A vertex that two parts use is there
-    /// twice, one that no triangle uses is left out.
+    /// The vertex of the mesh for each vertex of the file. A vertex that two parts use is listed
+    /// twice; a vertex that no triangle uses is left out.
     LargeVector<std::uint32_t> vertices;
 
     [[nodiscard]] std::span<const std::uint32_t> vertices_of(const GltfPrimitive& primitive) const {
@@ -57,30 +57,31 @@ struct GltfPrimitives {
     [[nodiscard]] Bounds bounds() const; // of all vertices
 };
 
-/// Min number of materials that become one with colours at its vertices. Colours take 4 bytes a
-/// vertex, and a few materials are easier to change by hand.
+/// Min number of materials that are merged into one with colours at the vertices. Colours take 4
+/// bytes a vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
-/// What the vertices of a file have beside position and normal.
+/// Attributes of the vertices of a file besides position and normal.
 struct GltfVertexUse {
     const Pictures& pictures; // of materials
     bool segments = false;    // joints or wind data
 };
 
-/// Plans a primitive for each part with triangles. Parts whose materials differ in colour and name
-/// only become one primitive from kMinMergedMaterials on. With `compressed`, triangles are in an
-/// order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that are near
-/// one another become one. `film`: the parts are those of its shapes, each of which has primitives
-/// of its own; may be null.
+/// Plans a primitive for each part with triangles. At least kMinMergedMaterials parts whose
+/// materials differ only in colour and name become one primitive. With `compressed`, triangles are
+/// in an order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that
+/// are near one another become one. `film`: may be null; else each of its shapes has primitives of
+/// its own.
 [[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
                                                   const std::optional<GltfVertexUse>& compressed,
                                                   const MeshFilm* film = nullptr);
-/// Orders triangles so that most share an edge with the one before, which takes a byte: the two of
-/// a quad change places where that joins them to the last one, and every other ring of a tube is
-/// gone round backwards. Time is linear.
+/// Orders triangles so that most share an edge with the one before; EXT_meshopt_compression encodes
+/// such a triangle in one byte. The two triangles of a quad are swapped where the first one then
+/// shares an edge with the triangle before, and every other ring of a tube runs backwards. Time is
+/// linear.
 void order_triangles(std::span<std::uint32_t> triangles);
 
-/// The material of a primitive, which gives all but the colour.
+/// The material of a primitive: all its properties but the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
 
 /// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles

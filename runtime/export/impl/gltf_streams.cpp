@@ -55,7 +55,7 @@ void write_indices(const Mesh& mesh,
     });
 }
 
-/// The way of a vertex from the last frame of its shape to an earlier one.
+/// The displacement of a vertex from the last frame of its shape to an earlier one.
 glm::vec3 position_change(const GltfPlant& plant,
                           const MeshFilm::Shape& shape,
                           std::uint32_t frame,
@@ -119,7 +119,7 @@ void write_primitive_stream(const GltfPlant& plant,
     }
 }
 
-/// Gives the streams their sizes, and places in the buffer.
+/// Gives the streams their sizes and their offsets in the buffer.
 class Planner {
 public:
     Planner(GltfStreams& streams, const GltfPlant& plant) : streams_(streams), plant_(plant) {}

@@ -31,7 +31,7 @@ struct GltfPlant {
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
     std::size_t item = 0;    // the primitive, or the image
-    std::uint32_t frame = 0; // of MeshFilm::Shape::earlier, of a morph target
+    std::uint32_t frame = 0; // of a morph target, in MeshFilm::Shape::earlier
     Bounds bounds = {};      // of PositionChanges
     GltfItem type;
     std::uint64_t count = 0;  // items
@@ -56,15 +56,16 @@ struct GltfStreams {
     std::uint64_t decoded_bytes = 0; // of the buffer of decoded items; 0: there is none
 };
 
-/// Plans the buffer. `images` lie in it.
+/// Plans the buffer. `images`: PNG files to store in it.
 [[nodiscard]] GltfStreams plan_gltf_streams(const GltfPlant& plant,
                                             const Pictures& pictures,
                                             std::vector<std::string> images,
                                             const ExportInfo& info);
-/// Hands over the buffer in order.
+/// Writes the buffer, from its first byte to its last.
 void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
 
-/// The view of a stream, in buffer 0 or, decoded, in buffer 1.
+/// The view of a stream, in buffer 0. That of a compressed stream is in buffer 1, which holds
+/// decoded items.
 void put_stream_view(JsonWriter& json, const GltfStream& stream);
 /// The accessor of the stream of a primitive in view `view`.
 void put_stream_accessor(JsonWriter& json,

@@ -24,7 +24,8 @@ std::uint16_t half_bits(float value) {
     if (bits < kSmallestNormal) { // exact but for the rounding to an integer
         return static_cast<std::uint16_t>(std::nearbyint(value * kSubnormalsInOne));
     }
-    // 13 bits of the fraction go; the exponent, in units of the fraction, moves by 127 - 15.
+    // Rounds 13 bits of the fraction away, half to even, and lowers the bias of the exponent from
+    // 127 to 15.
     const std::uint32_t rounded = bits + 0xFFFU + (bits >> 13U & 1U);
     return static_cast<std::uint16_t>((rounded >> 13U) - (112U << 10U));
 }

@@ -1,5 +1,5 @@
-// HalfDigits: half floats (IEEE 754, binary16) as text with as few digits as read back as the same
-// half float, for arrays whose type has no more digits.
+// HalfDigits: half floats (IEEE 754, binary16) as text with the fewest digits that read back as the
+// same half float, for arrays of half floats in text formats.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// The half float nearest to a value of 0 to 1, of two the one with an even last bit, as its bits.
+/// The bits of the half float nearest to a value of 0 to 1; a tie goes to the even last bit.
 [[nodiscard]] std::uint16_t half_bits(float value);
 /// Precondition: bits of a finite positive half float or 0.
 [[nodiscard]] float half_value(std::uint16_t bits);

@@ -1,5 +1,5 @@
-// The distinct materials of several meshes in a mesh of their own: what the writers of materials and
-// find_pictures() ask of a mesh, without its vertices.
+// The distinct materials of several meshes, as a mesh with one vertex and a part for each material:
+// all that the writers of materials and find_pictures() read of a mesh.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -10,8 +10,8 @@ namespace lsys {
 
 /// Adds a part with the material, unless there is one. Returns the number of the material.
 std::uint32_t add_material(Mesh& samples, const Material& material);
-/// After the last material: makes names unique, and gives the mesh a vertex with the optional arrays
-/// that all meshes have.
+/// Called after the last material. Makes names unique, and adds the vertex: with texture
+/// coordinates if `textured`, with a tangent if `tangents`.
 void finish_samples(Mesh& samples, bool textured, bool tangents);
 
 } // namespace lsys

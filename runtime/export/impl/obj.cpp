@@ -85,7 +85,8 @@ BackNormals find_back_normals(const Mesh& mesh) {
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
         if (is_two_sided(mesh, part)) {
-            backs.numbers.resize(mesh.positions.size(), 0); // else without values
+            // The 0 is needed: resize() of a LargeVector leaves items uninitialised.
+            backs.numbers.resize(mesh.positions.size(), 0);
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
                 backs.numbers[indices[part.first_index + i]] = 1;
             }

@@ -12,10 +12,11 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMaxSide = 256; // cells; more texels share a cell
-constexpr double kMinArea = 1e-4;       // of the picture
-constexpr float kMinTolerance = 0.75F;  // cells
-constexpr float kTolerance = 1.0F / 200;
+/// Max cells along a side of the picture; a cell of a larger picture has several texels.
+constexpr std::uint32_t kMaxSide = 256;
+constexpr double kMinArea = 1e-4;        // of the picture
+constexpr float kMinTolerance = 0.75F;   // cells
+constexpr float kTolerance = 1.0F / 200; // of the longer side
 
 /// Whether each cell, a square of texels, is at least half opaque.
 struct Mask {
@@ -53,7 +54,7 @@ Mask make_mask(const Texture& picture, const glm::vec2& low, const glm::vec2& hi
                                      (2.0F * size);
             const bool counts =
                 centre.x > low.x && centre.x < high.x && centre.y > low.y && centre.y < high.y;
-            // As has_holes(): 128 of 255 is opaque.
+            // The threshold of has_holes(): an opacity of 128 of 255 is opaque.
             mask.cells[std::size_t{row} * mask.columns + column] =
                 counts && opacity >= 128 * texels;
         }
@@ -61,7 +62,8 @@ Mask make_mask(const Texture& picture, const glm::vec2& low, const glm::vec2& hi
     return mask;
 }
 
-/// Follows the edges of the mask's cells; what is opaque lies to the right of the way.
+/// Follows the edges between opaque and transparent cells; opaque cells lie to the right of the
+/// path.
 class Tracer {
 public:
     explicit Tracer(const Mask& mask)
@@ -79,7 +81,7 @@ public:
         }
     }
 
-    /// Middles of the edges of each closed way, in cells.
+    /// The midpoints of the edges of each closed path, in units of cells.
     [[nodiscard]] std::vector<std::vector<glm::vec2>> trace() {
         std::vector<std::vector<glm::vec2>> loops;
         for (std::size_t corner = 0; corner < ways_.size(); ++corner) {
@@ -119,7 +121,7 @@ private:
                 static_cast<float>(corner / columns_) + 0.5F * static_cast<float>(down));
             corner = static_cast<std::size_t>(static_cast<std::int64_t>(corner) + right +
                                               std::int64_t{down} * columns_);
-            // Right turns first: cells that touch at a corner only are apart.
+            // Right turns first: cells that touch only at a corner are not joined.
             for (const std::uint32_t turn : {1U, 0U, 3U}) {
                 if (has(corner, (way + turn) % 4)) {
                     way = (way + turn) % 4;
@@ -155,8 +157,9 @@ float distance_to(const glm::vec2& point, const glm::vec2& a, const glm::vec2& b
     return glm::length(point - (a + at * along));
 }
 
-/// Fewer points, none of those left out farther than `tolerance` (Douglas and Peucker, "Algorithms
-/// for the reduction of the number of points required to represent a digitized line", 1973).
+/// The closed line with fewer points; none of those left out is farther from it than `tolerance`
+/// (Douglas and Peucker, "Algorithms for the reduction of the number of points required to
+/// represent a digitized line", 1973).
 std::vector<glm::vec2> simplified(const std::vector<glm::vec2>& loop, float tolerance) {
     const std::size_t count = loop.size();
     const auto farthest = [&](std::size_t from, std::size_t to) {

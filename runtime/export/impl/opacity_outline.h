@@ -1,4 +1,4 @@
-// The outline of what is opaque in a picture, for drawings.
+// Outlines of the opaque parts of a picture, for drawings.
 #pragma once
 
 #include "runtime/meshing/texture.h"

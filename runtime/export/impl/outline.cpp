@@ -67,7 +67,7 @@ struct Card {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Nothing for a triangle without area in texture coordinates.
+/// Returns nothing for a triangle without area in texture coordinates.
 std::optional<Card> card_of(const UserMesh& mesh, const Triangle& corners) {
     const auto& t = mesh.texture_coordinates;
     const auto& p = mesh.positions;
@@ -141,7 +141,7 @@ std::vector<Card> find_cards(const UserMesh& mesh) {
     return flat ? cards : std::vector<Card>{};
 }
 
-/// The outline of what is opaque on a mesh of cards; empty for other meshes and pictures without
+/// Outlines of the opaque parts of a mesh of cards; empty for other meshes and for pictures without
 /// holes.
 std::vector<std::vector<glm::vec3>> picture_outline(const UserMesh& mesh) {
     std::vector<std::vector<glm::vec3>> loops;

@@ -1,5 +1,5 @@
-// Outlines of objects for drawings: convex hulls of the parts of their shapes; of cards with a
-// picture that has holes, the outline of what is opaque in it.
+// Outlines of objects for drawings: convex hulls of the parts of their shapes. Flat parts (cards)
+// with a picture that has holes are drawn as the outline of its opaque parts.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -13,8 +13,8 @@
 namespace lsys {
 
 struct Outline {
-    /// Extreme points of the part: seen from any side, their hull is about the hull of the part.
-    /// Size 1, at the origin, along +Y.
+    /// Extreme points of the part: seen from any side, their hull is about the hull of the part. In
+    /// the coordinates of the object: size 1, at the origin, along +Y.
     std::vector<glm::vec3> corners;
     /// In place of the hull, if not empty: closed lines, inside by the even-odd rule.
     std::vector<std::vector<glm::vec3>> loops;

@@ -20,7 +20,7 @@ bool shows_texture(const Material& material) {
     return material.textured && (material.picture != nullptr || has_texture(material.kind));
 }
 
-/// Normals of a file, or those of bark.
+/// Whether the material has a normal map: of a file, or of the bark texture.
 bool shows_relief(const Material& material) {
     return material.relief != nullptr ||
            (shows_texture(material) && material.kind == MaterialKind::Bark);
@@ -32,7 +32,7 @@ bool is_in_use(const Mesh& mesh, std::size_t material) {
     });
 }
 
-/// The number of a picture with the kind, material and colour of `wanted`, added if missing.
+/// The number of the picture with the kind, material, tint and file of `wanted`, added if missing.
 std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
         return picture.kind == wanted.kind && picture.material == wanted.material &&

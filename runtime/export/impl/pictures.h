@@ -37,11 +37,11 @@ struct MaterialPictures {
 
 struct Pictures {
     std::vector<Picture> list;
-    std::vector<MaterialPictures> of_materials; // of the mesh
+    std::vector<MaterialPictures> of_materials; // by material of the mesh
 };
 
-/// Finds the pictures of the materials in use. Empty for ExportPictures::None, and without
-/// ExportInfo::textures or a name for files.
+/// Finds the pictures of the materials in use. Empty for ExportPictures::None, without
+/// ExportInfo::textures, and for pictures in files if ExportInfo::picture_prefix is empty.
 [[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
 /// Roughness, 0 to 1, in formats that have one.

@@ -31,19 +31,19 @@ public:
 
     /// Writes the header of an entry; the caller then puts its `size.bytes` bytes.
     void begin_entry(const std::string& name, const EntrySize& size);
-    /// Writes the list of entries, the end of the archive.
+    /// Writes the central directory, which ends the archive.
     void finish();
 
 private:
     struct Entry {
         std::string name;
         EntrySize size;
-        std::uint64_t place = 0; // of its header
+        std::uint64_t place = 0; // offset of its header
     };
 
     PieceWriter& out_;
     std::vector<Entry> entries_;
-    std::uint64_t end_ = 0; // of the last entry
+    std::uint64_t end_ = 0; // offset of the end of the last entry
 };
 
 } // namespace lsys

@@ -1,6 +1,6 @@
 // SVG (W3C, "Scalable Vector Graphics 1.1"), where y goes down: the plane z = 0 seen from +Z. Lines
 // have the mean diameter of their segments; a run of segments of equal width and colour is one
-// polyline. What shows a picture has its mean colour. Units are metres.
+// polyline. Objects and polygons with a picture have its mean colour. Units are metres.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"

@@ -1,6 +1,6 @@
 // USD as text (OpenUSD, "UsdGeomMesh", "UsdPreviewSurface specification",
 // https://openusd.org/release/): one mesh, its parts as subsets bound to materials; moving plants
-// with a skin; one of several meshes by a variant set. v of texture coordinates goes upwards.
+// with a skin; a choice of several meshes as a variant set. v of texture coordinates goes upwards.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
@@ -77,8 +77,9 @@ void put_mesh(const Mesh& mesh,
         [&cursor](std::uint64_t i) { return cursor.index(i); });
 }
 
-/// The first mesh is there without any choice, for readers that know no variants; the variants of
-/// others make it inactive, which the prim itself says nothing about.
+/// Writes a plant with variants. The first mesh lies outside the variant set, for readers without
+/// variants; the variants of the other meshes make it inactive. Its own prim has no opinion on
+/// `active`, which would be stronger than theirs.
 void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
     put_header(job.info, nullptr, out);
     out.put(fmt::format("def Xform \"Plant\" (\n"

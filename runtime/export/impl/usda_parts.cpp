@@ -103,7 +103,7 @@ void put_material(const Material& material,
 } // namespace
 
 std::string usda_place(UpAxis up, LengthUnit unit, const glm::vec3& pivot) {
-    // The last operation comes first.
+    // USD applies the last operation of `xformOpOrder` first.
     std::vector<std::string_view> order;
     std::string text;
     if (up == UpAxis::Z) {
@@ -172,7 +172,7 @@ void put_usda_colours(PieceWriter& out,
                       std::uint64_t vertices,
                       const std::function<std::uint16_t(std::uint64_t)>& colour_of) {
     std::vector<std::uint16_t> palette; // colours of the prim, in the order of their first vertices
-    std::vector<std::uint32_t> places;  // of each colour in `palette`, plus 1; 0: none
+    std::vector<std::uint32_t> places;  // by colour: 1 + its index in `palette`; 0: none
     for (std::uint64_t i = 0; i < vertices; ++i) {
         const std::uint16_t colour = colour_of(i);
         if (colour >= places.size()) {

@@ -76,10 +76,11 @@ put_tuple(char* at, const std::array<float, kCount>& values, const std::optional
 /// Digits behind the point of the numbers of a mesh prim.
 struct UsdaDigits {
     int points = 9;
-    int normals = 4;             // 0.005 degrees
-    int texture_coordinates = 5; // 1/100 of a texel of 1024
+    int normals = 4;             // off by at most 0.005 degrees
+    int texture_coordinates = 5; // 1/100 of a texel of 1024 in a row
 };
-/// Digits behind the point that state places of a surface of this size to a 100,000th of it.
+/// Digits behind the point that state places of a surface to a 100,000th of `size`, its largest
+/// extent in m.
 [[nodiscard]] int place_digits(float size);
 
 /// A mesh prim.

@@ -27,7 +27,8 @@ void put_items(PieceWriter& out, std::string_view head, std::size_t count, const
     out.put("]");
 }
 
-/// Paths of the joints. Joint 0 is the parent of all others, or an ancestor in a light skeleton.
+/// Paths of the joints. Joint 0 is the parent of all others, or with UsdaMotion::bones their
+/// ancestor.
 std::vector<std::string> joint_paths(const UsdaMotion& motion) {
     std::vector<std::string> paths{std::string(kStillJoint)};
     for (std::size_t joint = 1; joint < motion.joint_count(); ++joint) {
@@ -72,7 +73,7 @@ JointPlace place_at_parent(const UsdaMotion& motion, std::size_t joint) {
     return {glm::dvec3(bone.translation), glm::dquat(bone.rotations.front())};
 }
 
-/// Row vectors: the axes of the joint, then its place.
+/// Writes matrices for row vectors: three rows with the axes of the joint, then its place.
 template <typename PlaceOf>
 void put_places(const UsdaMotion& motion,
                 std::string_view head,
@@ -91,7 +92,8 @@ void put_places(const UsdaMotion& motion,
     out.put("\n");
 }
 
-/// Writes `name.timeSamples`; put(frame, joint) writes the item of a joint but joint 0.
+/// Writes `name.timeSamples`; put(frame, joint) writes the item of a joint other than joint 0,
+/// whose item is `still`.
 template <typename Put>
 void put_samples(const UsdaMotion& motion,
                  std::string_view name,
@@ -117,7 +119,7 @@ void put_rotation(const glm::quat& q, PieceWriter& out) {
     out.used(put_tuple<4>(out.room(kUsdaItemBytes + kNumberBytes), {q.w, q.x, q.y, q.z}));
 }
 
-/// Joints that turn and shift in the world.
+/// Samples of joints that turn and move, relative to the world.
 void put_segment_samples(const UsdaMotion& motion, PieceWriter& out) {
     put_samples(motion, "float3[] translations", "(0, 0, 0)", out,
                 [&](std::uint32_t frame, std::size_t joint) {
@@ -125,7 +127,7 @@ void put_segment_samples(const UsdaMotion& motion, PieceWriter& out) {
                         motion.poses.frame(frame)[motion.skin.segments[joint - 1]].base;
                     out.used(put_tuple<3>(out.room(kUsdaItemBytes), {base.x, base.y, base.z}));
                 });
-    // As joint_rotations(): consecutive ones on one side.
+    // As in joint_rotations(), consecutive rotations have a positive dot product.
     std::vector<glm::quat> last(motion.joint_count(), glm::quat(0.0F, 0.0F, 0.0F, 0.0F));
     put_samples(motion, "quatf[] rotations", "(1, 0, 0, 0)", out,
                 [&](std::uint32_t frame, std::size_t joint) {
@@ -138,7 +140,7 @@ void put_segment_samples(const UsdaMotion& motion, PieceWriter& out) {
                 });
 }
 
-/// Joints that turn only.
+/// Samples of Bones, which turn and do not move.
 void put_bone_samples(const UsdaMotion& motion, PieceWriter& out) {
     const std::vector<Bone>& joints = motion.bones->joints;
     put_items(out, "            float3[] translations = ", joints.size(), [&](std::size_t joint) {

@@ -15,9 +15,9 @@ namespace lsys {
 
 /// A moving plant.
 struct UsdaMotion {
-    Skin skin;                   // without `bones`
+    Skin skin;                   // unused if `bones` is set
     const PlantAnimation& poses; // at least one frame
-    std::optional<Bones> bones;  // a light skeleton instead of `skin`
+    std::optional<Bones> bones;  // instead of `skin`
 
     [[nodiscard]] std::size_t joint_count() const {
         return bones ? bones->joints.size() : skin.joint_count();

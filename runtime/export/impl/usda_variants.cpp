@@ -47,7 +47,7 @@ std::optional<UsdaVariants> find_usda_variants(const Mesh& mesh, const ExportInf
             variants.names.push_back(fmt::format("LOD{}", variants.names.size()));
             variants.coverages.push_back(coarser.coverage);
         }
-        variants.coverages.push_back(0.0); // the last one always
+        variants.coverages.push_back(0.0); // the last level is always shown
     } else if (info.variants != nullptr) {
         LSYS_CHECK(info.variants->names.size() == info.variants->others.size() + 1,
                    info.variants->names.size());

@@ -1,4 +1,5 @@
-// Meshes of which a layer of USD shows one (OpenUSD, "VariantSet"): levels of detail, or plants.
+// The variants of a USD layer, of which readers show one (OpenUSD, "VariantSet"): meshes of levels
+// of detail, or of plants.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -14,7 +15,7 @@ struct UsdaVariants {
     std::string set;                 // name of the variant set
     std::vector<std::string> names;  // of the variants; the first is the selected one
     std::vector<const Mesh*> meshes; // of each variant
-    std::vector<double> coverages;   // of levels of detail: the least part of the screen each
+    std::vector<double> coverages;   // of levels of detail: min part of the screen, 0 to 1
     Mesh samples;                    // their distinct materials in use (material_samples.h)
     std::vector<std::vector<std::uint32_t>> materials; // of the parts of each mesh, in `samples`
 };

@@ -50,7 +50,8 @@ WindData::WindData(const Skeleton& plant) : plant_(&plant) {
     const std::vector<bool> is_trunk = trunks_of(plant);
     const auto count = static_cast<std::uint32_t>(plant.segments.size());
     places_.resize(count);
-    // The angle at the tip of each segment since the pivot, and the bending at base and tip.
+    // The sum of the angles from the pivot to the tip of each segment, and the bending at its base
+    // and tip.
     std::vector<double> angles(count, 0.0);
     std::vector<std::array<double, 2>> bends(count);
     double most = 0.0;

@@ -1,16 +1,17 @@
-// WindData: numbers of vertices from which a shader moves a plant in wind without a skin. A bough is
-// a branch that leaves the trunk, with all that grows on it. The trunk goes on in the thickest
-// branch, of equally thick ones in that of fewest brackets.
+// WindData: numbers of vertices from which a shader moves a plant in wind without a skin. A bough
+// is a branch that leaves the trunk, with all that grows on it. The trunk goes on in the thickest
+// branch, among equally thick ones in the one in fewest brackets.
 //
 //   TEXCOORD_1: height of the pivot in m, which is where the bough begins, and the distance in m of
 //               the vertex from it, along the branches; the pivot of the trunk is its base
 //   TEXCOORD_2: phase of the bough, 0 to 1, and stiffness, from 1 at the pivot to 0 at the place of
-//               the plant that gives way most; 1 on the trunk, which a shader bends by height, and
+//               the plant that bends most; 1 on the trunk, which a shader bends by height, and
 //               its boughs with it
 //
-// Stiffness is 1 - b / max b, where b is the bending of a branch of even stress, as of plants whose
-// width follows their load: each joint between pivot and vertex turns by length / radius of its
-// segment, and moves the vertex by the product of that angle and the way to it.
+// Stiffness is 1 - b / max b, where b is the bending of a branch with the same stress everywhere,
+// as in plants whose width follows their load: each joint between pivot and vertex turns by length
+// / radius of its segment, and moves the vertex by that angle times the distance from joint to
+// vertex.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -34,15 +35,16 @@ class WindData {
 public:
     explicit WindData(const Skeleton& plant);
 
-    /// Values of a vertex at `position` that hangs on `bound`; without segments those of the root.
+    /// Values of a vertex at `position` that is bound to the segments `bound`; without segments
+    /// those of the root.
     [[nodiscard]] WindVertex at(const VertexSegments& bound, const glm::vec3& position) const;
 
 private:
     struct Place {
         float pivot_height = 0.0F;
-        float distance = 0.0F; // of the base
+        float distance = 0.0F; // m along the branches from the pivot to the base
         float phase = 0.0F;
-        std::array<float, 2> bend{}; // at base and tip, as part of the greatest of the plant
+        std::array<float, 2> bend{}; // at base and tip, relative to the max of the plant
     };
 
     [[nodiscard]] WindVertex on(std::uint32_t segment, const glm::vec3& position) const;

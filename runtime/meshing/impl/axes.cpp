@@ -57,7 +57,7 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
-    /// Colours in use, rising.
+    /// Colours in use, in ascending order.
     [[nodiscard]] const std::vector<std::uint16_t>& colours() const { return colours_; }
 
 private:

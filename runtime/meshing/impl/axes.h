@@ -26,8 +26,8 @@ struct Axes {
             2.0F * (q.y * q.z + q.w * q.x)};
 }
 
-/// Whether `child` begins at the tip of its parent `parent`, up to rounding of floats. A segment
-/// drawn backwards was turned around and ends elsewhere.
+/// Whether `child` begins at the tip of its parent `parent`, up to rounding of floats. A parent
+/// drawn backwards was reversed, so its tip is elsewhere.
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);
 
 /// Finds for each segment the child that continues it: the linked child of the same order; of

@@ -10,7 +10,8 @@ namespace lsys {
 
 namespace {
 
-// Joints that one edge may replace: keeps the search linear. More of them within an error in metres.
+// Max joints that one edge may replace, which keeps the search linear: without and with an error
+// in metres.
 constexpr std::size_t kMaxLeftOut = 32;
 constexpr std::size_t kMaxLeftOutByError = 256;
 

@@ -28,11 +28,11 @@ constexpr std::uint32_t kMaxLevels = 8;
 // Fraction of the parent's inner radius that the hidden ring of a branch may fill.
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
-constexpr float kCollarSlope = 0.13F;
+constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
 constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
-constexpr float kMaxCollar = 0.7F;      // of the length of an edge
-constexpr float kMaxParts = 16.0F;      // of an edge, cut for noise
-constexpr std::size_t kExtraJoints = 2; // of a run: a collar and the tip
+constexpr float kMaxCollar = 0.7F;      // max length of a collar per length of its edge
+constexpr float kMaxParts = 16.0F;      // max pieces into which an edge is cut for noise
+constexpr std::size_t kExtraJoints = 2; // joints beside those of segments: a collar and the tip
 
 float max_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
@@ -126,7 +126,7 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            prefetch(skeleton_.segments[after]); // branches lie between in memory
+            prefetch(skeleton_.segments[after]); // branches lie in between in memory
         }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
@@ -229,7 +229,7 @@ void AxisReader::add(const Segment& segment, float radius) {
     }
 }
 
-/// Returns false if nothing is long or thick enough to be drawn.
+/// Adds the last joint. Returns false if nothing is long or thick enough to be drawn.
 bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
         joints_.pop_back();
@@ -303,7 +303,8 @@ bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& sta
     return true;
 }
 
-/// The tangent of a curve through the tip of a segment that `next` continues, if it is one.
+/// The tangent, at the tip of `segment`, of a curve through it. `next`: the segment that continues
+/// it, or at least kForked if there is none.
 glm::vec3 AxisReader::tip_tangent(const Segment& segment, std::uint32_t next) const {
     const glm::vec3 own = direction(segment.frame);
     if (next >= kForked || !(skeleton_.segments[next].length > 0.0F)) {
@@ -344,7 +345,8 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     joints_.insert(joints_.begin() + 1, collar);
 }
 
-/// Cuts edges into pieces about as long as the tube is thick, to give noise rings to move.
+/// Cuts edges into pieces about as long as the tube is thick, so that there are rings for noise to
+/// move.
 void AxisReader::subdivide() {
     spare_.clear();
     for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
@@ -374,7 +376,7 @@ void AxisReader::subdivide() {
     joints_.swap(spare_);
 }
 
-/// Reduces the sides of joints by radius.
+/// Reduces the sides of each joint to those that MeshOptions::deviation needs for its radius.
 void AxisReader::fit_sides() {
     radii_.clear();
     for (std::size_t i = 0; i < joints_.size(); ++i) {

@@ -29,18 +29,18 @@ enum class TubeEnd : std::uint8_t {
     Point, // the radius is 0
     Flat,  // closed by a disc
     Blunt, // closed by a low cone
-    Ball,  // closed by a half ball, which branches leave
+    Ball,  // closed by a half ball, from which branches begin
     Open,  // inside of another tube
 };
 
-/// Joints without a gap, at least two.
+/// At least two joints without a gap between them.
 struct Run {
     std::span<const Joint> joints;
-    /// Radii of the joints before they were widened for fewer sides; empty if none was.
+    /// Radii of the joints before they were widened for fewer sides; empty if no joint was.
     std::span<const float> radii;
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
-    glm::vec3 side{}; // where u is 0; about perpendicular to the first heading
+    glm::vec3 side{}; // direction of u = 0; about perpendicular to the first heading
     std::uint32_t first_segment = 0;
 };
 
@@ -88,8 +88,8 @@ private:
     const Skeleton& skeleton_;
     const Axes& axes_;
     const MeshOptions& options_;
-    std::array<std::uint8_t, 256> sides_{}; // by the sides of the segment
-    std::array<float, 256> widening_{};     // of the radius, for fewer sides
+    std::array<std::uint8_t, 256> sides_{}; // drawn sides, by Segment::sides
+    std::array<float, 256> widening_{};     // factor of the radius, by Segment::sides
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // of the level, by the sides of level 0

@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kColumns = 5;         // lattice points around the tube
-constexpr double kRowsPerCircumference = 2.5; // bark is longer than wide
+constexpr double kRowsPerCircumference = 2.5; // half of kColumns: bark is longer than wide
 constexpr double kMaxRows = 1e15;             // above, doubles have no fractions left
 
 /// A number from -1 to 1 for each point of the lattice.

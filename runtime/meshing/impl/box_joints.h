@@ -1,8 +1,8 @@
-// The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined
-// at the joints into one closed mesh per plant (the report of the .sys forest, 2005). Children grow
-// out of the sides of a box at the joint, each out of the side that it faces most; a side with
-// several children is divided. A child for which no side has room is a closed box that begins
-// within its parent.
+// The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined at
+// the joints into one closed mesh per plant (docs/documents.md, S: the report on the .sys forest,
+// 2005). Children grow out of the sides of a box at the joint, each out of the side that it faces
+// most; a side with several children is divided. A child for which no side has room is a closed box
+// that begins within its parent.
 #pragma once
 
 #include "runtime/meshing/impl/catmull_clark.h"

@@ -16,7 +16,7 @@ namespace {
 
 // Signs of right and up at the corners of a square.
 constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-// u goes there and back around a branch, without a seam.
+// u goes from 0 to 1 and back to 0 around a branch, so there is no seam.
 constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
 
 // Min distance of an opening from the axis of its branch that is visible, in half sides of the
@@ -33,7 +33,8 @@ glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3
     return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1.0F + cosine));
 }
 
-/// Unit vectors across `normal`, of which the first is nearest to `right`.
+/// Sets the axes of a socket: `normal`, and unit vectors across it, the first of which is as near
+/// to `right` as possible.
 void set_axes(BoxSocket& socket, const glm::vec3& right, const glm::vec3& normal) {
     socket.normal = normal;
     socket.right = glm::normalize(right - glm::dot(right, normal) * normal);
@@ -169,7 +170,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     return opening;
 }
 
-/// Adds the faces between two rings, each from a corner that sees all of it.
+/// Adds the faces between two rings. Each begins at a corner from which a fan covers it.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;
@@ -246,7 +247,7 @@ void BoxWriter::cut_tiles(const Tile& tile, std::span<const glm::vec2> places) {
     upper.first += lower.count;
     upper.count -= lower.count;
     upper.low[axis] = middle;
-    // At most two levels, since at most kMaxOnSide segments grow here.
+    // The recursion has at most two levels, since at most kMaxOnSide segments grow here.
     cut_tiles(lower, places);
     cut_tiles(upper, places);
 }

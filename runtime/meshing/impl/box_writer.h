@@ -44,7 +44,7 @@ inline constexpr float kRoomOfOpening = 0.94F;
 /// Part of a divided side that its tiles take.
 inline constexpr float kInnerPart = 0.85F;
 
-/// The socket's axes turned the shortest way across the unit vector `direction`.
+/// The socket's axes, turned the shortest way so that they are across the unit vector `direction`.
 [[nodiscard]] BoxSocket axes_across(const BoxSocket& socket, const glm::vec3& direction);
 
 class BoxWriter {
@@ -61,14 +61,15 @@ public:
     /// Adds a ring in the plane of the socket of begin_at(): the section of that plane through a
     /// box along unit vector `along`, scaled down if the socket has no room for it.
     BoxOpening add_opening(const glm::vec3& along, float half);
-    /// Adds a ring that is not joined yet: the sides between are sides of a joint.
+    /// Adds a ring without joining it to the ring before. The four sides between them, and the new
+    /// ring as the top, are the sides of the joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
     /// The socket of the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
     /// Closes the end; `rim` as for begin_root().
     void close(float rim);
-    /// Divides a side for segments that grow towards these places in (right, up); a socket for
-    /// each, valid until the next call. Without any, closes the side.
+    /// Divides a side for segments that grow towards these places in (right, up). Returns a socket
+    /// for each, valid until the next call. Closes the side if there are no places.
     [[nodiscard]] std::span<const BoxSocket> divide(const BoxSocket& side,
                                                     std::span<const glm::vec2> places);
 

@@ -22,8 +22,8 @@ namespace lsys {
 
 namespace {
 
-// Subdivision leaves 0.65 of the half diagonal of a square tube; this makes it the radius. An
-// unsmoothed box has the cross-section's area.
+// Half side of a box for a radius of 1. Subdivision leaves 0.65 of the half diagonal of a square
+// tube, which is then the radius; an unsmoothed box has the area of the circle.
 constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
 constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;
@@ -145,8 +145,8 @@ bool folds(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t first) {
            glm::dot(glm::cross(across, at(first + 3) - at(first)), area) < 0.0F;
 }
 
-/// Writes fans from the first corner, of quads over the shorter diagonal, to the front of `room`.
-/// `flat`: vertices have the numbers of corners.
+/// Writes the triangles of a face to the front of `room`: a fan from its first corner, or a quad
+/// cut along its shorter diagonal. `flat`: vertices are numbered like corners.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,

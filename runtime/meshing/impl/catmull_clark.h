@@ -35,7 +35,7 @@ struct MeshCounts {
     std::uint64_t faces = 0;
     std::uint64_t corners = 0;
 };
-/// Sizes of a closed mesh after `steps` steps, capped beyond every limit.
+/// Sizes of a closed mesh after `steps` steps; they stop growing above 2^40 corners.
 [[nodiscard]] MeshCounts refined_counts(const PolygonMesh& mesh, std::uint32_t steps);
 
 /// A closed mesh and its steps of subdivision.
@@ -44,9 +44,10 @@ public:
     /// Precondition: fewer than 2^31 corners.
     CatmullClark(PolygonMesh mesh, Workers& workers);
 
-    /// Whether every edge has two faces, in opposite directions: precondition of all below.
+    /// Whether every edge has two faces, in opposite directions: precondition of all functions
+    /// below.
     [[nodiscard]] bool closed() const { return closed_; }
-    /// One step. Precondition: fewer than 2^29 corners.
+    /// Makes one step of subdivision. Precondition: fewer than 2^29 corners.
     void refine();
     [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
     /// Replaces the positions of all vertices.

@@ -188,7 +188,7 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
     if (groups.items.empty()) {
         return;
     }
-    // Bark comes first among materials, and the plain colours by their index.
+    // Groups are sorted by colour, and so are materials: bark first, then plain colours by index.
     std::vector<Piece> pieces;
     std::vector<std::size_t> first_piece;
     for (const Group& group : groups.groups) {

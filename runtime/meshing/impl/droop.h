@@ -1,5 +1,5 @@
-// Bending of leaves by gravity: each place of the midrib is turned towards the ground, most of it
-// near the stem, without stretching the leaf.
+// Bending of leaves by gravity: each place of the midrib is turned towards the ground, without
+// stretching the leaf. Most of the turn is near the stem.
 #pragma once
 
 #include "runtime/meshing/shapes.h"

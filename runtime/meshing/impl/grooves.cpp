@@ -7,10 +7,10 @@ namespace lsys {
 
 namespace {
 
-constexpr float kWander = 0.4F;           // in grooves
-constexpr float kWanderCircumference = 6; // the phase wanders that much slower than bark noise
+constexpr float kWander = 0.4F;           // max wandering of the phase, in grooves
+constexpr float kWanderCircumference = 6; // the phase wanders this many times slower than noise
 
-/// Distance from the middle of the groove, 0 to 1 on the ridge.
+/// Signed distance from the middle of the groove: 0 there, -1 and 1 on the ridges beside it.
 float from_middle(float x) {
     return 2.0F * (x - std::floor(x)) - 1.0F;
 }

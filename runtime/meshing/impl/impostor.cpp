@@ -21,13 +21,13 @@ namespace {
 
 constexpr int kMinTile = 16; // texels of a side of a picture
 constexpr int kMaxTile = 128;
-constexpr float kTexelsPerPixel = 1.3F; // at most, where an impostor is shown first
+constexpr float kTexelsPerPixel = 1.3F; // max, where the impostor is first shown on screen
 constexpr int kMinSide = 256;           // samples of a side of a picture
 constexpr int kMaxSide = 512;
-constexpr int kSamplesPerTexel = 8; // along each side, else
+constexpr int kSamplesPerTexel = 8; // along each side, within these bounds
 constexpr int kOpaqueByte = 128;
 constexpr float kHalfRoot3 = 0.8660254F;
-constexpr float kNothing = -std::numeric_limits<float>::infinity(); // depth of samples without it
+constexpr float kNothing = -std::numeric_limits<float>::infinity(); // depth of empty samples
 
 struct Axes {
     glm::vec3 right;
@@ -50,7 +50,7 @@ int samples_of(int tile) {
     return std::clamp(kSamplesPerTexel * tile, kMinSide, kMaxSide);
 }
 
-/// Texels around the plant in a picture.
+/// Width in texels of the margin around the plant in a picture.
 int margin_of(int tile) {
     return std::max(tile / 64, 1);
 }
@@ -83,7 +83,7 @@ void dilate(int side, std::vector<std::uint8_t> known, const Copy& copy) {
     }
 }
 
-/// What a row of marked texels spans, in texels.
+/// The columns from the first to the last marked texel of a row.
 struct Span {
     float left = 0.0F;
     float right = 0.0F;
@@ -98,7 +98,7 @@ struct Span {
 };
 
 /// A strip of `count` trapezoids around the marked texels, in texels: pairs of a left and a right
-/// corner, from above. Empty if no texel is marked.
+/// corner, from top to bottom. Empty if no texel is marked.
 std::vector<glm::vec2>
 strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t count) {
     const auto columns = static_cast<std::size_t>(side);
@@ -147,8 +147,9 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     return corners;
 }
 
-/// Numbers of trapezoids of cards that show the given numbers of texels: `all` together, as equal
-/// as can be; where there are fewer than cards, those with most texels have one each.
+/// The number of trapezoids of each card. They are `all` together and as equal as possible; if
+/// there are fewer than cards, the cards with most texels get one each. `areas`: texels that each
+/// card shows.
 std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, std::size_t all) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -168,7 +169,7 @@ std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, st
 
 } // namespace
 
-/// What a sample shows: a place in a triangle.
+/// The place in a triangle that a sample shows.
 struct ImpostorBaker::Fragment {
     std::uint64_t first_index = 0;
     std::uint32_t part = 0;
@@ -176,7 +177,7 @@ struct ImpostorBaker::Fragment {
     float v = 0.0F;
 };
 
-/// Room for one picture after the other.
+/// Buffers that are reused from picture to picture.
 struct ImpostorBaker::Canvas {
     DepthBuffer buffer;
     std::vector<Fragment> fragments; // of samples with a depth
@@ -229,7 +230,8 @@ void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view)
     const float thickness = 2.0F * half.z / static_cast<float>(slabs_);
     view.low.z += static_cast<float>(slab) * thickness;
     view.high.z = view.low.z + thickness;
-    // Whether depths from `low` to `high` reach into the slab; the outermost parts of the plant do.
+    // Whether depths from `low` to `high` reach into the slab. The first and the last slab also
+    // take what rounding puts outside.
     const auto is_here = [&](float high, float low) {
         return (high >= 0.0F || slab == 0) && (low < 1.0F || slab + 1 == slabs_);
     };
@@ -346,7 +348,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             wanted += static_cast<double>(view.coverage[i]) * glm::dvec3(view.colours[i]);
         }
     }
-    // Of texels that are covered as much, any.
+    // Texels with equal coverage are in the order of a hash, so that no region is preferred.
     std::sort(order.begin(), order.end(), [&view](std::uint32_t a, std::uint32_t b) {
         return std::make_tuple(-view.coverage[a], lowbias32(a), a) <
                std::make_tuple(-view.coverage[b], lowbias32(b), b);
@@ -382,8 +384,8 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             relief.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
-        // Half opaque at the least coverage of an opaque texel, so that smaller pictures of a
-        // viewer cover as much.
+        // Half opaque at the least coverage of an opaque texel, so that mipmaps of a viewer cover
+        // as much.
         const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / least);
         colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);

@@ -1,9 +1,9 @@
-// Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. Three upright
-// directions turned by 60 degrees and a level one have one card each, or three with a third of the
-// depth of the plant each. A card is a strip of trapezoids around what it shows. All share one
-// atlas. The colour picture has the opacity; the relief has the normals in the frame of the card,
-// and in its alpha the depth: 1 to 255 for the back to the front of the part of the plant that the
-// card shows, with the card in the middle.
+// Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. There are
+// three upright directions, 60 degrees apart, and one from above. Each has one card, or three that
+// show a third of the depth of the plant each. A card is a strip of trapezoids around its opaque
+// texels. All cards share one atlas. The colour picture has the opacity; the relief has the normals
+// in the frame of the card, and in its alpha the depth: 1 to 255 for the back to the front of the
+// part of the plant that the card shows, with the card in the middle.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -18,21 +18,21 @@ namespace lsys {
 
 class LinearTextures;
 
-/// From so many triangles on, each direction has three cards.
+/// Min triangles of an impostor with three cards per direction.
 inline constexpr std::uint64_t kTrianglesOfSlabs = 40;
 
 class ImpostorBaker {
 public:
     /// Takes the pictures of `mesh`, which has texture coordinates. They are the same on every
-    /// machine. `pixels`: of the largest extent of the plant where the impostor is shown first;
-    /// pictures have about as many texels, so that viewers need no smaller ones at once, in which
-    /// thin plants vanish. `triangles`: of the cards, at least 2.
+    /// machine. `pixels`: size on screen of the plant's largest extent where the impostor is first
+    /// shown. Pictures have about as many texels, so that viewers do not use mipmaps at once, in
+    /// which thin plants vanish. `triangles`: number of triangles of all cards, at least 2.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
-    /// The cards: `triangles` of them, one less if they are odd, and none where nothing is seen.
-    /// `cover`: area of opaque texels, in that of the mesh in each picture. Thin parts
-    /// that cover less than a texel are opaque in as many texels as they cover on average. The mean
-    /// colour of each picture is that of the mesh, times `tint`; linear.
+    /// Makes the cards. They have `triangles` triangles, one less if that is odd; a card that shows
+    /// nothing has none. `cover`: in each picture, area of opaque texels / area of the mesh. Thin
+    /// parts that cover less than a texel are opaque in as many texels as they cover on average.
+    /// The mean colour of each picture is that of the mesh, times `tint`; linear.
     [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
 
 private:
@@ -51,9 +51,9 @@ private:
 
     struct Fragment;
     struct Canvas;
-    /// Takes the part `slab` of `slabs_` in depth, from behind, or all of it.
+    /// Draws slab number `slab` of `slabs_`, counted from the back to the front, into `view`.
     void take(const Mesh& mesh, int slab, Canvas& canvas, View& view) const;
-    /// Returns which texels are opaque.
+    /// Writes picture number `tile` to the atlas. Returns which texels are opaque.
     std::vector<std::uint8_t> paint(const View& view,
                                     std::size_t tile,
                                     double cover,

@@ -75,7 +75,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
     return curve;
 }
 
-/// Places on a curve between which it turns by equal angles, with its ends.
+/// Parameters of a curve, its ends included, between which it turns by equal angles.
 struct Places {
     std::array<double, kMaxCurveParts + 1> at{};
     std::size_t parts = 1;
@@ -118,20 +118,20 @@ Places find_places(const Cubic& curve) {
     return places;
 }
 
-/// An edge in parts; the last joint is the one behind it.
+/// An edge cut into parts; joints[count] is the joint at its end.
 struct Parts {
     std::array<Joint, kMaxCurveParts + 1> joints;
     std::size_t count = 1;
 };
 
-/// Headings beside an edge, unless the run ends there.
+/// Headings of the edges before and after an edge, unless the run ends there.
 struct Neighbours {
     std::optional<glm::vec3> before;
     std::optional<glm::vec3> after;
 };
 
-/// Whether all parts can be drawn and no ring crosses the next one. Holds for edges beside that are
-/// curves as for edges that stay straight.
+/// Whether all parts can be drawn and no ring crosses the next one. The answer holds if the
+/// neighbouring edges become curves and if they stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
     // Normals of the planes of a ring: of the curve, and halfway between two headings.
     struct Planes {
@@ -171,7 +171,7 @@ bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) 
     return true;
 }
 
-/// Cuts the edge between two joints.
+/// Cuts the edge between two joints into parts of its curve.
 Parts cut(const Joint& from,
           const Joint& to,
           const Cubic& curve,

@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-/// Parts of an edge, at most.
+/// Max parts of an edge.
 inline constexpr std::size_t kMaxCurveParts = 16;
 
 /// The base of a branch that leaves its parent along the parent's axis.

@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::uint16_t kLeafGreen = 1;
 constexpr std::size_t kLeafCorners = 8;
-/// Angles (radians) and components of axes below this are 0 for L3D.
+/// Angles in radians up to this are 0 for L3D.
 constexpr double kNoTurn = 0.001;
 
-/// The least rotation that takes +Y to `heading`; the identity where L3D finds no axis,
-/// also for a heading straight down.
+/// The shortest rotation that takes +Y to `heading`. The identity where L3D finds no axis: also for
+/// a heading straight down.
 glm::dquat turn_to(const glm::dvec3& heading) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
     glm::dvec3 axis = glm::cross(up, heading);

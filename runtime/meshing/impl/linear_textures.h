@@ -21,14 +21,14 @@ struct LinearTexture {
     std::vector<std::array<std::uint8_t, 4>> texels; // sRGB, opacity 0 or 255; empty: white
     std::vector<std::uint8_t> opaque;                // opacities alone, which take less of a cache
 
-    /// Linear colour and opacity, 0 or 1.
+    /// Linear colour and opacity (0 or 1) at texture coordinates.
     [[nodiscard]] glm::vec4 at(const glm::vec2& place) const;
     [[nodiscard]] bool is_opaque(const glm::vec2& place) const;
 };
 
 class LinearTextures {
 public:
-    /// The texture of a material; valid as long as this, which keeps the picture.
+    /// The texture of a material; valid as long as this object, which keeps the picture.
     [[nodiscard]] const LinearTexture& of(const Material& material);
 
 private:

@@ -116,7 +116,8 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
     mesh.materials.clear();
 }
 
-/// Adds to the counts of vertices and bytes; stops if they do not fit.
+/// Checks the limits and counts the bytes of triangles; sets stop_ and returns false if they do not
+/// fit.
 bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     if (stop_) {
         return false;

@@ -40,7 +40,8 @@ struct FilePictures {
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
 [[nodiscard]] MaterialKey wood_material(std::uint16_t palette);
-/// `words`: what is drawn with it: "wood", "sphere"; they name a plain material.
+/// `words`: names of the items drawn with it, such as "wood" and "sphere"; they name a plain
+/// material.
 [[nodiscard]] Material make_material(const MaterialKey& key,
                                      std::span<const std::string> words = {});
 
@@ -53,8 +54,8 @@ struct MeshVertex {
     std::uint32_t segment = kNoSegment; // that carries the vertex
 };
 
-/// Room to be filled completely. Arrays that the options leave out are empty. Valid until the next
-/// call of the builder.
+/// Room for new vertices and indices, to be filled completely. Arrays that the options leave out
+/// are empty. Valid until the next call of the builder.
 struct MeshBlock {
     std::uint32_t first_vertex = 0; // offset of indices into the block
     std::span<glm::vec3> positions;
@@ -73,7 +74,7 @@ public:
     struct PartSize {
         MaterialKey material;
         std::uint64_t index_count = 0;
-        std::string word = {}; // what is drawn; empty: no name of its own
+        std::string word = {}; // name of the items drawn; empty: no name
     };
     struct WholePart {
         MaterialKey material;
@@ -98,8 +99,9 @@ public:
         return std::span(mesh_.segments).first(options_.segments ? vertices_ : 0);
     }
 
-    /// First call only: adds parts by rising material, before all others, and room for their
-    /// vertices, counted from 0 in `triangles`. Returns false, without effect, if they do not fit.
+    /// Only as the first call: adds parts by rising material, before all others, and room for their
+    /// vertices. WholePart::triangles count vertices from 0. Returns false, without effect, if they
+    /// do not fit.
     [[nodiscard]] bool
     place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
     /// Does the same as place_parts(), and also makes room for the indices of each part.
@@ -108,7 +110,7 @@ public:
                                      MeshBlock& block,
                                      std::vector<std::span<std::uint32_t>>& indices);
 
-    /// The number of the part of a material, for the calls below. `word`: what is drawn.
+    /// The number of the part of a material, for reserve(). `word`: name of the items drawn.
     [[nodiscard]] std::uint32_t part(const MaterialKey& material, const std::string& word = {});
     /// Makes room for more vertices and indices of a part. Returns false, without effect, if it
     /// does not fit.
@@ -121,7 +123,7 @@ public:
 private:
     struct Part {
         MaterialKey material;
-        TriangleList triangles; // by place_parts()
+        TriangleList triangles; // set by place_parts()
         LargeVector<std::uint32_t> indices;
         std::vector<std::string> words = {}; // each once, in the order of drawing
     };
@@ -135,7 +137,7 @@ private:
     std::uint64_t vertices_ = 0;
     std::uint64_t triangle_bytes_ = 0;
     std::vector<FilePictures> pictures_;
-    std::vector<Part> parts_; // first those of place_parts() and reserve_parts()
+    std::vector<Part> parts_; // first the parts of place_parts() or reserve_parts()
     std::size_t first_parts_ = 0;
 };
 

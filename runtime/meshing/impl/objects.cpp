@@ -122,7 +122,7 @@ void write_all(Workers& workers, const Instances& instances) {
     });
 }
 
-/// The name without its folder and ending, of characters that any format takes.
+/// The file name without folder and extension, with characters that every format accepts.
 std::string stem_of(const std::string& path) {
     const std::size_t slash = path.find_last_of("/\\");
     std::string stem = path.substr(slash == std::string::npos ? 0 : slash + 1);

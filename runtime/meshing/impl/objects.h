@@ -10,7 +10,7 @@
 namespace lsys {
 
 /// Names of materials for the meshes and pictures of Skeleton::mesh_files: "maple" for
-/// "leaves/maple.obj". Each is there once, whatever the case of its letters, and differs from those
+/// "leaves/maple.obj". Names are unique, whatever the case of their letters, and differ from those
 /// of the library: "leaf file" for "leaf.png", "maple file" for the second maple.
 [[nodiscard]] std::vector<std::string> object_file_names(const std::vector<std::string>& files);
 

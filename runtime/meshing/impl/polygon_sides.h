@@ -8,9 +8,9 @@
 
 namespace lsys {
 
-/// Half a side of the regular polygon with unit corners: sin(pi / sides).
+/// Half a side of the regular polygon with corners on the unit circle: sin(pi / sides).
 [[nodiscard]] float half_side(std::uint32_t sides);
-/// Distance from its centre to the middle of a side: cos(pi / sides).
+/// Distance from the centre of that polygon to the middle of a side: cos(pi / sides).
 [[nodiscard]] float inner_radius(std::uint32_t sides);
 /// Factor that gives a polygon of `fewer` sides the circumference, and so the mean width, of one of
 /// `sides` sides: the mean width of a convex shape is its circumference / pi (Cauchy).

@@ -1,4 +1,4 @@
-// Rasteriser of triangles by pixel centres, for what is decided or baked from pictures of a mesh:
+// Rasteriser of triangles by pixel centres, for measuring and baking pictures of a mesh. It uses
 // only additions, multiplications and divisions, so that every machine draws the same.
 #pragma once
 
@@ -27,8 +27,8 @@ struct DepthBuffer {
 };
 
 /// Draws a triangle with corners in pixels and depth. fragment(pixel, weights) is called for each
-/// pixel at which it is nearest so far, with the weights of the corners; where it returns false,
-/// the triangle has a hole.
+/// pixel at which the triangle is nearest so far, with the weights of the corners; where it returns
+/// false, the triangle has a hole.
 template <typename Fragment>
 void raster_triangle(const std::array<glm::vec3, 3>& corners,
                      DepthBuffer& buffer,
@@ -74,7 +74,8 @@ void raster_triangle(const std::array<glm::vec3, 3>& corners,
         int from = begin_x;
         int to = end_x;
         if (end_x - begin_x >= kWide) {
-            // About where each weight is 0; thin triangles are but a small part of their box.
+            // Cuts the row at about the places where a weight is 0, since thin triangles fill only
+            // a small part of their box.
             float low = static_cast<float>(begin_x);
             float high = static_cast<float>(end_x);
             const auto cut = [&](float along, float zero) {

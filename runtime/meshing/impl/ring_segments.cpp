@@ -19,7 +19,8 @@ namespace lsys {
 namespace {
 
 // Max joints between the bases of two consecutive segments: two edges of a collar, each cut for
-// noise into at most sixteen. An edge of a smooth curve is cut into parts before.
+// noise into at most sixteen. With smooth joints each edge is first cut into at most
+// kMaxCurveParts.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
@@ -162,7 +163,7 @@ private:
         vertex_ += count;
     }
 
-    /// Writes in the order of a TubeWriter.
+    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes these.
     void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;

@@ -22,9 +22,9 @@ namespace {
 constexpr std::uint32_t kMinSolidSides = 9; // fewer would lose thin parts
 /// Edge of a cell per radius, times the sides of a cross-section.
 constexpr double kCellSides = 7.2;
-/// Width of the thinnest part, of the largest extent of the plant.
+/// Width of the thinnest part, as a fraction of the largest extent of the plant.
 constexpr double kMinWidth = 1.0 / 150.0;
-/// The least width that the finest cells resolve, of the largest extent.
+/// Min width that the finest cells resolve, as a fraction of the largest extent.
 constexpr double kFinestWidth = 2e-5;
 
 struct Bounds3 {
@@ -45,7 +45,7 @@ bool is_drawn(const Segment& segment) {
     return segment.base_radius > 0.0F || segment.tip_radius > 0.0F;
 }
 
-/// Axes of segments and corners of triangles.
+/// The bounds of axes of segments and corners of triangles.
 Bounds3 bounds_of(const Skeleton& skeleton, const Mesh& flat) {
     Bounds3 bounds;
     for (const Segment& segment : skeleton.segments) {
@@ -60,9 +60,9 @@ Bounds3 bounds_of(const Skeleton& skeleton, const Mesh& flat) {
     return bounds;
 }
 
-/// The lowest point of the plant, if a standing stem begins there.
+/// Height (y) of the lowest point of the plant, if a standing stem begins there.
 std::optional<double> ground_of(const Skeleton& skeleton, const Bounds3& bounds) {
-    constexpr float kStanding = 0.5F; // of the heading's +Y
+    constexpr float kStanding = 0.5F; // min y of the heading
     const double near = 1e-6 * bounds.extent();
     const bool stands = std::any_of(skeleton.segments.begin(), skeleton.segments.end(),
                                     [&](const Segment& segment) {

@@ -10,12 +10,12 @@ namespace lsys {
 
 namespace {
 
-/// The place on the axis of the ball of a cone that is nearest to a point.
+/// The place, along the axis of a cone, of its ball that is nearest to a point.
 double nearest_ball(const SolidShape& cone, double along, double across) {
     if (cone.length == 0.0) {
         return 0.0;
     }
-    if (std::abs(cone.taper) >= 1.0) { // one end holds the other
+    if (std::abs(cone.taper) >= 1.0) { // the ball at one end contains the other
         return cone.taper > 0.0 ? 0.0 : cone.length;
     }
     return std::clamp(along - across * cone.foot, 0.0, cone.length);

@@ -13,8 +13,8 @@
 
 namespace lsys {
 
-/// All balls about the axis from a corner to the next, with radii between those of the ends; or all
-/// balls of `base_radius` about a triangle.
+/// The union of all balls about the axis from a corner to the next, with radii between those of the
+/// ends; or of all balls of `base_radius` about a triangle.
 struct SolidShape {
     std::array<glm::dvec3, 3> corners{}; // of a cone: the ends of its axis
     double base_radius = 0.0;
@@ -22,13 +22,13 @@ struct SolidShape {
     bool is_triangle = false;
     std::uint16_t palette = 0;
     std::uint32_t segment = kNoSegment; // that carries the shape
-    // Of a cone:
+    // Members of a cone:
     glm::dvec3 axis{};       // unit length
     double length = 0.0;     // of the axis; 0: a ball
     double taper = 0.0;      // loss of radius per length
     double foot = 0.0;       // distance from a point to its nearest ball along the axis, per radius
     double min_radius = 0.0; // radius at the thin end
-    /// Of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
+    /// Members of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
     /// counter-clockwise.
     struct Side {
         glm::dvec2 from{};
@@ -41,7 +41,8 @@ struct SolidShape {
 };
 
 /// `distance`: from the surface of the shape, negative within; changes by at most 1 per metre.
-/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper.
+/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper per
+/// metre.
 struct ShapeProbe {
     double distance = 0.0;
     double radius = 0.0;

@@ -25,22 +25,24 @@ using Node = glm::ivec3; // in units of the grid
 constexpr int kHalvings = 18;
 constexpr int kUnits = 1 << kHalvings; // along the root cube
 constexpr int kMaxGeneration = 3 * kHalvings;
-constexpr int kPieceGeneration = 6; // of tetrahedra that are worked on in parallel
+constexpr int kPieceGeneration = 6; // generation of tetrahedra that are cut in parallel
 /// Growth of the cells per metre from the surface. Neighbours divide their common edge alike if the
 /// wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206, the
 /// middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart, and that is
 /// less than 1.79 times its step.
 constexpr double kGrowth = 0.1;
 constexpr double kMaxGrowth = 0.16;
-/// Size of cells at the edge of the base, of that elsewhere: keeps the edge sharp.
+/// Size of cells at the edge of the base, as a fraction of the size elsewhere: keeps the edge
+/// sharp.
 constexpr double kBaseCells = 0.25;
-/// The triangles between vertices on a curve lie within it. Cones are wider by this part of the
-/// square of their cells, per radius.
+/// Triangles between vertices on a curved surface lie within it. So the surface of cones is moved
+/// outwards by kChord cell^2 / radius, which keeps their volume.
 constexpr double kChord = 0.031;
 /// Bound of the change of a distance per metre.
 constexpr double kSlope = 1.02;
+/// Size of a tetrahedron of generation k, k modulo 3, relative to k = 0: 2^(-k / 3).
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
-/// Distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
+/// Min distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
 constexpr double kEdgeMargin = 0.02;
 /// Distance from the surface, per length of the edge, at which a vertex is on it.
 constexpr double kExact = 1e-6;
@@ -48,7 +50,7 @@ constexpr double kExact = 1e-6;
 struct Tetrahedron {
     std::array<Node, 4> nodes{};
     std::array<double, 4> distances{}; // from the surface
-    int tag = 3;                       // the edge to bisect is that from nodes[0] to nodes[tag]
+    int tag = 3; // the next bisection cuts the edge from nodes[0] to nodes[tag]
     int generation = 0;
 };
 
@@ -85,7 +87,8 @@ Grid make_grid(const Solid& solid) {
     const glm::dvec3 extent = high - low;
     Grid grid;
     const double least = kRoom * std::max({extent.x, extent.y, extent.z});
-    // Put the step of the thinnest shapes, which are the most, halfway between two generations.
+    // Put the step of the thinnest shapes, which are the most frequent, halfway between two
+    // generations.
     constexpr double kPhase = 0.9;
     grid.side = kPhase * solid.cell * thinnest;
     while (grid.side < least) {
@@ -138,7 +141,7 @@ std::uint64_t key_of(const Node& a, const Node& b) {
            (static_cast<std::uint64_t>(sum.y) << kBits) | static_cast<std::uint64_t>(sum.z);
 }
 
-/// Whether the corners b, c, d are counter-clockwise seen from a, from the other side.
+/// Whether the corners b, c, d are counter-clockwise, seen from the side opposite to the corner a.
 bool is_positive(const std::array<Node, 4>& nodes) {
     const glm::i64vec3 a(nodes[0]);
     const glm::i64vec3 b = glm::i64vec3(nodes[1]) - a;
@@ -213,7 +216,7 @@ private:
         }
         const double distance =
             at.distance - (shape.is_triangle ? 0.0 : kChord * cell * cell / at.radius);
-        // Of a base, its cells have grown with `away` already.
+        // Near a base, the size of cells has already grown with `away`.
         return {distance, cell + kGrowth * std::max(std::abs(distance) - away, 0.0)};
     }
 
@@ -241,8 +244,8 @@ private:
         for (const Node& node : tetrahedron.nodes) {
             reach = std::max(reach, glm::length(grid_.position(node) - middle));
         }
-        // Some six tetrahedra are bisected at this middle. Most of them need its distance only, not
-        // the shapes near it.
+        // About six tetrahedra share this edge and are bisected at its middle. Most of them need
+        // only the distance of the middle, not the shapes near it.
         const std::uint64_t key = key_of(from, to);
         const auto known = middles_.find(key);
         const bool is_new = known == middles_.end();
@@ -270,8 +273,8 @@ private:
         const double next = grid_.step(tetrahedron.generation + 1);
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
-            // A shape whose cells are nowhere the smallest here does not matter for their size: of
-            // many leaves all but the nearest.
+            // A shape matters for the size of cells only if its cells may be the smallest somewhere
+            // here: of many leaves, only the nearest.
             const bool may_be_nearest = at.distance <= at_middle.distance + 2.0 * kSlope * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
             if (may_be_nearest || (may_be_smallest && at.size - kMaxGrowth * reach < next)) {
@@ -284,8 +287,9 @@ private:
         near_.resize(last);
     }
 
-    /// The distance and size of cells at a point, of the shapes near_[first, last). probes_ becomes
-    /// those of each shape, or lower bounds of them where the shape is too far to be the least.
+    /// The least distance and size of cells at a point, of the shapes near_[first, last). Sets
+    /// probes_ to the values of each shape, or to lower bounds of them if the shape is too far to
+    /// have the least.
     Size measure_all(std::size_t first, std::size_t last, const glm::dvec3& point) {
         constexpr double kFar = std::numeric_limits<double>::max();
         probes_.resize(last - first);
@@ -345,7 +349,7 @@ private:
         }
     }
 
-    /// The vertex on the edge between a node within and one outside.
+    /// The vertex of the surface on the edge between a node within the solid and a node outside.
     std::uint32_t vertex(const Tetrahedron& tetrahedron,
                          std::size_t within,
                          std::size_t outside,
@@ -406,7 +410,7 @@ private:
         surface_.triangles.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
     }
 
-    /// Adds the triangles between the nodes within and those outside.
+    /// Adds the triangles that separate the nodes within the solid from those outside.
     void cut(const Tetrahedron& tetrahedron, std::span<const std::uint32_t> near) {
         // Nodes within first.
         std::array<std::size_t, 4> order{0, 1, 2, 3};
@@ -460,7 +464,8 @@ private:
         overflow_ = overflow_ || left < bytes;
     }
 
-    // With the table of edges, and both copies while pieces are joined.
+    // Bytes per vertex and triangle, with the table of edges and both copies while pieces are
+    // joined.
     static constexpr std::uint64_t kVertexBytes = 2 * sizeof(SolidVertex) + 96;
     static constexpr std::uint64_t kTriangleBytes = 24;
 
@@ -471,9 +476,9 @@ private:
     bool overflow_ = false;
     std::vector<std::uint32_t> near_; // numbers of shapes, those of an ancestor before its child's
     std::vector<Size> probes_;
-    std::vector<std::uint32_t> nearest_; // of near_, those of an edge
+    std::vector<std::uint32_t> nearest_; // numbers of shapes that may be nearest on an edge
     static constexpr std::size_t kMaxMiddles = 1 << 20;
-    std::unordered_map<std::uint64_t, Size> middles_; // of edges
+    std::unordered_map<std::uint64_t, Size> middles_; // by key of the edge
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
     std::vector<std::uint64_t> keys_; // of the vertices
     SolidSurface surface_;

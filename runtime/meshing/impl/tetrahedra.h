@@ -1,5 +1,6 @@
-// A surface from its distance function by marching tetrahedra, in a cube that is halved along the
-// longest edges of its tetrahedra (Maubach 1995) until each is small beside the shapes near it.
+// A surface from its distance function by marching tetrahedra. A cube is divided into tetrahedra,
+// which are bisected at their longest edges (Maubach 1995) until each is small relative to the
+// shapes near it.
 #pragma once
 
 #include "runtime/meshing/impl/solid_shapes.h"
@@ -32,10 +33,10 @@ struct SolidSurface {
 };
 
 /// Each edge belongs to two triangles, in opposite directions, and no two triangles meet but at
-/// common vertices and edges: a triangle lies in one tetrahedron. Vertices lie on the
-/// surface, moved outwards so that cones have the volume of round ones. The result is the same for any number of threads. Returns nothing when it takes more than
-/// `max_bytes`. Throws std::bad_alloc. Precondition: the shapes have finite corners and radii above
-/// 0.
+/// common vertices and edges: a triangle lies in one tetrahedron. Vertices lie on the surface,
+/// moved outwards so that cones have the volume of round ones. The result is the same for any
+/// number of threads. Returns nullopt if more than `max_bytes` are needed. Throws std::bad_alloc.
+/// Precondition: the shapes have finite corners and radii above 0.
 [[nodiscard]] std::optional<SolidSurface>
 extract_surface(const Solid& solid, std::uint64_t max_bytes, std::uint32_t threads);
 

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x7468696E; // of the order, which is part of no derivation
+constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the author
 constexpr std::uint32_t kPathBlock = 0;
 constexpr std::uint32_t kFoliageBlock = 1;
 constexpr int kWideningSteps = 40; // halvings of the interval of the radius
@@ -26,9 +26,9 @@ std::uint32_t random_word(std::uint64_t number, std::uint32_t block) {
 
 void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
-    std::vector<double> areas(count, 0.0);   // of a segment and all it carries
+    std::vector<double> areas(count, 0.0);   // outline of a segment and all its descendants
     std::vector<double> reaches(count, 0.0); // of the longest path through a child
-    std::vector<std::uint32_t> heirs(count, kNoSegment);
+    std::vector<std::uint32_t> heirs(count, kNoSegment); // the child that continues the path
     for (std::size_t i = count; i-- > 0;) {
         const Segment& segment = skeleton.segments[i];
         areas[i] += outline_area(segment);
@@ -61,7 +61,7 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
                          .random = random_word(i, kPathBlock),
                          .number = static_cast<std::uint32_t>(paths.size())});
     }
-    // A child never carries more than its parent; of equal ones the parent is first.
+    // A path never carries more than its parent path; of equal paths the parent comes first.
     std::sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) {
         return std::tie(b.area, a.order, a.random, a.number) <
                std::tie(a.area, b.order, b.random, b.number);
@@ -105,7 +105,8 @@ void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
         order.group_of[i] = place->second;
         ++sizes[place->second];
     }
-    // Ranks within a group by random numbers; across groups by the part of the group before it.
+    // Within a group, items are in random order; across groups, in the order of the fraction of
+    // their group before them.
     struct Item {
         std::uint32_t group = 0;
         std::uint32_t random = 0;
@@ -149,8 +150,8 @@ double polygon_area(std::span<const glm::vec3> corners) {
     return 0.5 * glm::length(sum);
 }
 
-/// The radius to which thinner wood of `thin` is widened so that all has the outline `area`, at
-/// most `max`.
+/// The radius, at most `max`, to which thinner wood of `thin` is widened so that the outlines of
+/// all wood add up to `area`.
 double widening_radius(const Skeleton& thin, double area, double max) {
     const auto area_at = [&](double radius) {
         double sum = 0.0;
@@ -172,7 +173,9 @@ double widening_radius(const Skeleton& thin, double area, double max) {
     return low;
 }
 
-/// Wood that stays, with its order by paths, so that a path becomes one tube.
+/// Copies the wood that stays to `thin`, with the order of its path, so that a path becomes one
+/// tube. `places`: for each segment, its number in `thin` or that of the nearest ancestor that
+/// stays.
 void thin_wood(const Skeleton& skeleton,
                const ThinningOrder& order,
                const Thinning& thinning,
@@ -211,7 +214,7 @@ void thin_wood(const Skeleton& skeleton,
     }
 }
 
-/// Factors of size per group: the areas of what stays are those of all.
+/// Factors of size per group, with which the items that stay have the area of all items.
 std::vector<float> growth_of(const Skeleton& skeleton,
                              const ThinningOrder& order,
                              std::uint64_t kept,
@@ -237,7 +240,7 @@ std::vector<float> growth_of(const Skeleton& skeleton,
         all[group] += area;
         left[group] += rank < kept ? coarse_area : 0.0;
     }
-    // Groups of which nothing is left give their area to all others.
+    // Groups of which no item stays give their area to all other groups.
     const double sum = std::accumulate(all.begin(), all.end(), 0.0);
     double represented = 0.0;
     for (std::size_t group = 0; group < all.size(); ++group) {

@@ -22,15 +22,18 @@ struct FoliageGroup {
     std::uint32_t mesh_file = 0;                     // of objects
 };
 
-/// The order of a plant. Foliage is numbered: the objects, then the polygons.
+/// The order in which parts of a plant stay longest. Items of foliage are numbered: objects, then
+/// polygons.
 struct ThinningOrder {
     /// Per segment: the rank of its path. A path goes from where it leaves its parent to the tip
     /// that is farthest along the wood. The first paths carry most wood; each comes after its
     /// parent, so any number of first paths is connected.
     LargeVector<std::uint32_t> path_ranks;
     std::vector<std::uint16_t> path_orders; // by rank: number of paths between it and the root
-    LargeVector<std::uint32_t> foliage;     // by rank: each group in equal parts, at random
-    LargeVector<std::uint32_t> group_of;    // per item of foliage
+    /// Items of foliage by rank, at random: the items up to any rank are about the same part of
+    /// each group.
+    LargeVector<std::uint32_t> foliage;
+    LargeVector<std::uint32_t> group_of; // per item of foliage
     std::vector<FoliageGroup> groups;
 
     [[nodiscard]] std::uint64_t path_count() const { return path_orders.size(); }
@@ -40,24 +43,24 @@ struct ThinningOrder {
 /// Area of the outline of a segment seen from its side.
 [[nodiscard]] double outline_area(const Segment& segment);
 
-/// A shape as foliage.
+/// Measures of the shape of a group.
 struct FoliageShape {
     std::uint64_t triangles = 0;
-    double area = 0.0; // at size 1
-    glm::vec3 centre{};
+    double area = 0.0;  // of all triangles at size 1
+    glm::vec3 centre{}; // of that area
 };
 /// Shapes of the groups at MeshOptions::level `level`; polygons have none.
 [[nodiscard]] std::vector<FoliageShape> foliage_shapes(const ThinningOrder& order,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        std::uint32_t level);
 
-/// What stays.
+/// The parts of a plant that a level keeps.
 struct Thinning {
-    std::uint64_t paths = ~std::uint64_t{0};
-    std::uint64_t foliage = ~std::uint64_t{0};
-    float max_radius = 0.0F; // m, to which thin wood may be widened
-    float wood_scale = 1.0F; // of widths after that
-    float foliage_scale = 1.0F;
+    std::uint64_t paths = ~std::uint64_t{0};   // number of first paths
+    std::uint64_t foliage = ~std::uint64_t{0}; // number of first items of foliage
+    float max_radius = 0.0F;                   // m, to which thin wood may be widened
+    float wood_scale = 1.0F;                   // factor of all widths after that
+    float foliage_scale = 1.0F;                // factor of the size of foliage
 };
 
 /// Makes `thin` from `skeleton`, which has the items of the skeleton of `order` in any pose. Thin

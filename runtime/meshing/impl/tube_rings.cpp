@@ -1,4 +1,4 @@
-// TubeWriter: filling of arrays.
+// TubeWriter: writing of rings to the arrays of the mesh.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/impl/directions.h"
 #include "runtime/meshing/impl/float4.h"

@@ -34,7 +34,7 @@ private:
     std::span<TriangleList> lists_;
     bool seam_;
     std::uint64_t vertices_ = 0;
-    RingCorners last_; // ring
+    RingCorners last_; // the ring added last
 };
 
 } // namespace lsys

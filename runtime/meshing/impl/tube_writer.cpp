@@ -16,16 +16,18 @@ namespace {
 
 constexpr float kMaxSlope = 8.0F;
 constexpr std::uint32_t kEdgesPerOrthogonalization =
-    16;                         // edges after which a frame is made orthogonal again
-constexpr float kSpread = 0.2F; // of the rings of one bend, in radii
-constexpr float kBluntHeight = 0.35F;
+    16;                               // edges after which a frame is made orthogonal again
+constexpr float kSpread = 0.2F;       // distance of the rings of a bend from its joint, in radii
+constexpr float kBluntHeight = 0.35F; // in radii
 // The ring between the end of a tube and the top of its half ball, in radii.
 constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
-// Part of the bisector in the first of three tangents of a bend: a third of 90 degrees.
+// Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
+// for a reversal, whose bisector is 90 degrees away.
 constexpr float kThird = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // cosine of a bend
-// Grooves of a tube by the sides that its rings have at level 0.
+// Number of grooves of a tube: the sides of its rings at level 0 over kSidesOfGroove, within
+// bounds.
 constexpr std::uint32_t kSidesOfGroove = 4;
 constexpr std::uint32_t kMinGrooves = 3;
 constexpr std::uint32_t kMaxGrooves = 16;
@@ -43,7 +45,7 @@ glm::vec3 across(const glm::vec3& v, const glm::vec3& unit) {
     return square > 1e-6F ? part / std::sqrt(square) : any_perpendicular(unit);
 }
 
-/// The circumference at the mean radius.
+/// The circumference of a run at its mean radius.
 double mean_circumference(const Run& run) {
     double area = 0.0;
     double length = 0.0;

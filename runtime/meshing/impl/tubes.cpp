@@ -19,12 +19,12 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kPieces = 64;
-constexpr std::uint64_t kMinPieceSegments = 4096; // segments
+constexpr std::uint64_t kMinPieceSegments = 4096; // segments per piece
 constexpr std::uint64_t kMaxPieceSegments = std::uint64_t{1} << 17;
-constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // of pieces and colours
-constexpr std::size_t kJointsPerSegment = 2;                // about, with ends and collars
+constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // max pieces times colours
+constexpr std::size_t kJointsPerSegment = 2;                // estimate, with ends and collars
 constexpr std::size_t kJointsPerPart = 2048;
-constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // a run that is written in parts
+constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // joints of a run that is written in parts
 static_assert(kMinLongRun <= 0xFFFF);
 
 /// A Run without its joints and their radii.
@@ -42,7 +42,7 @@ struct LongRun {
     std::size_t first_joint = 0; // in Piece::joints, of the next run
     LargeVector<Joint> joints;
     LargeVector<float> radii;
-    std::uint64_t first_vertex = 0; // of those of the piece
+    std::uint64_t first_vertex = 0; // among the vertices of the piece
     std::uint64_t end_vertex = 0;
     std::vector<TubeWriter::Place> places; // where each part begins
     std::atomic<std::size_t> known{1};     // count of places found so far
@@ -52,7 +52,7 @@ struct LongRun {
 struct Piece {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::uint64_t vertices = 0;          // first their number, then their position in the mesh
+    std::uint64_t vertices = 0;          // their number, later the first one in the mesh
     std::vector<TriangleList> triangles; // of each colour
     LargeVector<KeptRun> runs;
     LargeVector<Joint> joints; // of all runs that are not long

@@ -18,13 +18,13 @@ namespace {
 constexpr int kFirstSize = 96; // pixels of a side, of the first pictures
 constexpr int kMinSize = 80;
 constexpr int kMaxSize = 256;
-constexpr double kWantedPixels = 2500.0; // covered by a plant in a view
+constexpr double kWantedPixels = 2500.0; // aimed at, covered by a plant in a view
 constexpr std::size_t kFirstViews = 4;
 constexpr float kCosine15 = 0.9659258F; // of 15 degrees
 constexpr float kSine15 = 0.2588190F;
 constexpr float kDiagonal = 0.7071068F;
-/// Cosine and sine of the turn about +Y, and of the height of the eye above the horizon. No card of
-/// an impostor is seen edge-on.
+/// kTurns: cosine and sine of the turns about +Y; kTilts: of the heights of the eye above the
+/// horizon. With these turns no card of an impostor is seen edge-on.
 constexpr std::array<std::array<float, 2>, 12> kTurns{{{kCosine15, kSine15},
                                                        {kDiagonal, kDiagonal},
                                                        {kSine15, kCosine15},
@@ -41,9 +41,9 @@ constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}
 
 constexpr std::uint32_t kRowBits = 0xFFFF; // of the number of a cell
 constexpr std::size_t kViews = kTurns.size() * kTilts.size();
-constexpr std::size_t kThird = 3; // level and from above by turns, too
+constexpr std::size_t kThird = 3; // step of views: these are level and from above by turns, too
 
-/// A part of a mesh as it is drawn.
+/// A part of a mesh, prepared for drawing.
 struct Surface {
     MeshPart part;
     const LinearTexture* texture = nullptr; // null: none
@@ -52,7 +52,7 @@ struct Surface {
     bool has_holes = false;
 };
 
-/// A mesh as it is drawn from all sides.
+/// A mesh, prepared for drawing in all views.
 struct DrawnMesh {
     const Mesh& mesh;
     LargeVector<std::uint32_t> indices;
@@ -182,13 +182,13 @@ private:
     glm::vec3 offset_{};
     DepthBuffer depth_;
     std::vector<Pixel> pixels_;
-    std::vector<glm::vec3> places_;    // of the vertices of a mesh
-    std::vector<std::uint32_t> cells_; // in which they lie
+    std::vector<glm::vec3> places_;    // of the vertices of a mesh, in pixels
+    std::vector<std::uint32_t> cells_; // of these places; see cell()
 };
 
-/// Places of the plant between pixels: a trunk in the middle of all views would lie between the
-/// same centres in each of them. R2 sequence (Roberts, "The unreasonable effectiveness of
-/// quasirandom sequences", 2018).
+/// Offset of the plant in pixels, 0 to 1, which differs from view to view: else a trunk in the
+/// middle would lie between the same pixel centres in all views. R2 sequence (Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
 glm::vec2 offset_of(std::uint64_t view) {
     const glm::vec2 at = static_cast<float>(view + 1) * glm::vec2(0.7548777F, 0.5698403F);
     return at - glm::floor(at);

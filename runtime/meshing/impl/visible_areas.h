@@ -43,7 +43,7 @@ public:
     /// `third`, if given, gets measure_third().
     [[nodiscard]] VisibleAreas
     measure(const Mesh& wood, const Mesh& foliage, VisibleAreas* third = nullptr);
-    /// The same in every third view alone.
+    /// Does the same in every third view only.
     [[nodiscard]] VisibleAreas measure_third(const Mesh& wood, const Mesh& foliage);
 
 private:

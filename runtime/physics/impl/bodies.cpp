@@ -3,9 +3,9 @@
 // The mass is Segment::mass: the volume of the cone times the density unless the author gives it.
 //
 // Objects and polygons have no mass in the grammar, but a crown without its leaves bends too
-// little. They are thin sheets of `surface_mass`: an object of size s has s^2 square metres, at
-// half its length; a polygon has its area, at the mean of its corners. Half of the area faces the
-// wind: the mean over all directions.
+// little. So they count as thin sheets of `surface_mass`: an object of size s has s^2 square
+// metres, at half its length; a polygon has its area, at the mean of its corners. Half of the area
+// faces the wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
 
 #include <glm/geometric.hpp>
@@ -143,8 +143,8 @@ void add_sheet(
 }
 
 /// Sets the contact of each body with the ground. A tip above the ground at rest may sink until its
-/// radius touches the ground; a tip below it that carries a tip above it is held at its depth;
-/// other tips are free. `carried`: mass of each body and its descendants, kg.
+/// radius touches the ground; a tip below the ground with a descendant above the ground is held at
+/// its depth; other tips are free. `carried`: mass of each body and its descendants, kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();
     const auto tip_height = [&](std::size_t b) {
@@ -235,7 +235,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                       sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
         }
     }
-    std::vector<double> carried(out.bodies.size(), 0.0); // mass of a body and its descendants
+    std::vector<double> carried(out.bodies.size(), 0.0); // kg, of a body and its descendants
     for (std::size_t b = out.bodies.size(); b-- > 0;) {
         Body& body = out.bodies[b];
         glm::dvec3 moment = loads[b].first_moment;

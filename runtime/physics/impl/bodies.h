@@ -23,9 +23,9 @@ struct Body {
     std::uint32_t child_count = 0;
     glm::dvec3 offset{0.0}; // from the parent's base to the base
     glm::dvec3 centre{0.0}; // centre of mass
-    Symmetric inertia;      // about the base
-    double mass = 0.0;
-    double spring = 0.0;
+    Symmetric inertia;      // kg m^2, about the base
+    double mass = 0.0;      // kg
+    double spring = 0.0;    // N m/rad
     /// Sum of mass times position over the body and its children, with the whole load of a child at
     /// the child's base: kg m.
     glm::dvec3 moment{0.0};
@@ -33,9 +33,9 @@ struct Body {
     // wind and heading.
     glm::vec3 heading{0.0F, 1.0F, 0.0F};
     float side = 0.0F; // m^2
-    float end = 0.0F;
-    float sail = 0.0F;
-    // The ground: its contact is at the tip.
+    float end = 0.0F;  // m^2
+    float sail = 0.0F; // m^2
+    // Contact with the ground, at the tip.
     glm::dvec3 tip{0.0};
     double clearance = kNoGround; // m, height of the tip above the lowest place that it may take
     double ground_spring = 0.0;   // N/m
@@ -54,9 +54,9 @@ struct Bodies {
 
 /// Mass properties of a solid of uniform density and mass 1 about the middle of its base.
 struct UnitCone {
-    double centre = 0.0;     // height of the centre of mass
-    double transverse = 0.0; // inertia about an axis in the base
-    double axial = 0.0;      // inertia about the axis from base to tip
+    double centre = 0.0;     // m, height of the centre of mass
+    double transverse = 0.0; // m^2, inertia about an axis in the base
+    double axial = 0.0;      // m^2, inertia about the axis from base to tip
 };
 /// The truncated cone of these radii: a cylinder where they are equal, a thin rod where both are 0.
 [[nodiscard]] UnitCone unit_cone(double length, double base_radius, double tip_radius);

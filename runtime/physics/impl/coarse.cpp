@@ -1,5 +1,5 @@
-// A twig that is limp loads its branch as a mass at its base does, so a coarse plant falls as the
-// whole one: Body::moment, clearance and spring of the ground are those of the whole plant.
+// A limp twig loads its branch as a point mass at its base does, so a coarse plant falls as the
+// whole plant does: Body::moment, clearance and ground_spring are those of the whole plant.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -14,11 +14,11 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kCoarsest = 500; // bodies of the coarsest plant, about
-constexpr std::uint32_t kGrowth = 4;     // times as many bodies has the next plant, about
-constexpr double kMinGrowth = 3.0;
+constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest plant
+constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
+constexpr double kMinGrowth = 3.0;       // min ratio
 
-/// Sums over each body and its descendants.
+/// Sums over each body and its descendants, by body.
 struct Twigs {
     std::vector<std::uint32_t> sizes; // bodies
     std::vector<double> masses;       // kg
@@ -44,7 +44,8 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
     return out;
 }
 
-/// The bodies with at least `min_size` bodies from there on.
+/// The part of `plant` whose bodies have at least `min_size` bodies in their subtree, themselves
+/// included.
 CoarsePlant coarse_plant(const Bodies& plant, const Twigs& twigs, std::uint32_t min_size) {
     CoarsePlant out;
     std::vector<std::uint32_t> places(plant.bodies.size(), kNoSegment);
@@ -102,7 +103,7 @@ std::vector<CoarsePlant> coarse_plants(const Bodies& plant) {
     std::vector<std::uint32_t> sorted = twigs.sizes;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
     for (std::size_t most = kCoarsest; most < count; most *= kGrowth) {
-        // Bodies with more descendants than those of body number `most`: at most so many.
+        // At most `most` bodies have larger subtrees than item `most` of `sorted`.
         const std::uint32_t min_size = sorted[most] + 1;
         const auto kept = static_cast<double>(
             std::partition_point(sorted.begin(), sorted.end(),

@@ -19,12 +19,12 @@ glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& sh
     if (!(length > 0.0)) {
         return turn;
     }
-    // For a tip that hangs straight down any level direction will do.
+    // If the tip hangs straight down, any level direction will do.
     const double x = level > 1e-9 * length ? arm.x / level : 1.0;
     const double z = level > 1e-9 * length ? arm.z / level : 0.0;
     const double height = std::clamp((arm.y + depth) / length, -1.0, 1.0);
     const double angle = std::asin(height) - std::asin(std::clamp(arm.y / length, -1.0, 1.0));
-    // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
+    // A rotation about (-z, 0, x), which turns the level direction (x, 0, z) towards +Y.
     const double half = 0.5 * angle;
     const glm::dquat up(std::cos(half), std::sin(half) * glm::dvec3(-z, 0.0, x));
     return glm::normalize(up * turn);

@@ -7,19 +7,22 @@
 //   sum of 1/2 (w, u) M (w, u) - (w, u) . (momentum + h force)         bodies
 //        + 1/2 (h c + h^2 k) |w - w_p|^2 + h k d . (w - w_p)           joints: damper, spring
 //        + 1/2 h^2 G |w|^2                                             weight and wind
-// where d is the joint's rotation vector. G is |g| |sum m r| over the body and its children, with
-// each child's whole load at the child's base, plus the same term for the force of the wind: the
-// second derivative of the weight's energy in absolute rotations has no coupling between bodies and
-// is nowhere greater than G. The second derivative of the spring's energy along a rotation is
-// nowhere greater than k. So the minimum has a lower energy, however long the step is.
-// Forces::exactness replaces these bounds by the true second derivatives. Where these are negative,
-// as of a branch that could fall to either side, their absolute values are used in those directions
-// alone, so that the others keep the convergence of Newton's method.
+// where h is the time step, M the mass matrix of a body, r the arm from the base of the parent to
+// that of the body, c the damping, k the spring constant and d the rotation vector of the joint. G
+// is |g| |sum m r| over the body and its children, with each child's whole load at the child's
+// base, plus the same term for the force of the wind: the second derivative of the weight's energy
+// in absolute rotations has no coupling between bodies and is nowhere greater than G. The second
+// derivative of the spring's energy along a rotation is nowhere greater than k. So the minimum has
+// a lower energy, however long the step is. Forces::exactness replaces these bounds by the true
+// second derivatives. Where the true ones are negative, as for a branch that could fall to either
+// side, their absolute values are used in those directions alone, so that the other directions keep
+// the convergence of Newton's method.
 //
 // The ground is a spring 1/2 K depth^2 at each tip below it, whose force acts on all ancestors of
-// the tip; its second derivatives are bounded and made exact in the same way. Friction, its force
-// times Forces::friction against the motion along the ground, is a damper in the step. With
-// Forces::own_load bases stand still and children are left out, so each joint is solved alone.
+// the tip; its second derivatives are bounded and made exact in the same way. Friction acts against
+// the motion along the ground, with the force of that spring times Forces::friction; in the step it
+// is a damper. With Forces::own_load bases stand still and children are left out, so each joint is
+// solved alone.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -31,10 +34,11 @@ namespace lsys {
 namespace {
 
 constexpr double kMinInertia = 1e-13;         // relative to the trace: a bound of rounding errors
-constexpr double kMaxTurn = std::numbers::pi; // per step: a larger rotation has no unique vector
+constexpr double kMaxTurn = std::numbers::pi; // rad per step: a larger turn has no unique vector
 constexpr double kStickingSpeed = 0.01;       // m/s: below it friction falls with the speed, to 0
 
-/// Quadratic forms of a body and of its joint.
+/// Quadratic and linear form of a body in its spin and the velocity of its base; `push` as in
+/// Reduced.
 struct BodyForms {
     Symmetric spin_spin;
     Rows spin_velocity;
@@ -177,17 +181,17 @@ void add_child(const Reduced& child,
                const glm::dvec3& offset,
                const Forces& forces,
                BodyForms& own) {
-    // Substitutes u = u_p + w_p x r (see the top of this file). M = spin_velocity + [r]
-    // velocity_velocity, by rows.
+    // Substitutes u = u_p + w_p x r (see the top of this file). m is spin_velocity + [r]
+    // velocity_velocity by rows, where [r] v = r x v.
     const Rows n = rows_of(child.velocity_velocity);
     const std::array<glm::dvec3, 3>& b = child.spin_velocity.row;
     const std::array<glm::dvec3, 3> m = {b[0] - offset.z * n.row[1] + offset.y * n.row[2],
                                          b[1] + offset.z * n.row[0] - offset.x * n.row[2],
                                          b[2] - offset.y * n.row[0] + offset.x * n.row[1]};
     const std::array<glm::dvec3, 3> left = {glm::cross(m[0], offset), glm::cross(m[1], offset),
-                                            glm::cross(m[2], offset)}; // rows of M [r]
+                                            glm::cross(m[2], offset)}; // rows of m [r]
     const std::array<glm::dvec3, 3> right = {glm::cross(offset, b[0]), glm::cross(offset, b[1]),
-                                             glm::cross(offset, b[2])}; // columns of [r] B^T
+                                             glm::cross(offset, b[2])}; // columns of [r] b^T
     own.spin_spin += child.spin_spin;
     own.spin_spin += {right[0].x - left[0].x,
                       right[1].y - left[1].y,
@@ -225,7 +229,7 @@ void eliminate(const BodyForms& own,
     Rows twist; // the joint's coupling is joint + twist
     if (forces.exactness > 0.0) {
         // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
-        // directions normal to the bend, with x = |bend| / 2; and
+        // directions normal to the bend, with x = |bend| / 2. The twist comes from
         // exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
         const double half = 0.5 * glm::length(bend);
         const double normal_stiffness =

@@ -19,20 +19,21 @@ struct Forces {
     glm::dvec3 gravity{0.0}; // m/s^2
     double damping = 0.0;    // N m s/rad
     glm::dvec3 wind{0.0};    // m/s
-    double drag = 0.0;       // half the density of air times the drag coefficient
-    bool windy = false;
-    bool ground = false;
-    double friction = 0.0; // coefficient of friction of the ground
-    bool own_load = false; // a joint bears its own body only, not the descendants
-    /// Second derivatives of weight, wind and springs. 0: the greatest of all directions; 1: the
-    /// true ones, negative in some directions; between: interpolated.
+    double drag = 0.0;       // kg/m^3, half the density of air times the drag coefficient
+    bool windy = false;      // whether drag and wind are both above 0
+    bool ground = false;     // whether the ground holds tips
+    double friction = 0.0;   // coefficient of friction of the ground
+    bool own_load = false;   // a joint bears its own body only, not the descendants
+    /// Which second derivatives of weight, wind, springs and ground are used. 0: upper bounds, the
+    /// greatest of all directions; 1: the true ones, negative in some directions; in between:
+    /// interpolated.
     double exactness = 0.0;
 };
 
 /// Rotation of a body since rest and displacement of its base, in the axes of the world.
 struct BodyPose {
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    glm::dvec3 shift{0.0};
+    glm::dvec3 shift{0.0}; // m
 };
 
 /// Motion of a body, in the axes of the world.
@@ -43,13 +44,13 @@ struct BodyMotion {
     glm::dvec3 pull{0.0};     // centripetal acceleration of the base, m/s^2
 };
 
-/// The angular velocity at the end of the step: offset + from_parent * (that of the parent) -
-/// from_velocity * (velocity of the base).
+/// The angular velocity of a body at the end of the step: spin = offset + from_parent * (spin of
+/// the parent) - from_velocity * (velocity of the base).
 struct JointSolution {
     glm::dvec3 offset{0.0};
     Rows from_parent;
     Rows from_velocity;
-    glm::dvec3 spin{0.0}; // the result
+    glm::dvec3 spin{0.0}; // rad/s
 };
 
 /// A body and its descendants, as they act on the parent: a quadratic and a linear form of the
@@ -70,17 +71,18 @@ struct PlantBodies {
     std::vector<BodyPose> next_poses;
     std::vector<BodyMotion> motion;
     std::vector<JointSolution> solution;
-    std::vector<Reduced> reduced; // a ring: body b is at b & reduced_mask
+    std::vector<Reduced> reduced; // ring buffer: body b is at b & reduced_mask
     std::uint32_t reduced_mask = 0;
 };
 
-/// Drag coefficient of a body whose centre moves at `velocity`: N s/m.
+/// Drag of a body whose centre moves at `velocity`, per speed relative to the wind: N s/m.
 [[nodiscard]] double wind_drag(const Body& body,
                                const glm::dquat& turn,
                                const glm::dvec3& velocity,
                                const Forces& forces);
 
-/// Depth of the tip of a body below the lowest place that it may take, negative above it.
+/// Depth in m of the tip of a body below the lowest place that it may take; negative above that
+/// place.
 [[nodiscard]] inline double ground_depth(const Body& body, const BodyPose& pose) {
     return -(body.clearance + pose.shift.y + (pose.turn * body.tip - body.tip).y);
 }
@@ -89,16 +91,17 @@ struct PlantBodies {
 /// step in which the plant keeps its shape. Overwrites BodyMotion::velocity.
 void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 
+/// J, except `turn`.
 struct Energies {
     double kinetic = 0.0;
     double potential = 0.0;           // springs, weight and ground; 0 at rest
     double potential_magnitude = 0.0; // sum of the magnitudes of the terms of `potential`
     double work = 0.0;                // work of the wind
-    double slide = 0.0;               // sum of force of the ground times way of the tip along it: J
+    double slide = 0.0;               // sum over tips: force of the ground times distance slid
     double turn = 0.0;                // rad, max rotation of a body
 };
-/// Turns each body by the solved spin times `duration` seconds, into next_poses, and computes
-/// BodyMotion for these poses and the spins times `speed`.
+/// Turns each body by its solved spin times `duration` seconds into next_poses, and computes
+/// BodyMotion for these poses and the spins multiplied by `speed`.
 [[nodiscard]] Energies move_bodies(
     PlantBodies& plant, const Forces& forces, double duration, double speed, Workers& workers);
 /// Multiplies all velocities by `factor`.

@@ -118,8 +118,8 @@ struct Eigenvectors {
     return out;
 }
 
-/// What to add to `a` so that its eigenvalues become positive: each takes its absolute value, at
-/// least 1e-9 of the largest. The eigenvectors stay.
+/// The matrix that makes the eigenvalues of `a` positive if it is added to `a`: each takes its
+/// absolute value, at least 1e-9 of the largest. The eigenvectors stay.
 [[nodiscard]] inline Symmetric lift_to_positive(const Symmetric& a) {
     constexpr double kMinShare = 1e-9;
     const Eigenvectors eigen = eigenvectors_of(a);
@@ -182,13 +182,13 @@ struct Rows {
 [[nodiscard]] inline Rows cross_rows(const glm::dvec3& v) {
     return {{glm::dvec3(0.0, -v.z, v.y), glm::dvec3(v.z, 0.0, -v.x), glm::dvec3(-v.y, v.x, 0.0)}};
 }
-/// a b
+/// The product a b.
 [[nodiscard]] inline Rows product(const Symmetric& a, const Rows& b) {
     return {{a.xx * b.row[0] + a.xy * b.row[1] + a.xz * b.row[2],
              a.xy * b.row[0] + a.yy * b.row[1] + a.yz * b.row[2],
              a.xz * b.row[0] + a.yz * b.row[1] + a.zz * b.row[2]}};
 }
-/// a^T b
+/// The product a^T b.
 [[nodiscard]] inline Rows transposed_product(const Rows& a, const Rows& b) {
     Rows out;
     for (int i = 0; i < 3; ++i) {

@@ -11,8 +11,8 @@
 
 namespace lsys {
 
-/// Adds the diagnostics of a derivation and of its drawing to `step`. Returns why the step has to
-/// end, or nothing.
+/// Adds the diagnostics of a derivation and of the drawing of its word to `step`. Returns the Stop
+/// with which the step has to end, or nothing.
 [[nodiscard]] std::optional<Stop> report_drawing(const DerivationEnd& derived,
                                                  const DrawingEnd& drawn,
                                                  const Grammar& grammar,

@@ -1,5 +1,5 @@
-// FileBudget: the memory that a run may still use for maps, meshes and their pictures, which are
-// decoded once. Made per run; counted down by the readers of files.
+// FileBudget: the memory that a run may still use for maps, meshes and pictures, and the pictures
+// decoded so far. One per run; readers of files count it down.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -16,9 +16,9 @@ struct FileBudget {
     std::uint64_t left = 0;                                           // bytes
     std::map<std::string, std::shared_ptr<const Texture>> pictures{}; // by path
 
-    /// Counts bytes held from now on.
+    /// Call when `bytes` more are held.
     void take(std::uint64_t bytes) { left -= std::min(bytes, left); }
-    /// Returns bytes that are no longer held.
+    /// Call when `bytes` are no longer held.
     void give_back(std::uint64_t bytes) { left += bytes; }
 };
 

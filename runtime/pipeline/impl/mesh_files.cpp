@@ -26,15 +26,15 @@ std::string beside(const std::string& path, const std::string& name) {
     return (std::filesystem::path(path).parent_path() / name).string();
 }
 
-/// A material file that could be read.
+/// A material file (.mtl) that has been read.
 struct MaterialLibrary {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
-    FileId file = kNoFile; // kNoFile until its first diagnostic
+    FileId file = kNoFile; // in PictureSearch::sources; kNoFile before the first diagnostic
 };
 
-/// Reads a picture; `max_bytes`: of the file and its texels.
+/// Reads a picture. `max_bytes`: limit of the file and its texels together.
 Result<Texture>
 read_picture_file(const std::string& path, std::uint64_t max_bytes, const Project& project) {
     const Result<std::string> bytes =
@@ -56,7 +56,8 @@ bool is_picture(const std::string& path) {
     return extension.size() == 4 && (extension == ".png" || extension == ".PNG");
 }
 
-/// The picture upright on the turtle's heading, 1 high, seen from the side of its up vector.
+/// A rectangle with the picture: upright along the turtle's heading, 1 high, and facing the
+/// turtle's up vector.
 UserMesh card_of(const Texture& picture) {
     const float half =
         0.5F * static_cast<float>(picture.width) / static_cast<float>(picture.height);
@@ -68,7 +69,7 @@ UserMesh card_of(const Texture& picture) {
     return card;
 }
 
-/// Finds and reads the picture of the mesh in the file `path`, whose contents are `text`.
+/// Finds and reads the pictures of `mesh`, which the file `path` with the contents `text` defines.
 class PictureSearch {
 public:
     PictureSearch(const std::string& path,
@@ -118,7 +119,7 @@ public:
     }
 
     Diagnostics diagnostics;
-    bool has_limit = false; // a picture needed too much memory
+    bool has_limit = false; // a picture has exceeded the memory limit
     std::shared_ptr<SourceMap> sources = std::make_shared<SourceMap>();
 
 private:
@@ -126,8 +127,8 @@ private:
         return budget_.left - std::min(budget_.left, held_);
     }
 
-    /// Reports `error` at the place of `name` in `text`, as an error if a limit of memory is
-    /// reached, else as a warning.
+    /// Reports `error` at the place of `name` in `text`: as an error if it is a memory limit, else
+    /// as a warning.
     void report(const std::string& path,
                 const std::string& text,
                 FileId& file,
@@ -164,7 +165,7 @@ private:
         report(path, text, file, name, Error{std::move(message)});
     }
 
-    /// The picture of a material; an empty path if it has none.
+    /// The pictures of a material. `path` is empty if it has none.
     struct FoundPicture {
         std::string path;
         MaterialLibrary* library = nullptr;
@@ -242,8 +243,8 @@ private:
                        [&] { return with_opacity(*colour, *opacity); });
     }
 
-    /// The picture that `make` computes from pictures of files, cached by `key`. Keys contain a
-    /// line break, so none is a path.
+    /// A picture that `make` computes from other pictures, cached under `key`. Keys contain a line
+    /// break, so that they differ from paths.
     template <typename Make>
     std::shared_ptr<const Texture> derived(const std::string& key, const Make& make) {
         std::shared_ptr<const Texture>& picture = budget_.pictures[key];
@@ -254,7 +255,8 @@ private:
         return picture;
     }
 
-    /// Null without a name, and after a warning.
+    /// Loads a picture. Returns null if the name is empty, or after reporting that it cannot be
+    /// read.
     std::shared_ptr<const Texture>
     load(MaterialLibrary& library, const ObjName& name, const Project& project) {
         if (name.name.empty()) {
@@ -282,7 +284,7 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes that the budget does not count: texts of files, the mesh
+    std::uint64_t held_; // bytes not counted in `budget_`: texts of files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
     std::vector<MaterialLibrary> libraries_;

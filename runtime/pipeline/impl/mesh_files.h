@@ -14,7 +14,7 @@ namespace lsys {
 
 struct MeshFiles {
     std::vector<UserMesh> meshes; // in the order of the MeshFile symbols
-    std::vector<float> lengths;   // along +Y, by index of the symbol; empty if there are no meshes
+    std::vector<float> lengths;   // extent along +Y, by symbol; empty if there are no meshes
 };
 
 /// Reads the mesh files, whose paths are relative to `grammar_file` or absolute. A picture that is

@@ -16,12 +16,12 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kFirstSample = 512; // trees; if nearly all differ, no more are compared
+constexpr std::size_t kFirstSample = 512; // trees compared first; more only if few of them differ
 constexpr double kNearlyAll = 0.9;
-constexpr std::size_t kMaxSample = 20'000; // trees of a species that are compared
+constexpr std::size_t kMaxSample = 20'000; // max trees compared per species
 constexpr std::uint64_t kManyShapes = 1'000;
 
-/// Whether most keys of branches hold one instance alone.
+/// Whether most keys of the cache (docs/language.md section 9.5) have only one recorded branch.
 bool has_single_instances(const ForestSpecies& species) {
     std::uint64_t keys = 0;
     std::uint64_t single = 0;
@@ -51,7 +51,7 @@ std::string advice(const SceneSpecies& species, const ForestSpecies& grown) {
 
 void note_variety(const Scene& scene, const GrownForest& grown, Step& step) {
     if (scene.goal.is_set()) {
-        return; // the choice says how many differ
+        return; // choose_instancing() has reported how many trees differ
     }
     const Forest& forest = grown.forest;
     std::vector<std::vector<Tree>> trees(forest.species.size());

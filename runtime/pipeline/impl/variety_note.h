@@ -6,10 +6,10 @@
 
 namespace lsys {
 
-/// Notes each species with fewer than 1,000 different trees and fewer than half of all, at the
-/// axiom of its grammar, with options for more of them. No note if the scene asks for few: one
-/// hero, or a rho of 0 (trees are then whole heroes). None for a scene with a goal, which reports
-/// its choice, and none if another note says that the plants are alike.
+/// Adds a note at the axiom of each species in which fewer than 1,000 trees, and fewer than half of
+/// all, differ from each other. The note names options that give more. No note if the scene asks
+/// for few different trees: one hero, or a rho of 0 (trees are then whole heroes). No note for a
+/// scene with a goal, for which choose_instancing() reports its choice, or if AxiomPlace::is_noted.
 void note_variety(const Scene& scene, const GrownForest& grown, Step& step);
 
 } // namespace lsys

@@ -32,7 +32,7 @@ std::string name_in(std::string_view text) {
 Result<WantedModule> parse_wanted_module(std::string_view text, bool has_values) {
     const std::string_view whole = without_blanks(text);
     WantedModule wanted;
-    // A module may be called `(` in another dialect; its name then stands in back quotes.
+    // Other dialects have a module named `(`, which users write in back quotes.
     const std::size_t open = has_values
                                  ? whole.find('(', whole.starts_with('`') ? whole.find('`', 1) : 0)
                                  : std::string_view::npos;

@@ -1,4 +1,4 @@
-// A module that a user asks for, from text: `A(3, 0.5)`.
+// Parses a module that a user asks for: `A(3, 0.5)`.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -9,13 +9,13 @@
 
 namespace lsys {
 
-/// A name and, if they matter, the values of its parameters.
+/// A name, and the values of its parameters if parse_wanted_module() read them.
 struct WantedModule {
     std::string name;
     std::vector<float> values;
 };
 
-/// Reads `A(3, 0.5)`, or a name alone if not `has_values`; back quotes may stand around a name.
+/// Parses `A(3, 0.5)`, or a name alone if `has_values` is false. The name may be in back quotes.
 [[nodiscard]] Result<WantedModule> parse_wanted_module(std::string_view text, bool has_values);
 
 } // namespace lsys

@@ -19,7 +19,8 @@ constexpr double kMinSpacing = 0.001; // m
 /// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
 /// Upper estimate of the trees of a Poisson disk sample per squared spacing: random sequential
-/// adsorption covers 0.547 of the plane (Tanemura 1979) with discs of half the spacing.
+/// adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura 1979), by
+/// 0.547 / (pi / 4) discs per squared spacing.
 constexpr double kDiskTrees = 0.70;
 
 struct Bound {
@@ -112,7 +113,8 @@ Result<void> check_map(const PlacementOptions& options) {
     return options.map_region ? check_region(*options.map_region) : Result<void>();
 }
 
-/// The expected number of trees, or the error. Limits of species are ignored.
+/// The expected number of trees, or the error. Limits of altitude and slope of the species are
+/// ignored.
 Result<double> expected_trees(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {

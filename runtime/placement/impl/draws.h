@@ -1,4 +1,4 @@
-// The draws of a forest's key and their purposes. The position is the tree's number, or the cell's
+// Random draws of placement, and their purposes. The position is the tree's number, or the cell's
 // number for draws of a cell; runtime/base/random.h defines draws.
 #pragma once
 
@@ -17,13 +17,14 @@ inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
 inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
 inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death, stage at the start
-/// Blocks at a cell's number.
-inline constexpr std::uint32_t kCellBlock = 8; // to kCellBlock + 3: a count, or an order of 16
+/// Blocks at a cell's number, up to kCellBlock + 3: a count, or a random order of 16.
+inline constexpr std::uint32_t kCellBlock = 8;
 /// Blocks at a step of PoissonDisk: one for the active point, then one per two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;
-/// Blocks at a plant's number, one per seed and year.
+/// Blocks at a plant's number: kMaxSeeds per year, the first for the number of seeds, then one per
+/// seed.
 inline constexpr std::uint32_t kSeedBlock = 0x80000000u;
-inline constexpr std::uint32_t kMaxSeeds = 256; // per plant and year
+inline constexpr std::uint32_t kMaxSeeds = 256; // blocks per plant and year
 
 [[nodiscard]] inline PhiloxBlock
 placement_draws(std::uint64_t key, std::uint64_t position, std::uint32_t block) {

@@ -3,13 +3,13 @@
 // spacing are rivals. A round accepts the candidates whose rivals of lower rank have all been
 // rejected, and rejects their rivals (Luby 1986, "A simple parallel algorithm for the maximal
 // independent set problem"; after enough rounds the result is that of accepting candidates in order
-// of rank). There are only kRounds rounds, so that a candidate depends on no other farther than
-// 2 kRounds - 1 spacings; candidates that are then undecided get no tree: after 6 rounds 2 of
-// 316,000 trees were missing, after 7 none.
+// of rank). There are only kRounds rounds, so that a candidate depends on no other that is more
+// than 2 kRounds - 1 spacings away. Candidates that are undecided after the last round get no tree:
+// in a test, after 6 rounds 2 of 316,000 trees were missing, after 7 none.
 //
-// The rounds are not made one after the other: with candidates in order of rank, the round in which
-// one is accepted or rejected follows from the candidates before it (Blelloch, Fineman, Shun 2012,
-// "Greedy sequential maximal independent set and matching are parallel on average").
+// The code does not run one round after the other: with candidates in order of rank, the round in
+// which one is accepted or rejected follows from the candidates before it (Blelloch, Fineman, Shun
+// 2012, "Greedy sequential maximal independent set and matching are parallel on average").
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
@@ -29,13 +29,13 @@ constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
 constexpr std::int64_t kHalo = 2 * kRounds - 1; // width in cells of the ring a block depends on
 constexpr std::int64_t kBlock = 64;             // cells along each side of a block
-/// Cells are wider than the spacing by the max rounding error of two candidates within 2^13 cells
-/// of the origin, so rivals are in neighbouring cells.
+/// Side of a cell divided by the spacing: above 1 by the max rounding error of two candidates
+/// within 2^13 cells of the origin, so that rivals are in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
 constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: neither accepted nor rejected
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
-// Distance in quarter cells within which a rival may be.
+// Distance within which rivals lie, in quarters: the four squares of a cell.
 constexpr std::int64_t kNeighbourQuarters = 2;
 
 /// A candidate that is accepted, and its round.
@@ -45,7 +45,7 @@ struct Accepted {
     std::uint32_t round = kUndecided;
 };
 
-/// The candidates of a block of cells and those around it.
+/// The candidates of a block of cells and of the ring of kHalo cells around it.
 class PoissonBlock {
 public:
     PoissonBlock(const PlacementOptions& options, const CellGrid& grid)
@@ -84,7 +84,7 @@ private:
     CellRange cells_;
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
-    std::vector<std::uint8_t> quarters_; // of the cell: bit 0: upper half in x; bit 1: in z
+    std::vector<std::uint8_t> quarters_; // quarter of the cell; bit 0: upper half in x; bit 1: in z
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
     std::vector<std::uint32_t> previous_order_;
     std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
@@ -139,7 +139,8 @@ void PoissonBlock::sort_by_rank() {
     }
 }
 
-/// The first round in which all rivals of lower rank are rejected; kUndecided if one never is.
+/// The first round that begins with all rivals of lower rank rejected; kUndecided if one is not
+/// rejected in kRounds rounds.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;
     const std::int64_t column = cell % cells_.columns;

@@ -45,7 +45,7 @@ public:
                 neighbourhood_.push_back({row * columns_ + column, row * row + column * column});
             }
         }
-        // The nearest cells reject most points.
+        // Nearest cells first: they reject most points.
         std::sort(neighbourhood_.begin(), neighbourhood_.end(),
                   [](const Offset& a, const Offset& b) {
                       return std::pair(a.squared, a.cells) < std::pair(b.squared, b.cells);

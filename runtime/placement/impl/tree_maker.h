@@ -22,11 +22,12 @@ class TreeMaker {
 public:
     TreeMaker(const PlacementOptions& options, const Terrain& terrain);
 
-    /// Adds the tree `number` at a place, or counts it as refused.
+    /// Adds the tree `number` at a place, or counts it as refused if no species can live there.
     void make(std::uint32_t number, float x, float z, TreeChunk& chunk) const;
     /// Whether `species` can live at a place.
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
-    /// The tree `number` of a known species, without position and age.
+    /// The tree `number` of a known species, without position. Its age is that of methods other
+    /// than Domination.
     [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;
     /// The stage at which the tree `number` starts.
     [[nodiscard]] std::uint32_t start_of(std::uint32_t number, std::uint16_t species) const;

@@ -10,8 +10,8 @@
 
 // toml++ is header-only and compiled here only. Version 3.3 asserts two things that do not hold:
 // that a key follows the `[` of a heading, and that a character beyond ASCII in a key is a blank.
-// With its assertions the process would end, and without them both are undefined. The macros below
-// make it continue instead and report both as mistakes.
+// With assertions the process would end, and without them both are undefined behaviour. The macros
+// below make toml++ continue and report both as mistakes.
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
@@ -30,7 +30,7 @@ namespace lsys {
 
 namespace {
 
-/// Bytes of the first character of `text`, which is valid UTF-8 as far as it was read.
+/// Length of the first character of `text`: one byte, and the continuation bytes of UTF-8 after it.
 std::uint32_t character_length(std::string_view text) {
     std::uint32_t length = 1;
     while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
@@ -77,11 +77,12 @@ private:
     FileId file_;
     const SourceFile& source_;
     std::uint32_t line_ = 0;             // the line of offsets_
-    std::vector<std::uint32_t> offsets_; // of the characters of the line and of its end
+    std::vector<std::uint32_t> offsets_; // of each character of the line, and of its end
 };
 
 /// Max depth of values that are kept: bounds the recursion here and in ~SceneValue(). No valid
-/// scene is as deep, so an unknown key or a wrong value is reported at a lower depth.
+/// scene is as deep: a deeper one has an unknown key or a wrong value above this depth, which is
+/// reported.
 constexpr std::uint32_t kMaxLevels = 32;
 
 SceneValue convert(const toml::node& node, std::uint32_t level, Places& places);
@@ -105,7 +106,7 @@ void convert_table(const toml::table& table,
     }
 }
 
-/// `level`: of the node, 0 for the document.
+/// `level`: depth of `node`, 0 for the document.
 SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) {
     SceneValue value;
     value.span = places.span(node.source());

@@ -18,7 +18,7 @@ struct SceneEntry;
 
 struct SceneValue {
     SceneValueKind kind = SceneValueKind::Table;
-    SourceSpan span;                 // of a table, its heading or the whole inline table
+    SourceSpan span;                 // of a table: its heading, or the whole inline table
     std::int64_t integer = 0;        // Integer
     double real = 0.0;               // Real, and Integer rounded
     std::string text;                // Text

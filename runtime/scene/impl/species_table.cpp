@@ -51,7 +51,7 @@ struct SpeciesReader {
     }
 };
 
-/// The text of a value of `#set`; none for other kinds of values.
+/// The value as the text of a `#set`; none for kinds that `#set` does not take.
 std::optional<std::string> setting_text(const SceneValue& value) {
     switch (value.kind) {
     case SceneValueKind::Text:
@@ -171,7 +171,7 @@ void read_stage_list(SpeciesReader& from) {
     }
 }
 
-/// Reads `n`, or `stages` with the stage at the start and, if plants have an age, `years_of_stage`.
+/// Reads `n`, or `stages` with `starting_stage` and, if plants have an age, `years_of_stage`.
 void read_stages(SpeciesReader& from, bool has_ages) {
     TableReader& reader = from.reader;
     const auto generations = reader.integer("n", {0, kMaxInteger32 - 1});
@@ -295,7 +295,7 @@ void check_names(const SceneValue& list, const Scene& scene, Diagnostics& diagno
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const SceneSpecies& species = scene.species[i];
         if (species.name.empty()) {
-            continue; // reported elsewhere
+            continue; // the missing or wrong name has been reported
         }
         const auto [other, is_new] = first.try_emplace(species.name, i);
         if (is_new) {

@@ -19,7 +19,7 @@ struct KeyPlace {
     std::string_view table;
 };
 
-/// Keys that only one table has; messages name the right table.
+/// The table that a key belongs to, for the message about a key in a wrong table.
 constexpr KeyPlace kPlaces[] = {
     {"kind", "[terrain]"},
     {"size", "[terrain]"},
@@ -133,7 +133,7 @@ TableReader::number_of(const SceneValue& value, std::string_view what, const Num
     }
     const double number = value.real;
     const bool enough = range.excludes_min ? number > range.min : number >= range.min;
-    if (!(enough && number <= range.max)) { // also for NaN
+    if (!(enough && number <= range.max)) { // NaN fails, too
         report_bad_value(value.span, fmt::format("{} is {}; it must {}", what, number_text(number),
                                                  range_text(range)));
         return std::nullopt;

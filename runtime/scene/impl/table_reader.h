@@ -31,12 +31,13 @@ struct IntegerRange {
 
 class TableReader {
 public:
-    /// `name` as written: `[terrain]`; empty: the file. `table` is nullptr if the file has none:
-    /// all keys are missing.
+    /// `name`: the heading as written, `[terrain]`; empty for the keys above all tables. `table`:
+    /// nullptr if the file lacks the table; all its keys are then missing.
     TableReader(const SceneValue* table, std::string_view name, Diagnostics& diagnostics)
         : table_(table), name_(name), diagnostics_(diagnostics) {}
 
-    /// Each of these returns the value of `key`, or none if the key is missing or was reported.
+    /// The functions from entry() to table() return the value of `key`, or none (nullptr) if the
+    /// key is missing or its value was reported as wrong.
     [[nodiscard]] const SceneEntry* entry(std::string_view key);
     [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range);
     [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view key, IntegerRange range);
@@ -63,10 +64,10 @@ public:
     /// Reports that the table needs `key`.
     Diagnostic& report_missing(std::string_view key, std::string_view why);
     Diagnostic& report_bad_value(SourceSpan span, std::string message);
-    /// Reports `key`, if present, as not allowed. `because` is a sentence about `cause`, the place
-    /// of the value that forbids it, which may be empty.
+    /// Reports `key`, if present, as not allowed. `because`: the reason, as a sentence. `cause`:
+    /// the place of the value that forbids the key; SourceSpan{} if there is none.
     void report_conflicting_key(std::string_view key, std::string_view because, SourceSpan cause);
-    /// Reports the keys that were not read. Called after all others.
+    /// Reports the keys that were not read. Called last.
     void finish();
 
     [[nodiscard]] bool has(std::string_view key) const {

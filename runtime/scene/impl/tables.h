@@ -1,5 +1,5 @@
 // Readers of the tables of a scene file. After a mistake they continue with the default, so that
-// all mistakes are found at once.
+// all mistakes are found at once. `table` is nullptr if the file lacks the table.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -8,14 +8,14 @@
 
 namespace lsys {
 
-/// Reads `[terrain]`; nullptr if there is none.
+/// Reads `[terrain]`.
 void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
-/// Reads `[placement]`; nullptr if there is none. Precondition: the terrain has been read.
+/// Reads `[placement]`. Precondition: the terrain has been read.
 void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
 /// Reads the list of species of the file `root`. Precondition: the placement has been read.
 void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagnostics);
 
-/// Reads `[painted]`; nullptr if there is none. Precondition: the species have been read.
+/// Reads `[painted]`. Precondition: the species have been read.
 void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
 
 } // namespace lsys

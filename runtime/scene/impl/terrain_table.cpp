@@ -14,8 +14,8 @@ constexpr std::string_view kKinds[] = {"flat", "noise",
                                        "height-map"};            // in the order of TerrainKind
 constexpr std::string_view kFilters[] = {"bilinear", "bicubic"}; // in the order of HeightFilter
 constexpr NumberRange kAltitude{-kMaxCoordinate, kMaxCoordinate, false, "m"};
-constexpr double kMinSide = 0.25; // m, on which trees can be placed
-constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels
+constexpr double kMinSide = 0.25; // m, the min side of a placement
+constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels; other side: 2
 
 void read_region(TableReader& reader, Region& region) {
     if (const auto origin =

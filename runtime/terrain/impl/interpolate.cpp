@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Interpolates between samples `index` and index + 1, at the fraction `part`.
+/// A place between samples `index` and index + 1: `part` of the way, 0 to 1.
 struct Place {
     std::uint32_t index = 0;
     double part = 0.0;
@@ -25,7 +25,7 @@ double mix(double a, double b, double part) {
     return a + (b - a) * part;
 }
 
-/// Applies Keys' kernel to four samples, between the middle two.
+/// Applies Keys' kernel to four samples, at the fraction `t` between the middle two.
 double cubic(const std::array<double, 4>& p, double t) {
     return p[1] + 0.5 * t *
                       (p[2] - p[0] +
@@ -33,7 +33,7 @@ double cubic(const std::array<double, 4>& p, double t) {
                             t * (3.0 * (p[1] - p[2]) + p[3] - p[0])));
 }
 
-/// Samples index - 1 to index + 2 of `count`.
+/// Samples index - 1 to index + 2; those beyond the border are extrapolated linearly.
 template <typename Sample>
 std::array<double, 4> four_samples(std::uint32_t index, std::uint32_t count, const Sample& sample) {
     const double second = sample(index);

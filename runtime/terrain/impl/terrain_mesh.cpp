@@ -17,13 +17,13 @@ float coordinate(double lowest, double side, std::uint32_t index, std::uint32_t 
     return static_cast<float>(lowest + side * (static_cast<double>(index) / cells));
 }
 
-/// Part of a tile between its corner and a place.
+/// Distance of `place` from the corner of its tile, as a fraction of the side.
 double part_of_tile(double place, double origin, double side) {
     const double tiles = (place - origin) / side;
     return tiles - std::floor(tiles);
 }
 
-/// The direction of +X on a surface.
+/// Unit tangent of a surface in the direction of +X.
 glm::vec3 tangent_of(const glm::vec3& normal) {
     // normal.y is above 0: the ground is a function of X and Z.
     return glm::normalize(glm::vec3(normal.y, -normal.x, 0.0F));
@@ -59,7 +59,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     const double texture_depth = tiled                        ? pictures.depth
                                  : options.texture_size > 0.0 ? options.texture_size
                                                               : region.depth;
-    // Whole tiles are left out: small numbers are exact.
+    // Whole tiles are subtracted, because small texture coordinates are more exact.
     const double first_u = tiled ? part_of_tile(region.x, pictures.origin_x, pictures.width) : 0.0;
     const double first_v = tiled ? part_of_tile(region.z, pictures.origin_z, pictures.depth) : 0.0;
 
@@ -112,7 +112,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     mesh.indices = std::move(indices);
     Material ground;
     ground.name = "ground";
-    // Without a picture the mean of what the viewer draws, grass with bare patches.
+    // Without a picture: the mean colour of the ground that the viewer draws, grass with bare
+    // patches.
     ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.055F, 0.07F, 0.025F, 1.0F);
     ground.textured = tiled;
     ground.picture = pictures.colour;

@@ -43,7 +43,7 @@ Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
 } // namespace
 
 HalfAngle half_angle(double degrees) {
-    // Whole turns are removed, and right angles are exact.
+    // Multiples of 720 degrees are removed; half turns and whole turns are exact.
     const double turn = std::remainder(degrees, 720.0);
     if (std::abs(turn) == 180.0) {
         return {0.0, turn > 0.0 ? 1.0 : -1.0};
@@ -62,7 +62,7 @@ bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
-    // A turn also changes the angle to the second heading, which quick actions do not.
+    // A turn also changes the angle to the second heading, which quick actions do not update.
     const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
                                    !any_has(bytecode, TurtleInfo::ChangesAngle);
     std::vector<Action> symbol_actions;

@@ -19,6 +19,7 @@ struct HalfAngle {
     double cosine = 1.0;
     double sine = 0.0;
 };
+/// Exact for multiples of 180 degrees.
 [[nodiscard]] HalfAngle half_angle(double degrees);
 
 struct Action {
@@ -32,7 +33,7 @@ struct Action {
     float unit_length = 1.0F;                        // length of an object of size 1
     float default_size = 1.0F;                       // size of an object without a parameter
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files
-    std::uint32_t picture = kNoPicture;              // index in Skeleton::mesh_files, of a polygon
+    std::uint32_t picture = kNoPicture;              // of a polygon: index in Skeleton::mesh_files
     char character = '\0';                           // the name, if it is one character
 };
 

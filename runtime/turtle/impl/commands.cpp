@@ -48,7 +48,7 @@ bool Turtle::State::draw(
     return true;
 }
 
-/// F and H: `part` of the length, with spring and mass for the physics.
+/// Draws a segment of `part` times the length. Arguments: length, spring, mass.
 bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
     if (traits.forward_has_width) {
         return forward_with_width(action, arguments, part);
@@ -66,7 +66,7 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     return true;
 }
 
-/// A segment that tapers: length, base width, tip width.
+/// Draws a tapered segment. Arguments: length, base width, tip width.
 bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
     const float length = action.given > 0 ? arguments[0] : now.step;
     const float base = action.given > 1 ? arguments[1] : now.width;

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Lists of items by their module of the earlier word, in the order of drawing.
+/// For each module of the earlier word, its items in the order of drawing.
 class ByModule {
 public:
     /// module_of(i): the module of item i, at most `modules` - 1.
@@ -37,12 +37,13 @@ private:
     std::vector<std::uint32_t> items_;
 };
 
+/// The two drawings, and which module of the earlier word each module of the later one comes from.
 struct Followed {
     const Skeleton& before;
     const Skeleton& after;
     std::uint32_t generation;
     std::span<const Origin> ancestors;
-    std::size_t modules; // of the earlier word, up to the last one that is paired
+    std::size_t modules; // of the earlier word, up to the last one that drew or was followed
 
     [[nodiscard]] ByModule old_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules, [&](std::size_t i) { return origins[i].place; }};
@@ -57,7 +58,8 @@ struct Followed {
     }
 };
 
-/// The segments outside of inner brackets, up to the first that does not continue the one before.
+/// The segments among `items` with the fewest brackets around them, up to the first segment that
+/// does not continue the segment before it.
 std::vector<std::uint32_t> axis_of(std::span<const std::uint32_t> items, const Skeleton& skeleton) {
     std::vector<std::uint32_t> axis;
     if (items.empty()) {
@@ -80,7 +82,7 @@ std::vector<std::uint32_t> axis_of(std::span<const std::uint32_t> items, const S
     return axis;
 }
 
-/// Whether both draw the same number of segments with the same brackets around them.
+/// Whether both lists have equally many segments with the same brackets around them.
 bool are_alike(std::span<const std::uint32_t> old_items,
                std::span<const std::uint32_t> new_items,
                const Skeleton& before,
@@ -94,7 +96,7 @@ bool are_alike(std::span<const std::uint32_t> old_items,
                });
 }
 
-/// Divides an old segment into pieces for the segments of an axis.
+/// Divides an old segment into pieces for the segments of an axis, in proportion to their lengths.
 void divide(std::uint32_t old_item,
             std::span<const std::uint32_t> axis,
             const Skeleton& after,
@@ -147,7 +149,8 @@ std::vector<SegmentPiece> find_pieces(const Followed& followed) {
     return pieces;
 }
 
-/// Pairs items in order. fits(old, new): whether one can become the other.
+/// Pairs the items of each module in order; returns the old item of each new one, or kNone.
+/// fits(old, new): whether the old item can become the new one.
 template <typename Fits>
 std::vector<std::uint32_t> find_pairs(const Followed& followed,
                                       const LargeVector<Origin>& old_origins,

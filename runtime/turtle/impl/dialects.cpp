@@ -3,7 +3,7 @@
 
 namespace lsys {
 
-/// Forward with the parameters of Houdini: length, width, sections (not visible), sides.
+/// Forward with the parameters of Houdini: length, width, sections (ignored), sides.
 bool Turtle::State::forward_with_width(const Action& action, const float* arguments, float part) {
     constexpr std::uint8_t kSides = 3; // index of the argument
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;

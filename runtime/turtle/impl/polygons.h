@@ -1,4 +1,4 @@
-// Open polygons: begun and not yet ended, along the word and apart from brackets. A polygon may be
+// Open polygons: begun and not yet ended. Brackets neither save nor end them. A polygon may be
 // begun within another; the corners of all open ones are on one stack.
 #pragma once
 
@@ -25,11 +25,11 @@ struct OpenPolygon {
 class OpenPolygons {
 public:
     [[nodiscard]] bool any() const { return !open_.empty(); }
-    /// Precondition of all below: any().
+    /// Precondition of top(), vertex(), corners() and close(): any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
-    /// From the one begun first to the one begun last.
+    /// All open polygons, in the order in which they were begun.
     [[nodiscard]] std::span<const OpenPolygon> all() const { return open_; }
-    /// Begins a polygon; its vertices and path are set here.
+    /// Begins a polygon; sets its first_vertex and first_on_path.
     void open(OpenPolygon polygon) {
         polygon.first_vertex = vertices_.size();
         polygon.first_on_path = path_.size();
@@ -43,8 +43,8 @@ public:
             add_to_path(position_of(pose));
         }
     }
-    /// Corners of the polygon begun last: its vertices, or without any the ends of its steps. Valid
-    /// until the next change.
+    /// Corners of the polygon begun last: its vertices or, if it has none, the ends of its steps.
+    /// Valid until the next change.
     [[nodiscard]] std::span<const glm::vec3> corners();
     void close() {
         vertices_.resize(open_.back().first_vertex);

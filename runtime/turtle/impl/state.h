@@ -19,6 +19,7 @@
 
 namespace lsys {
 
+/// Modules between two checks for cancellation.
 inline constexpr std::size_t kModulesBetweenChecks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr float kPercent = 0.01F;
@@ -40,7 +41,7 @@ struct Brush {
     float angle = 0.0F;                 // degrees
     HalfAngle turn;                     // half of `angle`
     double second_heading = 0.0;        // degrees from the first heading to the left
-    std::uint32_t segment = kNoSegment; // the last one drawn on the path
+    std::uint32_t segment = kNoSegment; // the last segment of the current path
     std::uint16_t colour = 0;
     std::uint8_t sides = 0;
     bool moved = false; // whether the turtle has moved since `segment` was drawn
@@ -48,7 +49,7 @@ struct Brush {
 
 /// The last command of a word that is text, executed once the text of its parameter is complete.
 struct PendingCommand {
-    static constexpr std::size_t kMaxLength = 1023;
+    static constexpr std::size_t kMaxLength = 1023; // characters of `text`
     bool is_set = false;
     bool in_parameter = false;
     Action action;
@@ -191,23 +192,23 @@ struct Turtle::State {
     Skeleton skeleton;
     TurtleState now;
     std::vector<TurtleState> stack;
-    std::vector<std::size_t> watched; // sizes of the stack within the branches that are watched
+    std::vector<std::size_t> watched; // stack size within each open branch that is watched
     OpenPolygons polygons;
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module
     Origin origin;              // origin of the current module, if the word has origins
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
-    std::uint64_t cut = 0;      // in a part that is not drawn: 1 + number of open brackets; else 0
+    std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
-    std::vector<Code> piece;                        // codes of a narrower word, widened
+    std::vector<Code> piece;                        // codes that are interpreted, widened to Code
     PendingCommand pending;
-    bool keeps_origins = false; // only for words that are texts
+    bool keeps_origins = false; // set only for words that are texts
     TurtleTraits traits;
     bool has_tropism = false;
-    bool has_second_heading = false; // a module of the program moves along it
-    // Mass and spring of the last shape, cached for equal ones.
+    bool has_second_heading = false; // a module of the bytecode uses the second heading
+    // Mass and spring of the last segment, cached for segments of equal shape.
     double cached_length = -1.0;
     float cached_base = -1.0F;
     float cached_tip = -1.0F;
@@ -233,7 +234,7 @@ bool Turtle::State::has_room(Items& items) {
     return within_memory([&] { items.reserve(room); });
 }
 
-/// Computes mass and spring of a segment, or keeps those of the last shape if it is equal.
+/// Computes mass and spring of a segment, unless the last one had the same shape.
 inline void Turtle::State::cache_shape(double length, float base_width, float tip_width) {
     if (length == cached_length && base_width == cached_base && tip_width == cached_tip) {
         return;

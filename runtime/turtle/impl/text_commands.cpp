@@ -62,7 +62,8 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         }
     }
     pending.is_set = true;
-    if (action.operation == TurtleOperation::SaveBranch) { // it may have any number of arguments
+    // A branch is executed at once: it may have more arguments than an Action.
+    if (action.operation == TurtleOperation::SaveBranch) {
         pending.action = {};
         code = character;
         return cut != 0 ? skip(action) : execute(action, arguments);

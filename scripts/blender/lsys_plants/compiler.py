@@ -8,7 +8,7 @@ import tempfile
 
 
 class CompilerError(Exception):
-    """lsc is missing, or said why it wrote nothing."""
+    """lsc is missing or failed; the text says why."""
 
 
 def find_lsc(named=""):
@@ -47,12 +47,12 @@ def split_options(text):
 
 
 def read_parameters(lsc, file, seconds):
-    """What `lsc stats --parameters` tells of a grammar: generations, seed, parameters."""
+    """The output of `lsc stats --parameters` for a grammar: generations, seed, parameters."""
     try:
         output, _ = run_lsc(lsc, ["stats", "--parameters", "--message-format", "json", "--quiet", "--", file], seconds)
         return json.loads(output)
     except CompilerError:
-        # Messages of that run are JSON too; those of `check` are for people.
+        # The error has messages in JSON. This run fails with messages for people.
         run_lsc(lsc, ["check", "--color", "never", "--", file], seconds)
         raise
     except ValueError as error:
@@ -60,7 +60,7 @@ def read_parameters(lsc, file, seconds):
 
 
 class Written:
-    """A GLB in a folder of its own, which is gone at the end of a `with`."""
+    """A GLB in a temporary folder, which the end of a `with` removes."""
 
     def __init__(self, lsc, arguments, seconds):
         self.lsc, self.arguments, self.seconds = lsc, arguments, seconds

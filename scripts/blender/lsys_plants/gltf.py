@@ -73,11 +73,11 @@ def rotate(q, v):
 
 
 class Placement:
-    """A mesh of the file and the transforms of its instances, flat: 3, 4 (x, y, z, w) and 3 numbers each."""
+    """A mesh of the file and the transforms of its instances, as flat arrays of 3, 4 (x, y, z, w) and 3 numbers."""
 
     def __init__(self, cell, mesh, is_single, translations, rotations, scales):
-        self.cell = cell  # name of the node below the root: the ground, or a square of it
-        self.is_single = is_single  # an object of its own, as the ground: no instance
+        self.cell = cell  # name of the node below the root: the ground, or a square of the ground
+        self.is_single = is_single  # drawn once, as the ground is, without EXT_mesh_gpu_instancing
         self.mesh = mesh
         self.translations = translations
         self.rotations = rotations
@@ -139,7 +139,7 @@ class Gltf:
         return data, view.get("byteStride")
 
     def accessor(self, number):
-        """An array of the numbers of an accessor, flat, and how many make an item; read once."""
+        """The numbers of an accessor as a flat array, and the count of numbers per item. Cached."""
         if number not in self.known:
             self.known[number] = self.read_accessor(number)
         return self.known[number]
@@ -183,7 +183,7 @@ class Gltf:
         return image.get("name", f"image {number}"), data
 
     def placements(self):
-        """Every use of a mesh, in the order of the file. A stack, so that deep trees need no recursion."""
+        """Every use of a mesh, in the order of the file. Uses a stack, since trees may be too deep for recursion."""
         stack = [(root, IDENTITY, None, 0) for root in reversed(self.roots())]
         while stack:
             number, parent, cell, depth = stack.pop()
@@ -255,7 +255,7 @@ class Gltf:
 
 
 def read_gltf(path):
-    """Reads a .glb or .gltf. OSError, GltfError."""
+    """Reads a .glb or .gltf. Raises OSError or GltfError."""
     with open(path, "rb") as file:
         data = file.read()
     folder = os.path.dirname(os.path.abspath(path))

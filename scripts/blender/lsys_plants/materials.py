@@ -116,7 +116,7 @@ class Materials:
         if picture is not None:
             opacity = picture.outputs["Alpha"]
             if mode == "MASK":
-                # Cycles knows no alpha clip: the threshold is a node, which all engines have.
+                # Cycles has no alpha clip, so a node, which works in all render engines, applies the threshold.
                 step = tree.nodes.new("ShaderNodeMath")
                 step.location = (-350, 0)
                 step.operation = "GREATER_THAN"

@@ -16,11 +16,11 @@ from .compiler import CompilerError
 from .gltf import GltfError
 
 FAILURES = (CompilerError, GltfError, OSError)
-#: Seconds without a change until a plant is made anew, so that dragging a value runs lsc once.
+#: Seconds without a change before a plant is updated, so that dragging a value runs lsc only once.
 DELAY = 0.3
-#: Largest int of a property in Blender.
+#: Largest value of an IntProperty in Blender.
 MAX_INT = 2**31 - 1
-#: Lines of messages in the panel.
+#: Max number of lines of messages in the panel.
 MAX_LINES = 12
 
 
@@ -39,7 +39,7 @@ class Preferences(bpy.types.AddonPreferences):
 def preferences():
     """Path of lsc and its time limit. CompilerError: there is no lsc."""
     addon = bpy.context.preferences.addons.get(__package__)
-    if addon is None:  # registered by a script, not switched on
+    if addon is None:  # registered by a script instead of being enabled in the preferences
         return compiler.find_lsc(), 120.0
     return compiler.find_lsc(bpy.path.abspath(addon.preferences.lsc)), addon.preferences.seconds
 
@@ -48,7 +48,7 @@ pending = set()  # names of collections with changes that wait for the timer
 
 
 class Silence:
-    """A `with` in which changes of settings have no effect."""
+    """A `with` in which changes of settings do not update plants."""
 
     depth = 0
 
@@ -60,7 +60,7 @@ class Silence:
 
 
 def changed(self, context):
-    """Makes the plant anew: at once without a window, else when no value has changed for a while."""
+    """Updates the plant: at once in background mode, else when no value has changed for DELAY seconds."""
     collection = self.id_data
     if Silence.depth > 0 or not collection.lsys.is_live or collection.lsys.kind == "NONE":
         return
@@ -68,7 +68,7 @@ def changed(self, context):
         try:
             update(collection)
         except FAILURES:
-            pass  # the message is in the settings
+            pass  # the settings have the message, which the panel shows
         return
     pending.add(collection.name)
     if bpy.app.timers.is_registered(run_pending):
@@ -156,7 +156,7 @@ def path_of(settings):
 
 
 def read_file(collection, keep):
-    """Reads generations, seed and parameters of the grammar; with `keep` changed values stay."""
+    """Reads generations, seed and parameters of the grammar. With `keep`, values that the user changed stay."""
     settings = collection.lsys
     path = path_of(settings)
     lsc, seconds = preferences()
@@ -170,7 +170,7 @@ def read_file(collection, keep):
         settings.parameters.clear()
         for one in told["parameters"]:
             if "value" not in one:
-                continue  # drawn by the seed
+                continue  # a random constant, which follows from the seed
             parameter = settings.parameters.add()
             parameter.name = one["name"]
             parameter.default = one["value"]
@@ -183,14 +183,14 @@ def read_file(collection, keep):
 
 
 def shortest(value):
-    """The shortest text of a float of 32 bits."""
+    """The shortest text that reads back as the same 32-bit float."""
     bits = struct.pack("f", value)
     return next(text for text in (f"{value:.{digits}g}" for digits in range(6, 10))
                 if struct.pack("f", float(text)) == bits)
 
 
 def arguments_of(collection):
-    """Arguments of lsc, but for the output."""
+    """Arguments of lsc without those of the output."""
     settings = collection.lsys
     path = path_of(settings)
     more = compiler.split_options(settings.options)
@@ -215,7 +215,7 @@ def arguments_of(collection):
 
 
 def update(collection):
-    """Runs lsc and replaces the contents of the collection; returns the messages. FAILURES: nothing changes."""
+    """Runs lsc, replaces the contents of the collection, returns the messages. Raises FAILURES and changes nothing."""
     settings = collection.lsys
     try:
         lsc, seconds = preferences()

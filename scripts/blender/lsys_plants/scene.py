@@ -12,7 +12,7 @@ from .materials import Materials
 
 #: Kinds of data that an import makes, in the order in which they are removed.
 KINDS = ("collections", "objects", "meshes", "armatures", "node_groups", "materials", "images", "actions")
-#: More squares of ground than this share one cloud of points.
+#: If a forest has more squares of ground than this, all share one cloud of points.
 MAX_CLOUDS = 200
 
 
@@ -32,7 +32,7 @@ class Changes:
                 bpy.data.batch_remove(self.made(kind_of_data))
 
     def tidy_names(self):
-        """Removes the numbers that Blender appended while the replaced data still had the names."""
+        """Removes the number suffixes that Blender added to names because the replaced data still existed."""
         for kind in KINDS:
             data = getattr(bpy.data, kind)
             for item in self.made(kind):
@@ -42,13 +42,13 @@ class Changes:
 
 
 def upright(values):
-    """(x, y, z) with +Y up, as rows, to (x, -z, y) with +Z up."""
+    """Converts rows (x, y, z) with +Y up to rows (x, -z, y) with +Z up."""
     rows = numpy.array(values, dtype=numpy.float32).reshape(-1, 3)
     return numpy.column_stack((rows[:, 0], -rows[:, 2], rows[:, 1]))
 
 
 def euler_angles(rotations):
-    """Rows of XYZ angles in radians, +Z up, of quaternions (x, y, z, w) with +Y up."""
+    """Converts quaternions (x, y, z, w) with +Y up to rows of XYZ angles in radians with +Z up."""
     rows = numpy.array(rotations, dtype=numpy.float64).reshape(-1, 4)
     rows /= numpy.maximum(numpy.linalg.norm(rows, axis=1), 1e-30)[:, None]
     x, y, z, w = rows[:, 0], -rows[:, 2], rows[:, 1], rows[:, 3]
@@ -56,7 +56,7 @@ def euler_angles(rotations):
     m11, m12 = 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)
     m21, m22 = 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)
     level = numpy.hypot(m00, m10)
-    locked = level < 1e-7  # X and Z turn about one axis; Z is taken as 0
+    locked = level < 1e-7  # gimbal lock: X and Z turn about the same axis, so Z is set to 0
     angles = numpy.empty((len(rows), 3))
     angles[:, 0] = numpy.where(locked, numpy.arctan2(-m12, m11), numpy.arctan2(m21, m22))
     angles[:, 1] = numpy.arctan2(-m20, level)
@@ -85,7 +85,7 @@ class MeshMaker:
         return self.made[number]
 
     def make(self, number):
-        """A mesh of the vertices that its triangles use, though many meshes may share arrays in the file."""
+        """Makes a mesh with only the vertices that its triangles use, since meshes of the file may share arrays."""
         name, primitives = self.gltf.primitives(number)
         sets = {}
         for attributes, indices, material in primitives:
@@ -131,7 +131,7 @@ class MeshMaker:
         mesh.loops.foreach_set("vertex_index", corners)
         mesh.polygons.add(faces)
         mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * faces, 3, dtype=numpy.int32))
-        if bpy.app.version < (3, 6, 0):  # later it follows from the starts, and cannot be written
+        if bpy.app.version < (3, 6, 0):  # read-only in later versions, which compute it from loop_start
             mesh.polygons.foreach_set("loop_total", numpy.full(faces, 3, dtype=numpy.int32))
         mesh.polygons.foreach_set("use_smooth", numpy.ones(faces, dtype=bool))
         if "TEXCOORD_0" in columns:
@@ -146,13 +146,13 @@ class MeshMaker:
         mesh.update(calc_edges=True)
         if "NORMAL" in columns:
             mesh.normals_split_custom_set_from_vertices(upright(columns["NORMAL"]))
-            if bpy.app.version < (4, 1, 0):  # later custom normals need no switch
+            if bpy.app.version < (4, 1, 0):  # later versions use custom normals without this switch
                 mesh.use_auto_smooth = True
         return mesh
 
 
 def make_instancer(sources):
-    """A geometry-nodes group: at each point a branch of `sources`, by the attributes of the point."""
+    """A geometry-nodes group that places a branch of `sources` at each point, by the attributes of the point."""
     group = bpy.data.node_groups.new("lsys instances", "GeometryNodeTree")
     if bpy.app.version < (4, 0, 0):
         group.inputs.new("NodeSocketGeometry", "Geometry")
@@ -186,7 +186,7 @@ def make_instancer(sources):
 
 
 def make_cloud(name, placements, numbers, group):
-    """An object of points, one for each instance. `numbers`: the index in the collection of each mesh."""
+    """An object with one point per instance. `numbers`: by mesh, its index in the collection of branches."""
     mesh = bpy.data.meshes.new(name)
     count = sum(len(p) for p in placements)
     joined = [numpy.concatenate([numpy.array(getattr(p, part), dtype=numpy.float32) for p in placements])
@@ -207,7 +207,7 @@ def make_cloud(name, placements, numbers, group):
 
 
 def make_forest(gltf, name):
-    """Objects of a forest and the collection of its branches, not linked yet. Call within Changes."""
+    """Makes the objects of a forest and the collection of its branches, all unlinked. Call within Changes."""
     placements = list(gltf.placements())
     maker = MeshMaker(gltf)
     objects = []
@@ -225,7 +225,7 @@ def make_forest(gltf, name):
     sources = bpy.data.collections.new(f"{name} branches")
     numbers = {}
     for number in sorted({p.mesh for p in placements}):
-        # Collection Info sorts by name: the number in front keeps the order.
+        # The node Collection Info sorts by name, so a number at the start of the name keeps the order.
         mesh = maker.get(number)
         sources.objects.link(bpy.data.objects.new(f"{len(numbers):06d} {mesh.name}", mesh))
         numbers[number] = len(numbers)
@@ -241,8 +241,8 @@ def make_forest(gltf, name):
 
 
 class OldNumpyNames:
-    """The name numpy.bool for the time of a `with`: the importer of Blender 3.4 uses it, and NumPy 1.24, with which
-    Debian 12 runs it, has it no longer."""
+    """Defines numpy.bool during a `with`: the importer of Blender 3.4 uses it, but NumPy 1.24, with which Debian 12
+    runs Blender, has removed it."""
 
     def __enter__(self):
         self.is_missing = "bool" not in vars(numpy)
@@ -255,7 +255,7 @@ class OldNumpyNames:
 
 
 def import_plant(path):
-    """Objects that Blender's own importer makes of a plant, unlinked. Call within Changes."""
+    """Imports a plant with Blender's own importer and unlinks its objects. Call within Changes."""
     if not hasattr(bpy.types, "IMPORT_SCENE_OT_gltf"):
         raise GltfError("Blender's glTF importer is off: switch on the add-on `glTF 2.0 format`")
     if bpy.context.object is not None and bpy.context.object.mode != "OBJECT":
@@ -276,12 +276,12 @@ def import_plant(path):
 
 
 def anchor_of(collection):
-    """The empty object that holds the place of a plant through all its changes; None if it was deleted."""
+    """The empty object that keeps the transform of a plant through all changes; None if it was deleted."""
     return next((o for o in collection.objects if o.get("lsys_anchor")), None)
 
 
 def clear(collection, keep):
-    """Removes all that a plant consists of, but for the objects `keep`, and the data that nobody else uses."""
+    """Removes all objects of a plant except `keep`, and the data that nothing else uses."""
     objects = [o for o in collection.all_objects if o not in keep]
     children = [c for c in collection.children_recursive]
     data, images = set(), set()
@@ -295,7 +295,7 @@ def clear(collection, keep):
             if slot.material is not None and slot.material.use_nodes:
                 images.update(node.image for node in slot.material.node_tree.nodes if node.type == "TEX_IMAGE")
     bpy.data.batch_remove([*objects, *children])
-    # Meshes hold materials, and these hold images: a round for each.
+    # Meshes use materials, and materials use images, so users are removed first.
     rounds = ([d for d in data if d is not None and not isinstance(d, bpy.types.Material)],
               [d for d in data if isinstance(d, bpy.types.Material)], [i for i in images if i is not None])
     for unused in rounds:
@@ -303,7 +303,7 @@ def clear(collection, keep):
 
 
 def fill(collection, path, is_forest):
-    """Replaces the contents of a collection by a file. OSError, GltfError: nothing has changed."""
+    """Replaces the contents of a collection by a file. Raises OSError or GltfError and changes nothing."""
     active = bpy.context.view_layer.objects.active
     with Changes() as changes:
         try:
@@ -335,13 +335,13 @@ def fill(collection, path, is_forest):
     changes.tidy_names()
     if sources is not None:
         hide(sources)
-    if was_inside or not is_forest:  # the importer of plants takes the selection
+    if was_inside or not is_forest:  # the importer of plants changes the selection
         activate(anchor if was_inside or active is None else active)
     return extras
 
 
 def hide(collection):
-    """Leaves the branches out of the view layers: only their instances are seen."""
+    """Excludes the collection of branches from all view layers, so that only instances are visible."""
     stack = [layer.layer_collection for scene in bpy.data.scenes for layer in scene.view_layers]
     while stack:
         layer = stack.pop()
@@ -351,9 +351,9 @@ def hide(collection):
 
 
 def activate(item):
-    """Makes an object the active one, and it alone selected."""
+    """Makes an object the active object and the only selected one."""
     layer = bpy.context.view_layer
-    layer.update()  # objects linked a moment ago are in it only now
+    layer.update()  # without this, objects that were just linked are missing in the layer
     if item is None or item.name not in layer.objects:
         return
     for other in list(layer.objects.selected):

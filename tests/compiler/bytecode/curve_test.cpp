@@ -57,7 +57,7 @@ TEST_CASE("slopes are those of the method") {
     CHECK(points[2].slope == 1.5);
     CHECK(points[3].slope == 1.25);
     CHECK(points[4].slope == 0.5);
-    // Alpha 10, beta 1 of a steep point: scaled to a circle of radius 3.
+    // A steep point has (alpha, beta) = (10, 1), which the method scales to a circle of radius 3.
     const std::vector<CurveKnot> steep = curve({{0.0F, 0.0F}, {1.0F, 19.0F}, {2.0F, 20.0F}});
     CHECK(steep[1].slope == Approx(10.0 * 3.0 / std::hypot(10.0, 1.0)));
     CHECK(steep[2].slope == Approx(1.0 * 3.0 / std::hypot(10.0, 1.0)));

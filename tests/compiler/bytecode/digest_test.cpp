@@ -10,15 +10,15 @@ using namespace lsys;
 
 namespace {
 
-/// A stream that changes the field with the number `target`, in the order of describe(). Rows that
-/// are appended to a table count as its field.
+/// A stream that changes the field with number `target` in the order of describe(). Rows appended
+/// to a table count as one field.
 class Change {
 public:
     struct Progress {
         std::size_t target = 0;
         std::size_t next = 0;
         bool changed = false;
-        bool beside_word = false; // the field that was changed
+        bool beside_word = false; // the changed field is beside the word: it does not affect it
     };
 
     Change(Progress& progress, bool beside) : progress_(progress), beside_(beside) {}

@@ -1,4 +1,5 @@
-// Numbers from distributions: quantiles that are known otherwise, and arguments out of bounds.
+// Numbers from distributions: quantiles known from closed forms or tables, and arguments out of
+// bounds.
 #include "compiler/bytecode/distributions.h"
 
 #include <catch2/catch.hpp>
@@ -36,7 +37,7 @@ TEST_CASE("Poisson numbers follow the sums of their terms", "[distributions]") {
     CHECK(poisson_quantile(2.0, 0.6766) == 2);
     CHECK(poisson_quantile(2.0, 0.6767) == 3);
     CHECK(poisson_quantile(2.0, 0.8572) == 4);
-    // The median of a Poisson number of whole mean is its mean (Choi 1994).
+    // The median of a Poisson distribution with a whole mean is the mean (Choi 1994).
     for (const double mean : {1.0, 30.0, 200.0, 700.0}) {
         CHECK(poisson_quantile(mean, 0.5) == static_cast<std::uint32_t>(mean));
     }
@@ -53,7 +54,7 @@ TEST_CASE("Binomial numbers follow the sums of their terms", "[distributions]") 
     CHECK(binomial_quantile(10, 0.5, 0.6230468) == 5); // 638/1024 = 0.623046875
     CHECK(binomial_quantile(10, 0.5, 0.623046875) == 6);
     CHECK(binomial_quantile(3, 0.25, 0.9) == 2);
-    // Terms far below the least binary64 at the beginning: 0.01^10000.
+    // The first terms are far below the smallest binary64: 0.01^10000.
     CHECK(binomial_quantile(10000, 0.99, 0.5) == 9900);
     CHECK(binomial_quantile(10000, 0.5, 0.5) == 5000);
     CHECK(binomial_quantile(10000, 0.5, 1.0 - 0x1p-24) < 5300);

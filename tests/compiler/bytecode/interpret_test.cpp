@@ -10,7 +10,7 @@ using namespace lsys;
 
 namespace {
 
-/// The domain of texts: the value of an expression is its formula.
+/// A domain whose values are texts: the value of an expression is its formula.
 struct Formulas : UnknownDomain<std::string> {
     std::size_t instructions_left = 100;
     std::vector<std::string> taken;
@@ -55,7 +55,7 @@ Run run(const std::vector<std::uint32_t>& code, std::size_t limit = 100) {
     return {finished, domain.taken};
 }
 
-/// The instructions of expressions of x and y, each taken by Emit, and End.
+/// The instructions of expressions in x and y, with an Emit after each, then End.
 std::vector<std::uint32_t> compiled(const std::vector<std::string>& expressions) {
     const test::NameTable formals{{"x", 0}, {"y", 1}};
     const test::NameTable globals{{"c", 0}};
@@ -106,7 +106,7 @@ TEST_CASE("a domain stops the walk before an instruction, at a range and at a ta
 }
 
 TEST_CASE("code needs room for its leaves, and never for more than a verified stack") {
-    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // the end counts
+    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // End takes one place too
     std::string sum = "x";
     for (std::uint32_t i = 0; i < 2 * kUsualStack; ++i) {
         sum += " + x";

@@ -15,8 +15,8 @@ std::string refusal(std::string_view bytes) {
     return result ? "accepted" : result.error().message;
 }
 
-/// The contents changed at `offset` and the checksum made to fit, so that only the reader's own
-/// checks are left.
+/// `bytes` with one byte changed and the checksum corrected, so that only other checks of the
+/// reader can refuse the file.
 std::string with_byte(std::string bytes, std::size_t offset, char value) {
     bytes[offset] = value;
     const std::uint64_t sum = checksum(std::string_view(bytes).substr(32));
@@ -45,7 +45,7 @@ TEST_CASE("a module file reads back as what was written") {
 }
 
 TEST_CASE("the bytes of a module file belong to its version") {
-    // Where this number changes, older and newer files are not alike: raise kModuleFileVersion.
+    // If this checksum changes, the format has changed: raise kModuleFileVersion.
     REQUIRE(kModuleFileVersion == 9);
     CHECK(checksum(write_module_file(test::small_bytecode())) == 0x49B6CE51A5A54ADE);
 }

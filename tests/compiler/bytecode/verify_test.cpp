@@ -14,7 +14,7 @@ using test::op;
 
 namespace {
 
-/// What verify() says of the small program after a change; empty: nothing.
+/// The message of verify() for the small program after a change; empty if it verifies.
 std::string said_of(const std::function<void(Bytecode&)>& change) {
     Bytecode bytecode = test::small_bytecode();
     change(bytecode);

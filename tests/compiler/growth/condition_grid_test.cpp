@@ -21,7 +21,7 @@ struct Laid {
     std::vector<ConditionView> views;
 };
 
-/// Conditions of formals x and y one after the other, each ended by Test and End.
+/// The instructions of conditions on the formals x and y, each followed by Test and End.
 Laid lay(const std::vector<std::string>& conditions) {
     const test::NameTable names{{"x", 0}, {"y", 1}};
     const test::NameTable globals{{"c", 0}};
@@ -138,7 +138,7 @@ TEST_CASE("a deeper right operand, computed first, makes the same cuts and value
         return encode(opcode, operand);
     };
     const auto three = std::bit_cast<std::uint32_t>(3.0F);
-    // 3 - x * 3, or x * 3 - 3, with the left or the right operand first
+    // 3 - x * 3, or x * 3 - 3; `swapped`: the right operand is computed first.
     const auto side = [&](bool swapped, bool falling) {
         const test::Instructions constant{op(Opcode::Literal), three};
         const test::Instructions product{op(Opcode::Formal), op(Opcode::Literal), three,
@@ -248,7 +248,8 @@ TEST_CASE("a condition has one truth in every cell, and in every order of compar
         std::vector<KnownValue> values(formals, KnownValue{0.0F, true});
         std::vector<KnownValue> inside(formals, KnownValue{0.0F, true});
         for (int probe = 0; probe < 50; ++probe) {
-            // A random point, and a sample of the same cells in the same order.
+            // Find the grid point that lies in the same cells as a random point, with its values in
+            // the same order.
             for (KnownValue& value : inside) {
                 value.value = random() % 2 == 0
                                   ? static_cast<float>(random() % 21) / 2.0F - 5.0F

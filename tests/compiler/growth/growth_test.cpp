@@ -13,7 +13,7 @@ namespace {
 
 using test::BytecodeBuilder;
 
-/// The bytecode of texts, in which F draws.
+/// The bytecode of a system given by texts; F draws a segment.
 Bytecode system(const std::string& axiom,
                 const std::vector<std::string>& productions,
                 RewritingMode rewriting = RewritingMode::Parallel) {
@@ -67,7 +67,7 @@ Bytecode bush() {
                   {"F : * ~ 0.33 : F[+F]F[-F]F", "F : * ~ 0.33 : F[+F]F", "F : * ~ 0.34 : F[-F]F"});
 }
 
-/// W5: A(x) grows while x > 0, from A(12) or from an `axiom` whose parameter is not known.
+/// W5: A(x) grows while x > 0. `axiom`: A(12), or one whose parameter is unknown.
 Bytecode ageing(const std::string& axiom) {
     return system(axiom, {"A(x) : x > 0 : F(1)[+(30)A(x - 1)][-(30)A(x - 1)]A(x - 1)",
                           "A(x) : x <= 0 : F(1)"});
@@ -104,7 +104,7 @@ TEST_CASE("conditions over known parameters are decided") {
 }
 
 TEST_CASE("conditions whose deeper operand is computed first are decided") {
-    std::string depth = "x"; // 1 - (1 - (... x)) is x after an even number of levels
+    std::string depth = "x"; // 1 - (1 - (... x)), which is x after an even number of levels
     for (int i = 0; i < 200; ++i) {
         depth = "(1 - " + depth + ")";
     }
@@ -132,7 +132,8 @@ TEST_CASE("stochastic systems have bounds that are reached, and an expectation")
     CHECK(!prediction.exact);
     REQUIRE(prediction.has_expected);
     CHECK(prediction.expected_modules[10] == Approx(1'078'326).epsilon(1e-3));
-    // The least word takes F[+F]F everywhere: 3^g F and as many + [ ] as F were rewritten.
+    // The smallest word arises if every choice takes F[+F]F: 3^g F, and one + [ ] for each F that
+    // was rewritten.
     std::uint64_t least = 1;
     std::uint64_t most = 1;
     std::uint64_t least_f = 1;
@@ -157,7 +158,7 @@ TEST_CASE(
     const GrowthPrediction prediction = predict_growth(ageing("A({11, 12})"), 3);
     CHECK(!prediction.exact);
     CHECK(!prediction.has_expected);
-    // Each A becomes 10 modules or one F, never stays.
+    // Each A becomes 10 modules or one F; none stays.
     CHECK(prediction.low[1].modules.value == 1);
     CHECK(prediction.high[1].modules.value == 10);
     CHECK(prediction.high[3].modules.value == 118);
@@ -176,7 +177,7 @@ TEST_CASE("contexts may match or not") {
         predict_growth(system("b a a", {"b < a : * : b", "b : * : a a"}), 1);
     CHECK(prediction.low[1].modules.value == 4);
     CHECK(prediction.high[1].modules.value == 4);
-    CHECK(prediction.exact); // a stays or becomes b: one module either way
+    CHECK(prediction.exact); // `a` stays or becomes `b`: one module in both cases
 }
 
 TEST_CASE("sequential rewriting makes a pass of each rule in turn") {
@@ -193,7 +194,7 @@ TEST_CASE("cyclic rewriting makes one pass a generation") {
 TEST_CASE("predecessors of several modules match from never to as often as they fit") {
     const GrowthPrediction prediction =
         predict_growth(system("A B A B C", {"A B : * : A"}, RewritingMode::Sequential), 1);
-    // A B A B C -> A A C in truth.
+    // The actual step is A B A B C -> A A C.
     CHECK(prediction.low[1].modules.value <= 3);
     CHECK(prediction.high[1].modules.value >= 3);
     CHECK(prediction.high[1].modules.value <= 7);

@@ -54,7 +54,8 @@ TEST_CASE("folding stops where a wider code would be needed") {
     const Bytecode b = lowered(text + " F(7);\n");
     CHECK(b.code_count() == 256);
     CHECK(b.axioms.front().word.parameter_count == 300 - 255);
-    CHECK(codes_of(b, b.axioms.front().word).back() == 8); // F(7) was folded early
+    // F(7) was folded before the codes of one byte ran out.
+    CHECK(codes_of(b, b.axioms.front().word).back() == 8);
 }
 
 TEST_CASE("negative zero is another constant than zero") {
@@ -162,8 +163,8 @@ TEST_CASE("nothing is lowered where there are errors, or when it is not wanted")
 
 namespace {
 
-/// The text of every module of axiom and successors, as the bytecode places it, and who wrote it:
-/// "p 3:7 F(x)".
+/// Each module of axiom and successors with its production, its place by the bytecode, and its text
+/// there: "p 3:7 F(x)"; "-" for the axiom.
 std::vector<std::string> placed(const test::Compiled& c) {
     REQUIRE(c.outcome.bytecode);
     const Bytecode& b = *c.outcome.bytecode;
@@ -224,7 +225,7 @@ TEST_CASE("modules at equal distances share a row of places") {
     REQUIRE(all.size() == 2'003);
     CHECK(all[1'998] == "- 1:3003 F");
     CHECK(all[2'001] == "p 2:18 F(2)");
-    // blanks stand on one side only, so that two modules make a row
+    // Blanks stand before every second module only, so a row of equal distances has two modules.
     CHECK(c.outcome.bytecode->template_places.size() == 1'001);
     const test::Compiled dense = compile_text("#w : F+F+F+F+F-F-F;\n#p : F : * : F(1)F(2)F(3);\n");
     CHECK(placed(dense).size() == 16);

@@ -47,8 +47,9 @@ TEST_CASE("a missing axiom or number of generations is told at the end of the te
     CHECK(without("#w : F;\n") == Said{"missing-generations"});
     CHECK(without("#n = 1;\n#p : F : * : F;\n") == Said{"missing-axiom"});
     CHECK(without("#n = 1;\n#w : ;\n") == Said{"empty-axiom"});
-    CHECK(without("#n = 1 1;\n#w : F(1 1);\n").size() == 2); // statements that did not parse
-    CHECK(compile_text("#w : F;\n").said().empty());         // -n is given
+    // The statements are missing because they did not parse.
+    CHECK(without("#n = 1 1;\n#w : F(1 1);\n").size() == 2);
+    CHECK(compile_text("#w : F;\n").said().empty()); // -n is given
 }
 
 TEST_CASE("what may stand once is an error the second time") {
@@ -64,7 +65,7 @@ TEST_CASE("what may stand once is an error the second time") {
           Said{"duplicate-statement 3:2"});
     CHECK(compile_text("#define a 1;\n#module a;\n#w : a F(a);\n#a : F(x) : * : a;\n")
               .errors()
-              .empty()); // three name spaces
+              .empty()); // constants, modules and labels have separate name spaces
 }
 
 TEST_CASE("a definition of the command line replaces the expression") {
@@ -80,7 +81,7 @@ TEST_CASE("a definition of the command line replaces the expression") {
     CHECK(program.constants[0].value == 5.0F);
     CHECK_FALSE(program.constants[0].is_random);
     CHECK(program.constants[1].value == 2.0F);
-    // The range that was replaced still took a number.
+    // The range of `a`, which the command line replaces, still takes draw 0.
     REQUIRE(program.globals.size() == 1);
     CHECK(program.globals[0].draw_position == 1);
     CHECK(program.axioms.front().draw_position == 2);

@@ -9,7 +9,7 @@ using Said = std::vector<std::string>;
 
 namespace {
 
-/// The value that a constant expression has, as the first parameter of the axiom.
+/// The value of a constant expression, read from the first parameter of the axiom.
 float folded(const std::string& expression) {
     const test::Compiled c = compile_text("#w : F(" + expression + ");");
     CAPTURE(expression, c.said());
@@ -57,7 +57,7 @@ TEST_CASE("an unknown name is reported where it stands, with the nearest") {
 TEST_CASE("thesis 2.6: `w` where the only parameter is `x`") {
     const test::Compiled c = compile_text("#w : F(1);\n"
                                           "#p1 : F(x) : * : F(w) + F(w);\n");
-    CHECK(c.errors() == Said{"unknown-name 2:20"}); // once a statement
+    CHECK(c.errors() == Said{"unknown-name 2:20"}); // reported once per statement
     const Diagnostic& error = *c.find(DiagnosticCode::UnknownName);
     CHECK(error.help == Said{"did you mean `x`?"});
     CHECK(error.notes == Said{"the parameters of this production: `x`"});
@@ -186,7 +186,7 @@ TEST_CASE("long and deep expressions take linear time and little stack") {
     }
     const test::Compiled tower = compile_text(power + ");\n");
     CHECK(tower.errors().empty());
-    REQUIRE(tower.outcome.bytecode); // verified: the depth of its stack
+    REQUIRE(tower.outcome.bytecode); // verification includes the stack depth
 
     std::string nested = "#w : F(1);\n#p : F(x) : * : F(";
     for (int i = 0; i < 9'000; ++i) {

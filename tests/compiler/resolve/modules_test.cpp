@@ -41,7 +41,7 @@ TEST_CASE("an unknown name that is a row of known names is read split") {
     CHECK(c.errors().empty());
     CHECK(c.at(DiagnosticCode::SplitName) == "ABA");
     CHECK(c.message(DiagnosticCode::SplitName) == "`ABA` is read as `A B A(1)`");
-    CHECK(c.find(DiagnosticCode::SplitName)->labels.size() == 1); // one warning a statement
+    CHECK(c.find(DiagnosticCode::SplitName)->labels.size() == 1); // one warning per statement
     CHECK(c.fixed(DiagnosticCode::SplitName).starts_with("#w : A B A(1) F F A;"));
 }
 
@@ -49,10 +49,11 @@ TEST_CASE("thesis 7.3: the last part may be a name that stands alone elsewhere")
     const std::string rest = "#p : A : * : F S(1);\n";
     CHECK(axiom(compile_text("#w : AS(1);\n" + rest)) == "A S/1");
     CHECK(axiom(compile_text("#w : AS;\n" + rest)) == "AS"); // S without parameters is not used
-    CHECK(axiom(compile_text("#w : SA(1);\n" + rest)) == "SA/1"); // only the last
+    // Only the last part may have parameters.
+    CHECK(axiom(compile_text("#w : SA(1);\n" + rest)) == "SA/1");
     CHECK(axiom(test::compile_files(
               {{"main.lsys", "#w : AS(1);\n#include \"b.lsys\";\n"}, {"b.lsys", rest}}, {})) ==
-          "AS/1"); // in the same file
+          "AS/1"); // S(1) must stand alone in the same file
 }
 
 TEST_CASE("a name that is known, quoted or splits in two ways is taken whole") {

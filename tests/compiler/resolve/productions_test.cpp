@@ -73,7 +73,7 @@ TEST_CASE("a parameter hides a constant of its name") {
     for (const Diagnostic& d : c.diagnostics.all()) {
         hidden += d.code == DiagnosticCode::HiddenConstant ? 1 : 0;
     }
-    CHECK(hidden == 1); // `y` is defined later
+    CHECK(hidden == 1); // only `x` hides a constant: `#define y` comes after the production
 }
 
 TEST_CASE("rules go by predecessor, groups by contexts as well, by first appearance") {
@@ -130,7 +130,7 @@ TEST_CASE("unconditional probabilities of a choice sum to 1") {
     CHECK(three("0.7", "0.2", "0 - 1").errors() == Said{"bad-probability 4:12"});
     CHECK(compile_text("#w : F(1);\n#a : F(x) : x > 1 ~ 0.3 : F(x);\n#b : F(x) : * ~ 0.3 : F(2);\n")
               .errors()
-              .empty()); // with a condition the sum depends on what matches
+              .empty()); // with conditions, the sum depends on the productions that match
     CHECK(compile_text("#set weights any;\n#w : F;\n#a : F : * ~ 3 : F;\n#b : F : * ~ 4 : F;\n")
               .errors()
               .empty());

@@ -69,7 +69,8 @@ TEST_CASE("a translation that outgrows its room is an error where it does") {
     translation.put("GG", {file, 6, 7});
     translation.put(";");
     translation.copy_as("FF", {file, 0, 2});
-    CHECK(translation.text() == "#w : FFFF"); // what follows is left out as well
+    // The parts after the first that does not fit are left out too.
+    CHECK(translation.text() == "#w : FFFF");
     CHECK(translation.origin(8, 20) == SourceSpan{file, 3, 4});
     Diagnostics diagnostics;
     REQUIRE(translation.report_overflow(diagnostics));
@@ -121,7 +122,7 @@ TEST_CASE("modules of a translation keep within the file of their statement") {
 }
 
 TEST_CASE("a choice among productions of cpfg needs a bounded count of random numbers") {
-    // Each production of the module has the numbers of all as parameters.
+    // Each production of the module has the random numbers of all of them as parameters.
     const auto errors_of = [](int count, const std::string& weight) {
         std::string text = "Lsystem: 1\nseed: 1\nderivation length: 1\nAxiom: A\n";
         for (int i = 0; i < count; ++i) {

@@ -26,7 +26,7 @@ TEST_CASE("files that are no text are told from texts") {
     CHECK(recognise_no_text("%PDF-1.7\n")->what == "a PDF document");
     CHECK(recognise_no_text("\x89PNG\r\n")->what == "a PNG picture");
     CHECK(recognise_no_text(std::string(100, '\x02'))->what == "no text");
-    // UTF-16 begins with a byte of NUL; bytes in between do not make it.
+    // Big-endian UTF-16 begins with a NUL byte; this text does not, though it has UTF-16 in it.
     CHECK(recognise_no_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what == "no text");
 }
 

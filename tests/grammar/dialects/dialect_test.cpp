@@ -1,4 +1,4 @@
-// The table of dialects: its columns, and what is made of them.
+// The table of dialects: its columns, and the functions that read them.
 #include "grammar/dialects/dialect.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Pieces of lines, their places, and what is reported of a piece that does not fit.
+// Pieces of lines, their places, and the reports about pieces that do not fit.
 #include "grammar/base/names.h"
 #include "grammar/dialects/impl/line_reader.h"
 
@@ -22,7 +22,7 @@ struct Read {
         : file(sources.add("list", std::move(text))),
           reader(whole_file(file, context), format, context) {}
 
-    /// Pieces to the end; `|` is the end of a line, `.` that of the text.
+    /// Pieces to the end; `|` is the end of a line, `.` the end of the text.
     std::string all() {
         std::string text;
         while (true) {

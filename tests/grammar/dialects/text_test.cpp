@@ -1,4 +1,4 @@
-// Questions about texts that front ends of dialects ask.
+// Text functions of the front ends of dialects.
 #include "grammar/dialects/impl/text.h"
 
 #include <catch2/catch.hpp>

@@ -25,7 +25,7 @@ std::string modules_of(const Parsed& parsed, ModuleList list) {
     return out;
 }
 
-/// The texts of the modules of a list, between bars.
+/// The texts of the modules of a list, separated by bars.
 std::string texts_of(const Parsed& parsed, ModuleList list) {
     std::string out;
     for (ModuleCursor cursor(parsed.ast, parsed.names, parsed.sources, list); !cursor.done();

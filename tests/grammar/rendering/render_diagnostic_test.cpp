@@ -95,7 +95,7 @@ TEST_CASE("wide characters take two columns, combining ones none") {
                                                  "    |            ^\n");
     CHECK(wide.frame(wide.at(wide.span("木木"))) == "  1 | /* 木木 */ A;\n"
                                                     "    |    ^^^^\n");
-    const Fixture combining("e\u0301x A;"); // e with an acute accent of its own
+    const Fixture combining("e\u0301x A;"); // e followed by a combining acute accent
     CHECK(combining.frame(combining.at(combining.span("x"))) == "  1 | e\u0301x A;\n"
                                                                 "    |  ^\n");
     CHECK(combining.frame(combining.at(combining.span("\u0301"))) == "  1 | e\u0301x A;\n"
@@ -267,7 +267,8 @@ TEST_CASE("fifty of a hundred thousand diagnostics on one long line are shown fa
     const auto stride = static_cast<std::uint32_t>(f.sources.file(f.file).text().size() / kCount);
     lsys::Diagnostics all;
     for (std::uint32_t i = 0; i < kCount + 7; ++i) {
-        // In descending order, so that the fifty shown are the last ones of the text.
+        // Added in descending order of place, so that the first fifty are the last ones of the
+        // text.
         const std::uint32_t at = (kCount - 1 - i % kCount) * stride;
         all.add(DiagnosticCode::SyntaxError, {f.file, at, at + 1}, "this is wrong");
     }

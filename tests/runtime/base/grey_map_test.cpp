@@ -18,7 +18,7 @@ struct PngFormat {
     bool interlaced = false;
 };
 
-/// The file of `samples`, which hold whole rows as they are stored.
+/// A PNG file of `samples`, whole rows in the format of the file.
 std::string png_of(png_uint_32 columns,
                    png_uint_32 rows,
                    const PngFormat& format,
@@ -36,7 +36,7 @@ std::string png_of(png_uint_32 columns,
     png_set_IHDR(png, info, columns, rows, format.depth, format.colours,
                  format.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_gAMA(png, info, 0.45455); // must not matter
+    png_set_gAMA(png, info, 0.45455); // the gamma must be ignored
     png_write_info(png, info);
     std::vector<png_bytep> row_starts;
     for (png_uint_32 row = 0; row < rows; ++row) {
@@ -102,7 +102,7 @@ TEST_CASE("pictures with colours are read where all is grey, else refused by pla
 
 TEST_CASE("damaged pictures are errors at every length") {
     const std::string whole = png_of(20, 20, {}, std::vector<std::uint8_t>(400, 77));
-    // What follows the last row may be missing.
+    // Chunks after the last row may be missing.
     const std::size_t needed = whole.find("IEND") - 4;
     for (std::size_t length = 0; length + 8 < needed; ++length) {
         const auto read = read_grey_png(std::string_view(whole).substr(0, length));
@@ -118,7 +118,7 @@ TEST_CASE("damaged pictures are errors at every length") {
 TEST_CASE("a header that promises too many pixels is refused before memory is taken") {
     const std::string small = png_of(1, 1, {}, {0});
     std::string large = small;
-    // The size is within IHDR, whose checksum is made again.
+    // Change the size in IHDR and correct its checksum.
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
         large[at] = 0;
         large[at + 1] = 2;

@@ -29,7 +29,7 @@ TEST_CASE("a draw is named by seed, generation, position and number") {
             philox4x32({0x76543210, 0xFEDCBA98, 7, number / 4}, {0x89ABCDEF, 0x01234567});
         CHECK(source.draw(number) == unit_interval(block[number % 4]));
     }
-    // back to an earlier block
+    // A draw from an earlier block.
     const PhiloxBlock block = philox4x32({0x76543210, 0xFEDCBA98, 7, 0}, {0x89ABCDEF, 0x01234567});
     CHECK(source.draw(2) == unit_interval(block[2]));
 }
@@ -63,7 +63,7 @@ TEST_CASE("u lies from 0 to below 1 and has 24 bits") {
 TEST_CASE("a range never yields its maximum") {
     const float largest = 1.0F - 0x1p-24F;
     CHECK(draw_in_range(0.0F, 1.0F, largest) == largest);
-    // rounds up to the maximum without care
+    // These would round up to the maximum if computed directly.
     CHECK(draw_in_range(1.0F, 1.0F + 0x1p-23F, largest) == 1.0F);
     CHECK(draw_in_range(1024.0F, 1025.0F, largest) < 1025.0F);
     CHECK(draw_in_range(1024.0F, 1025.0F, largest) ==

@@ -27,7 +27,7 @@ TEST_CASE("workers take every piece once, task after task") {
 
 TEST_CASE("workers work at the same time") {
     Workers workers(4);
-    // Each piece waits for all four, which ends only if four threads have one each.
+    // Each piece waits until all four run, so the test ends only if four threads have one each.
     std::atomic<int> there{0};
     workers.for_each(4, [&](std::uint64_t) {
         ++there;
@@ -54,12 +54,14 @@ TEST_CASE("workers who have nothing to do end") {
     const Workers unused(8);
     Workers resting(8);
     resting.for_each(2, [](std::uint64_t) {});
-    std::this_thread::sleep_for(std::chrono::milliseconds(5)); // past looking, now asleep
+    // Long enough for the helpers to stop polling and sleep.
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
     resting.for_each(2, [](std::uint64_t) {});
 }
 
 TEST_CASE("workers end whatever they are about to do") {
-    // The team is sent home while a helper is on its way to a task that the others have done.
+    // The workers are destroyed while a helper may still wake up for a task that the others have
+    // finished.
     for (int round = 0; round < 20'000; ++round) {
         Workers workers(2);
         std::atomic<int> done{0};
@@ -79,6 +81,6 @@ TEST_CASE("a piece without memory ends the task with std::bad_alloc") {
             });
         };
         CHECK_THROWS(run(false));
-        CHECK_NOTHROW(run(true)); // the threads are still there
+        CHECK_NOTHROW(run(true)); // the threads still work
     }
 }

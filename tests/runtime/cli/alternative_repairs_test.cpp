@@ -58,7 +58,7 @@ TEST_CASE("a comma may be a product unless a number follows") {
 }
 
 TEST_CASE("the statement is read as its file's names say") {
-    // Only with names of characters may a text in back quotes be so long.
+    // A text of more than 16 characters in back quotes is legal only with `names characters`.
     const std::string_view broken = "#w : `seventeen modules`(2));";
     const std::string_view repaired = "#w : `seventeen modules`(2);";
     CHECK(others(DiagnosticCode::ExtraParenthesis, broken, repaired,

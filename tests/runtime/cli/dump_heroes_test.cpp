@@ -1,4 +1,5 @@
-// `lsc dump --stage heroes`, `cache` and `instanced`, held against a slow reading of their words.
+// Compares `lsc dump --stage heroes`, `cache` and `instanced` with a slow interpretation of their
+// words.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +20,7 @@ using lsys::tests::run_lsc;
 using lsys::tests::ScratchFolder;
 using lsys::tests::write_text;
 
-// The turtle's state is the same at all branches, so that a key is (id, age).
+// All branches begin with the same turtle state, so a key is (id, age).
 const char* const kBranching = "#n = 6; #set names letters; #set angle 25; #w : A;"
                                "#p : A : ~ 0.4 : F[+A[-A]F][-A]A; #q : A : ~ 0.4 : F[+A]A;"
                                "#r : A : ~ 0.2 : F[-F]A;";
@@ -71,7 +72,7 @@ struct KeyRow {
 };
 using KeyTable = std::map<std::pair<int, int>, KeyRow>;
 
-/// Carey 2019, section 3.2.3 and 4.4, symbol by symbol.
+/// Records the branches of a hero symbol by symbol, as in Carey 2019, sections 3.2.3 and 4.4.
 void record(const std::string& hero, KeyTable& table) {
     for (std::size_t i = 0; i < hero.size();) {
         const char symbol = hero[i++];
@@ -89,7 +90,7 @@ void record(const std::string& hero, KeyTable& table) {
             ++row.instances;
         } else {
             ++row.hits;
-            for (int depth = 1; depth > 0; ++i) { // to its `>`
+            for (int depth = 1; depth > 0; ++i) { // skip to the matching `>`
                 depth += hero[i] == '@' || hero[i] == '<' ? 1 : 0;
                 depth -= hero[i] == '$' || hero[i] == '>' ? 1 : 0;
             }
@@ -160,7 +161,7 @@ TEST_CASE("the cache holds what the heroes' words record") {
         std::size_t total = 0;
         for (const auto& [key, each] : expected) {
             total += static_cast<std::size_t>(each.instances);
-            // Every take is an exit of the hero around it, at least.
+            // Each branch taken (hit or miss) is at least one exit of the hero that contains it.
             CHECK(exits[key] >= each.hits + each.misses);
         }
         CHECK(instances == total);
@@ -177,7 +178,8 @@ TEST_CASE("a listing of forms shows the rows that are asked for") {
         write_text(folder / "many.lsys", text + "; #q : A : ~ 0.5 : F;");
         return folder / "many.lsys";
     };
-    // 24 branches: the sum of all probabilities by the number of branches that are taken, n choose i.
+    // 24 branches: the probabilities of all forms, n choose i forms with i taken branches, must sum
+    // to that of the production.
     const std::string file = write(24);
     const std::vector<std::string> rows =
         lines_of(output_of({"dump", "--stage", "instanced", "--rho", "0.25", "--first", "16777213",
@@ -199,7 +201,7 @@ TEST_CASE("a listing of forms shows the rows that are asked for") {
         CHECK(chance == Approx(expected).epsilon(1e-8));
     }
     CHECK(lines_of(output_of({"dump", "--stage", "instanced", file, "-q"})).size() == 1 + 4096 + 1);
-    // More branches than a number of forms has bits.
+    // More branches than the index of a form has bits.
     const std::string wide = write(70);
     const std::vector<std::string> last = lines_of(
         output_of({"dump", "--stage", "instanced", "--first", "18446744073709551615", wide}));

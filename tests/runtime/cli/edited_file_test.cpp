@@ -39,8 +39,8 @@ TEST_CASE("places of an edited text are found in the text as it was") {
     r.round({edit(1, 1, "123"), edit(4, 6, "")});
     CHECK(r.text == "a123bcdgh");
     CHECK(r.file.original_place(0) == 0);
-    CHECK(r.file.original_place(1) == 1); // the edit begins
-    CHECK(r.file.original_place(3) == 1); // within it
+    CHECK(r.file.original_place(1) == 1); // begin of the edit
+    CHECK(r.file.original_place(3) == 1); // within the edit
     CHECK(r.file.original_place(4) == 1); // b
     CHECK(r.file.original_place(6) == 3); // d
     CHECK(r.file.original_place(7) == 6); // g

@@ -65,7 +65,7 @@ TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it o
     REQUIRE(
         run_lsc({"export", "-", "-o", frames / "a.obj", "--frames", "2", "--wind", "1,0,0"}, kTree)
             .status == 0);
-    CHECK(count_files(frames) == 6); // two OBJ, two MTL, bark and its relief
+    CHECK(count_files(frames) == 6); // two OBJ, two MTL, the bark picture and its normals
     for (const char* name : {"a.0001.mtl", "a.0002.mtl"}) {
         CHECK(read_text(frames / name).find("map_Kd a.bark.png\n") != std::string::npos);
     }
@@ -122,7 +122,8 @@ TEST_CASE("physics bends a plant, and without force leaves it as it is") {
     CHECK(with({"--wind", "8,0,0"}).out != rest);
     CHECK(with({"--settle"}).status == 2);
     CHECK(with({"--frames", "2"}).status == 2);
-    CHECK(with({"--frames", "2", "--gravity", "9.81"}).status == 2); // to standard output
+    // A series cannot be written to standard output.
+    CHECK(with({"--frames", "2", "--gravity", "9.81"}).status == 2);
     for (const char* wrong : {"1", "1,2", "1,2,3,4,5", "a,b,c", "1,2,3,-1", "1,2,3,"}) {
         const LscRun run = with({"--wind", wrong});
         CHECK(run.status == 2);
@@ -271,7 +272,7 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
         REQUIRE(run.status == 0);
         CHECK(run.out == read_text(folder / "plant.glb"));
     }
-    // Joints of the light skeleton turn; each of those of all segments shifts too.
+    // Joints of a light skeleton only rotate; with a joint per segment they are also translated.
     const auto has_shifts = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"export", "-", "-o", "-", "--format", "gltf"});
         const LscRun run = with(more);
@@ -303,7 +304,7 @@ TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
     CHECK(document["images"][0]["uri"] == "a%20tree.bark.png");
     CHECK(std::filesystem::exists(folder / "a tree.bark.png"));
     CHECK(std::filesystem::exists(folder / "a tree.bark_normals.png"));
-    // Standard output holds everything.
+    // To standard output, one file contains everything.
     const LscRun whole = with({"export", "-", "-o", "-", "--format", "gltf"});
     CHECK(whole.out == run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree).out);
     // A film has one buffer.

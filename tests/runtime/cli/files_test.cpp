@@ -69,7 +69,7 @@ TEST_CASE("what cannot be read is named with its reason") {
           "cannot read `" + f.folder / "large" +
               "`: it has more than 4 bytes, the most that can be read");
     CHECK(read_file(f.folder / "large", {5}, f.console).value() == "12345");
-    // A device without end and size.
+    // A device without an end and without a size.
     CHECK(!read_file("/dev/zero", {3'000'000}, f.console).ok());
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("a written file appears when it is complete") {
         CHECK(output.value().write("first").ok());
         CHECK(!std::filesystem::exists(f.folder / "x"));
     }
-    CHECK(f.file_count() == 0); // it was never committed
+    CHECK(f.file_count() == 0); // the file was not committed
     CHECK(write_file(f.folder / "x", "first", f.console).ok());
     {
         Result<Output> output = Output::open(f.folder / "x", f.console);
@@ -114,7 +114,8 @@ TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
     struct stat facts {};
     REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
     CHECK((facts.st_mode & 0777U) == 0640);
-    REQUIRE(::chmod((f.folder / "x").c_str(), 04755) == 0); // other bytes, so other rights
+    // Setuid: writing other bytes must drop it.
+    REQUIRE(::chmod((f.folder / "x").c_str(), 04755) == 0);
     CHECK(write_file(f.folder / "x", "third", f.console).ok());
     REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
     CHECK((facts.st_mode & 07777U) == 0755);
@@ -159,7 +160,7 @@ TEST_CASE("a file that must be new replaces none") {
     }
     Result<Output> late = Output::create(f.folder / "late", f.console);
     REQUIRE(late.ok());
-    write_text(f.folder / "late", "first"); // by another program
+    write_text(f.folder / "late", "first"); // as if by another program
     CHECK(late.value().commit().error().message ==
           "cannot write `" + f.folder / "late" + "`: file exists");
     CHECK(read_text(f.folder / "late") == "first");
@@ -198,12 +199,12 @@ TEST_CASE("of files that belong together none appears if one cannot") {
         CHECK(output.value().write("second").ok());
         outputs.push_back(std::move(output.value()));
     }
-    std::filesystem::create_directory(f.folder / "last"); // by another program
+    std::filesystem::create_directory(f.folder / "last"); // as if by another program
     CHECK(commit_all(outputs).error().message ==
           "cannot write `" + f.folder / "last" + "`: is a directory");
     outputs.clear();
     CHECK(read_text(f.folder / "old") == "first");
-    CHECK(f.file_count() == 2); // it and the directory
+    CHECK(f.file_count() == 2); // `old` and the directory
 }
 
 TEST_CASE("what cannot be written is named with its reason, and leaves nothing") {

@@ -79,7 +79,7 @@ TEST_CASE("a forest of whole trees has a mesh for each hero and a node for each 
     };
     for (const std::size_t heroes : {1U, 4U, 10U}) {
         const nlohmann::json document = document_of({"--heroes", std::to_string(heroes)});
-        CHECK(document["meshes"].size() == heroes + 1); // and the ground
+        CHECK(document["meshes"].size() == heroes + 1); // one more for the ground
         std::size_t groups = 0;
         std::uint64_t trees = 0;
         for (const nlohmann::json& node : document["nodes"]) {
@@ -90,7 +90,7 @@ TEST_CASE("a forest of whole trees has a mesh for each hero and a node for each 
                 ++groups;
             }
         }
-        CHECK(groups == heroes); // in one cell
+        CHECK(groups == heroes); // one group of instances per hero, since there is one cell
         CHECK(trees == 500);
         CHECK(document["nodes"][0]["extras"]["branches"] == 500);
     }
@@ -140,7 +140,7 @@ TEST_CASE("tiles of a forest together are the whole, tree by tree") {
     }
     CHECK(whole.trees > 300);
     CHECK(sum.trees == whole.trees);
-    CHECK(sum.digest == whole.digest); // of every branch of every tree
+    CHECK(sum.digest == whole.digest); // the digest covers every branch of every tree
 }
 
 TEST_CASE("a forest without plants of its own says why") {

@@ -1,4 +1,4 @@
-// `lsc forest --variety` and `--memory`, and the note on forests of which few trees differ.
+// `lsc forest --variety` and `--memory`, and the note about forests with few different trees.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -47,7 +47,7 @@ LscRun forest(std::vector<std::string> arguments, const std::vector<std::string>
     return run_lsc(arguments, "");
 }
 
-/// Different trees and digest of statistics.
+/// The number of different trees and the digest, from the statistics.
 std::pair<int, std::string> shape_of(const LscRun& run) {
     INFO(run.err);
     REQUIRE(run.status == 0);
@@ -63,7 +63,7 @@ TEST_CASE("the heroes that --variety chooses give as many different trees as it 
         const LscRun run = forest(base, {"--variety", "0.9"});
         const auto [different, digest] = shape_of(run);
         CHECK(different >= 270);
-        // The choice that is printed is the forest.
+        // The options that the run prints give the same forest.
         const std::string chosen = between(run.err, name + ": chose ", ": ");
         CHECK(run.err.find(std::to_string(different) + " of 300 trees different") !=
               std::string::npos);
@@ -94,7 +94,7 @@ TEST_CASE("a system without chance has no variety to choose") {
     CHECK(run.status == 2);
     CHECK(run.err.find("--variety 0.5: nothing that `fixed` derives is left to chance") !=
           std::string::npos);
-    // Trees of one number are enough for one tree.
+    // A forest of one tree needs no variety.
     CHECK(forest({folder / "fixed.lsys"}, {"--variety", "1", "--stats", "--count", "1"}).status ==
           0);
 }

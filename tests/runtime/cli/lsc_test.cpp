@@ -1,4 +1,5 @@
-// The program beyond golden cases: interrupts, terminals, failing streams, exhausted memory.
+// Behaviour of lsc that golden cases cannot show: interrupts, terminals, failing streams, exhausted
+// memory.
 #include "runtime/cli/lsc.h"
 #include "tests/support/lsc_run.h"
 
@@ -181,9 +182,9 @@ TEST_CASE("check --fix leaves included files outside the folder of the grammar a
         CHECK(fixed.err.find("lsc: `" + path +
                              "` is left as it is: it lies outside the folder of `" +
                              folder / "way/a.lsys" + "`\n") != std::string::npos);
-        CHECK(fixed.err.find(path + ":1:") != std::string::npos); // its mistakes are shown
+        CHECK(fixed.err.find(path + ":1:") != std::string::npos); // its diagnostics are shown
     }
-    // A named file is written.
+    // A file named on the command line is written, wherever it lies.
     CHECK(fix({folder / "home/a.lsys", folder / "absolute.lsys"}).status == 1);
     CHECK(read_text(folder / "absolute.lsys") == right);
     CHECK(read_text(folder / "target.lsys") == wrong);
@@ -202,7 +203,7 @@ TEST_CASE("check --fix writes all files of a grammar or none") {
     }
     REQUIRE(::chmod((folder / "closed/b.lsys").c_str(), 0444) == 0);
     const pid_t process = ::fork();
-    if (process == 0) { // permissions bind everyone but root
+    if (process == 0) { // run as another user, since root ignores permissions
         std::istringstream in;
         std::ostringstream out;
         std::ofstream err(folder / "err");

@@ -40,7 +40,7 @@ TEST_CASE("of the limits of cgroup v2 the least counts") {
     root.put("proc/self/cgroup", "0::/a/b\n");
     root.put("sys/fs/cgroup/a/b/memory.max", "3000000000\n");
     CHECK(cgroup_memory(root.path()) == 3'000'000'000);
-    root.put("sys/fs/cgroup/a/memory.max", "536870912\n"); // of the service above
+    root.put("sys/fs/cgroup/a/memory.max", "536870912\n"); // limit of the parent group
     CHECK(cgroup_memory(root.path()) == 536'870'912);
     root.put("sys/fs/cgroup/memory.max", "max\n");
     CHECK(cgroup_memory(root.path()) == 536'870'912);
@@ -58,10 +58,12 @@ TEST_CASE("a container sees its own group as the topmost one") {
 TEST_CASE("limits of cgroup v1 count, those of the whole container too") {
     const Root root;
     root.put("proc/self/cgroup", "12:pids:/x\n11:cpuset,memory:/docker/1f\n1:name=systemd:/x\n");
-    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "134217728\n"); // as mounted inside
+    // Inside a container, its own group is mounted as the root.
+    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "134217728\n");
     CHECK(cgroup_memory(root.path()) == 134'217'728);
     root.put("sys/fs/cgroup/memory/docker/1f/memory.limit_in_bytes", "67108864\n");
     CHECK(cgroup_memory(root.path()) == 67'108'864);
-    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n"); // none
+    // The value that means no limit.
+    root.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
     CHECK(cgroup_memory(root.path()) == 67'108'864);
 }

@@ -1,4 +1,4 @@
-// How far samples move in a clip of wind: the largest way of any vertex from its place at rest.
+// Largest distance of any vertex from its place at rest, for samples in a clip of wind.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ std::vector<glm::vec3> positions_of(const std::string& ply) {
         std::stoul(ply.substr(ply.find("element vertex ") + std::strlen("element vertex ")));
     const std::string end = "end_header\n";
     const std::string header = ply.substr(0, ply.find(end));
-    // Floats and bytes of colours, of vertices only.
+    // Bytes per vertex: floats, and bytes of colours. Only vertices have such properties.
     std::size_t stride = 0;
     for (const auto& [word, bytes] :
          {std::pair("property float ", 4), std::pair("property uchar ", 1)}) {
@@ -38,7 +38,8 @@ std::vector<glm::vec3> positions_of(const std::string& ply) {
     return positions;
 }
 
-/// The largest way of a vertex in a clip of 4 s in gusts of 4 to 12 m/s, of the plant's height.
+/// Largest distance of a vertex from its place at rest in a clip of 4 s with gusts of 4 to 12 m/s,
+/// as a fraction of the plant's height.
 float largest_way(const std::string& sample) {
     const ScratchFolder folder;
     const std::string grammar =
@@ -71,7 +72,7 @@ float largest_way(const std::string& sample) {
 } // namespace
 
 TEST_CASE("trees sway in a fresh breeze by a part of their height") {
-    const std::string name = GENERATE("carey-type-0", "carey-type-1"); // the third takes minutes
+    const std::string name = GENERATE("carey-type-0", "carey-type-1"); // carey-type-2 takes minutes
     CAPTURE(name);
     const float way = largest_way(name);
     CHECK(way > 0.03F);

@@ -209,7 +209,7 @@ TEST_CASE("names of a file's nodes come from its own name, and shapes of collisi
     CHECK(accessor["min"][1].get<double>() == Approx(0.0).margin(1e-5));
     CHECK(accessor["max"][1].get<double>() >= 2.9);
     const nlohmann::json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    CHECK(view.value("byteStride", 0) == 12); // glTF asks for it where accessors share a view
+    CHECK(view.value("byteStride", 0) == 12); // glTF requires a stride if accessors share a view
     CHECK(document["meshes"][0]["primitives"][0]["attributes"].contains("TEXCOORD_2"));
 }
 
@@ -246,13 +246,13 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     const std::string path = folder / "a.stl";
     const LscRun run = run_lsc({"export", "-", "-o", path, "--preset", "print"}, kTree);
     REQUIRE(run.status == 0);
-    CHECK(run.err.empty()); // no separate pieces
+    CHECK(run.err.empty()); // no warning about separate pieces
     const std::string stl = read_text(path);
     CHECK(stl.find("STL in millimetres, +Z up") == 0);
     std::uint32_t count = 0;
     std::memcpy(&count, stl.data() + 80, sizeof count);
     REQUIRE(stl.size() == 84 + 50 * std::size_t{count});
-    // Each edge of exact coordinates once in each direction.
+    // Each edge, by exact coordinates, must occur once in each direction.
     using Corner = std::array<float, 3>;
     std::map<std::pair<Corner, Corner>, int> edges;
     Corner low{1e9F, 1e9F, 1e9F};
@@ -275,7 +275,7 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     }
     CHECK(bad == 0);
     const float tallest = high[2]; // +Z up
-    // Round ends of branches of 1 mm stand out by half of it.
+    // Branches are 1 mm wide, and their round ends protrude by 0.5 mm.
     CHECK(tallest >= 149.9F);
     CHECK(tallest <= 151.5F);
 }
@@ -299,7 +299,7 @@ TEST_CASE("a forest has its pivot and unit in every form") {
     CHECK(usda.find("double3 xformOp:translate = (-20, 0, -20)") != std::string::npos);
     CHECK(usda.find("xformOpOrder = [\"xformOp:rotateX\", \"xformOp:scale\", "
                     "\"xformOp:translate\"]") != std::string::npos);
-    // The same triangles, in other places.
+    // Pivot and unit move and scale the vertices; the triangles stay the same.
     const auto first_vertex = [](const std::string& obj) {
         glm::dvec3 v{};
         REQUIRE(std::sscanf(obj.c_str() + obj.find("\nv "), "\nv %lf %lf %lf", &v.x, &v.y, &v.z) ==
@@ -355,7 +355,7 @@ TEST_CASE("whole trees of a forest have shapes of collision") {
             const nlohmann::json& shape = godot["nodes"][node["children"][0].get<std::size_t>()];
             CHECK(shape["name"].get<std::string>().ends_with("_00-convcolonly"));
             CHECK(shape["name"] == godot["meshes"][shape["mesh"].get<std::size_t>()]["name"]);
-            // The trunk, up to 3 m of the 5 m of the tree.
+            // The shape is the trunk: 3 m of the 5 m of the tree.
             CHECK(top_of(godot, shape) < top_of(godot, node));
             CHECK(top_of(godot, shape) > 0.4 * top_of(godot, node));
         }
@@ -366,7 +366,7 @@ TEST_CASE("whole trees of a forest have shapes of collision") {
     for (const nlohmann::json& node : unreal["nodes"]) {
         const std::string name = node.value("name", "");
         if (name.starts_with("UCP_")) {
-            CHECK(names.insert(name).second); // once a hero
+            CHECK(names.insert(name).second); // a shape is written once per hero
         }
     }
     CHECK(names.size() > 3);
@@ -388,7 +388,7 @@ TEST_CASE("whole trees of a forest have shapes of collision") {
 
 TEST_CASE("a growing plant has the pivot of the last plant in all frames") {
     const ScratchFolder folder;
-    // Grows upwards from 2 m above the start of the turtle.
+    // A stem that grows upwards from 2 m above the start of the turtle.
     const char* const growing = "#n = 3; #w : f(2) A; #p : A : * : F(1) A;";
     const std::string film = folder / "a.glb";
     const auto lowest = [&](const std::string& glb) {
@@ -414,7 +414,7 @@ TEST_CASE("a growing plant has the pivot of the last plant in all frames") {
     based.insert(based.end(), {"--pivot", "base"});
     REQUIRE(run_lsc(based, growing).status == 0);
     CHECK(lowest(read_text(film)) == Approx(0.0).margin(1e-6));
-    // The middle of the last plant, 3 m high, in a series too.
+    // In a series too, the pivot is the middle of the last plant, which is 3 m high.
     based = {"export", "-", "--grow", "--frames", "4", "--pivot", "centre", "-o", folder / "b.obj"};
     REQUIRE(run_lsc(based, growing).status == 0);
     for (const char* frame : {"1", "2", "3"}) {

@@ -32,8 +32,8 @@ struct Child {
     rlim_t memory = RLIM_INFINITY;
     std::string in = "/dev/null";
     rlim_t file_size = RLIM_INFINITY;
-    int closed = -1;        // standard stream
-    int ignored_signal = 0; // as nohup(1) has it
+    int closed = -1;        // standard stream to close; -1: none
+    int ignored_signal = 0; // signal to ignore, as nohup(1) does; 0: none
 };
 
 pid_t start(const Child& child) {
@@ -71,7 +71,7 @@ pid_t start(const Child& child) {
 
 struct Ended {
     int status = 0;    // exit status, or -signal
-    long peak_kib = 0; // of memory
+    long peak_kib = 0; // peak resident memory
 };
 
 Ended end_of(pid_t process) {
@@ -106,7 +106,7 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
         CHECK(read_text(folder / "err") == "lsc: interrupted\n");
         CHECK(!std::filesystem::exists(folder / "out"));
     }
-    CHECK(folder.file_count() == 2); // the grammar and the messages
+    CHECK(folder.file_count() == 2); // the grammar and the file of messages
 }
 
 TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
@@ -119,7 +119,7 @@ TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
                                          "/dev/null",
                                          folder / "err"});
             std::this_thread::sleep_for(std::chrono::milliseconds(300));
-            CHECK(folder.file_count() == 3); // the output that is not finished
+            CHECK(folder.file_count() == 3); // the third is the unfinished output
             for (int i = 0; i < times; ++i) {
                 REQUIRE(::kill(process, signal) == 0);
             }
@@ -135,14 +135,14 @@ TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    // Open at both ends, so that a write waits for a reader.
+    // Opened for reading and writing, so that a full pipe makes the writer wait.
     const int both = ::open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
     REQUIRE(both >= 0);
     const Clock::time_point begin = Clock::now();
     const pid_t process =
         start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(folder.file_count() == 3); // the state that is not finished
+    CHECK(folder.file_count() == 3); // the third is the unfinished state
     REQUIRE(::kill(process, SIGTERM) == 0);
     CHECK(wait_for(process) == 143);
     CHECK(Clock::now() - begin < std::chrono::seconds(10));
@@ -203,7 +203,7 @@ TEST_CASE("a standard stream that is closed is no file of the run") {
     child.arguments = {"dump", folder / "a.lsys", "-o", "/dev/stdout"};
     CHECK(wait_for(start(child)) == 2);
 
-    child.arguments = {"check", folder / "a.lsys"}; // which prints nothing
+    child.arguments = {"check", folder / "a.lsys"}; // `check` prints nothing
     CHECK(wait_for(start(child)) == 0);
 
     child.arguments = {"check", "-"};
@@ -282,7 +282,7 @@ TEST_CASE("files that belong together are written all or not at all") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 6; #set names letters; #w : A; #object L LEAF;"
                                   "#p : A : ~ 0.5 : F[+A][-A]/A L; #q : A : ~ 0.5 : F[+A]//A L;");
-    // The pictures fit, their forest and plant do not.
+    // The limit of the file size admits the pictures, but not the forest or plant.
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"forest", folder / "a.lsys", "--count", "100"},
           {"export", folder / "a.lsys", "-n", "8"}}) {
@@ -391,7 +391,8 @@ TEST_CASE("pictures and meshes of files are within the limit on memory") {
     CHECK(refused.status == 3);
     CHECK(refused.peak_kib < 200L << 10);
     CHECK(read_text(folder / "err").find("limit-reached") != std::string::npos);
-    // STL has no pictures, so this is the memory for reading: one picture for all objects.
+    // STL has no pictures, so the peak is the memory for reading them: one picture, shared by all
+    // objects.
     const Ended read = run("300M", "a.stl");
     CHECK(read.status == 0);
     CHECK(read.peak_kib < 450L << 10);

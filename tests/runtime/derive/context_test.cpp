@@ -1,4 +1,4 @@
-// Contexts over branches, ignored modules and rows of them.
+// Contexts over branches, ignored modules and runs of ignored modules.
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"
 #include "tests/support/derived.h"
@@ -14,7 +14,8 @@ using test::derived_every_way;
 
 namespace {
 
-/// One generation of a system of letters with a production for A in a context, which writes X.
+/// Derives one generation of a system of letters whose only production rewrites A in the context
+/// `head` to X.
 std::string once(const std::string& axiom, const std::string& head, const std::string& ignored) {
     BytecodeBuilder builder;
     builder.settings.print_letters = true;
@@ -81,7 +82,7 @@ TEST_CASE("ignored modules are not seen") {
     CHECK(once("A+", "A > +", "+") == "A+");
     CHECK(once("+A", "+ < A", "+") == "+A");
     CHECK(once("B+A", "B < A", "") == "B+A");
-    // an ignored module may itself be rewritten
+    // An ignored module may itself be rewritten.
     CHECK(once("BAAC", "B < A > C", "A") == "BXXC");
     CHECK(once("A++[+B]", "A > [ B ]", "+") == "X++[+B]");
     CHECK(once("A++", "A > [ ]", "+") == "A++");

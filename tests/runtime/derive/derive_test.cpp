@@ -1,4 +1,4 @@
-// Parallel rewriting: what a generation is, for every kind of module and production.
+// Parallel rewriting: one generation, for every kind of module and production.
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"
 #include "tests/support/derived.h"
@@ -176,7 +176,7 @@ TEST_CASE("words of wider codes") {
     const Bytecode bytecode = builder.build();
     const std::string text = derived(bytecode, 3, 1);
     CHECK(text.substr(0, 30) == "F(3)[F(2)[F(1)[A(0)]A(0)]F(1)[");
-    // the same word whatever the width
+    // The word does not depend on the width of codes.
     BytecodeBuilder narrow = builder;
     narrow.unused_symbols(0);
     CHECK(derived_every_way(bytecode, 3, 1) == derived(narrow.build(), 3, 1));
@@ -249,7 +249,7 @@ TEST_CASE("a derivation steps, and its word can be taken") {
     CHECK(seen == std::vector<std::uint32_t>{1, 2, 3, 4});
     const Word word = derivation.take_word();
     CHECK(test::text_of(bytecode, word) == "A b b b b");
-    // starting again begins anew
+    // start() begins anew.
     REQUIRE(derivation.start() == std::nullopt);
     CHECK(derivation.word().module_count() == 1);
 }

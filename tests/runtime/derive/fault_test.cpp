@@ -1,4 +1,4 @@
-// Errors of a run: which one is reported, and what it says.
+// Run-time errors: the one that is reported, and its message.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/runtime_diagnostic.h"
@@ -251,7 +251,7 @@ TEST_CASE("messages name production, module, position and generation") {
     CHECK(diagnostic.notes == std::vector<std::string>{"while rewriting `A(0)`, module 3 of "
                                                        "generation 3 (counted from 0)"});
     CHECK(diagnostic.help.size() == 1);
-    // without the source, a note says where
+    // Without the source text, a note gives the place.
     const Diagnostic blind = runtime_diagnostic(error, bytecode, false);
     CHECK(blind.span.file == kNoFile);
     CHECK(blind.notes.back() ==

@@ -1,4 +1,5 @@
-// Folding what a derivation can reach: which programs it serves, and what their words then store.
+// Folding of reachable modules: the programs that benefit, and the parameters that their words
+// store.
 #include "runtime/derive/fold_reached.h"
 #include "tests/support/bytecode_builder.h"
 #include "tests/support/derived.h"

@@ -1,4 +1,4 @@
-// Functions and curves of a grammar, derived in every way.
+// Functions and curves of a grammar, derived by all methods.
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"
 
@@ -33,18 +33,18 @@ TEST_CASE("a call stands for the body with its arguments") {
 }
 
 TEST_CASE("an argument is computed once") {
-    // One draw for both uses, with the number that it has where it stands.
+    // One draw serves both uses; its number is that of its place in the call.
     const std::string twice = word_of("#function twice(x) x + x;\n#w : A A;\n"
                                       "#p : A : * : F(twice({1, 2})) G({1, 2});\n",
                                       1);
     const std::string apart =
         word_of("#w : A A;\n#p : A : * : let r = {1, 2} : F(r + r) G({1, 2});\n", 1);
     CHECK(twice == apart);
-    // Unused, its range is at fault all the same.
+    // An error in an unused argument is reported too.
     const std::string unused = "#function first(x, y) x;\n#w : A(3) A(1);\n"
                                "#p : A(x) : * : F(first(x, {2, x}));\n";
     CHECK(test::error_every_way(compiled(unused), 1, 7).position == 1);
-    // On the side of a choice that is not taken it is not computed.
+    // In the side of an if() that is not taken, arguments are not computed.
     CHECK(word_of("#function first(x, y) x;\n#w : A(1);\n"
                   "#p : A(x) : * : F(if(x > 2, first(x, {2, x}), 5));\n",
                   1) == "F(5)");

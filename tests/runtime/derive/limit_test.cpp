@@ -97,7 +97,7 @@ TEST_CASE("the production that adds most modules is named") {
     Derivation derivation(bytecode, options);
     REQUIRE(derivation.start() == std::nullopt);
     REQUIRE(derivation.run_to(9) == Stop::Limit);
-    // 3 A add 6, 1 B adds 4, 4 C add 8
+    // In generation 2, 3 A add 6 modules, 1 B adds 4, and 4 C add 8.
     CHECK(derivation.limit().generation == 1);
     CHECK(derivation.limit().production == 2);
 }
@@ -187,7 +187,7 @@ TEST_CASE("cancelling") {
         CHECK(derivation.run_to(12) == Stop::Cancelled);
         CHECK(derivation.age() == 5);
         CHECK(derivation.word().module_count() == 6'249);
-        // and going on after it
+        // The derivation can continue afterwards.
         cancelled = false;
         CHECK(derivation.step() == std::nullopt);
         CHECK(derivation.word().module_count() == 31'249);

@@ -1,4 +1,4 @@
-// Local values and choices, derived in every way.
+// Local values and choices, derived by all methods.
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"
 
@@ -25,7 +25,7 @@ std::string word_of(const std::string& text, std::uint32_t generations) {
 
 TEST_CASE("one draw of a local value serves twice") {
     const std::string once = word_of("#w : A A;\n#p : A : * : let r = {1, 2} : F(r) G(r);\n", 1);
-    // The same draws as those of one range a module.
+    // The draws are those of a grammar with one range per module.
     const std::string apart = word_of("#w : A A;\n#p : A : * : F({1, 2});\n", 1);
     const std::size_t middle = apart.find(")F(") + 1;
     const std::string first = apart.substr(1, middle - 1);
@@ -58,7 +58,7 @@ TEST_CASE("a choice evaluates the chosen side only") {
     const std::string choice = "#w : A(0) A(4);\n"
                                "#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3)) "
                                "G(if(x, if(x > 3, 1, 2), {2, x}*0 + 5));\n";
-    // The range {2, x} is at fault for x = 0 alone, where it is chosen.
+    // Only for x = 0 is the range {2, x} chosen, and then it is an error.
     CHECK(test::error_every_way(compiled(choice), 1, 7).position == 0);
     CHECK(word_of("#w : A(0) A(4);\n#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3));\n", 1) ==
           "F(3)F(2)");

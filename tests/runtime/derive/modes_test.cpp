@@ -36,7 +36,7 @@ TEST_CASE("sequential rewriting makes a pass of each rule in turn") {
 TEST_CASE("rules are numbered by first appearance and hold all productions of their predecessor") {
     BytecodeBuilder builder = letters(RewritingMode::Sequential);
     builder.axiom("A B A");
-    // rule 0 is A (two productions), rule 1 is B
+    // Rule 0 rewrites A (two productions), rule 1 rewrites B.
     builder.production("p : B < A : * : B").production("q : B : * : C");
     builder.production("r : A : * : D");
     CHECK(derived_every_way(builder.build(), 1, 0) == "DCC");
@@ -108,7 +108,7 @@ TEST_CASE("in the pass of rule k draws are raised by 4096 k") {
         builder.axiom("A B A B B B B B");
         builder.production("p : A : * : A A").production("q : B : ~ 0.5 : C");
         builder.production("r : B : ~ 0.5 : D");
-        const std::string read = "AABAABBBBB"; // by the pass of rule 1
+        const std::string read = "AABAABBBBB"; // the word that the pass of rule 1 reads
         std::string expected = read;
         for (std::uint64_t position = 0; position < read.size(); ++position) {
             if (read[position] == 'B') {

@@ -1,5 +1,5 @@
-// Origins of modules and of what is drawn for them. That they are right for every feature is shown
-// by tests/reference.
+// Origins of modules and of the parts drawn for them. tests/reference checks origins for every
+// feature.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/origin.h"
 #include "runtime/derive/stream.h"
@@ -28,7 +28,7 @@ DeriveOptions with_origins(std::uint32_t generations) {
     return options;
 }
 
-/// "F(1) from p, generation 2" of each module of a word.
+/// A line "F(1) from p, generation 2" for each module of a word.
 Lines traced(const Bytecode& bytecode, const Word& word) {
     REQUIRE(word.origins().size() == word.module_count());
     WordPrinter modules(bytecode);
@@ -62,7 +62,7 @@ void draw_with(Bytecode& bytecode, const std::string& name, TurtleOperation oper
     }
 }
 
-/// A plant with every kind of thing.
+/// A plant with segments, objects, polygons, cuts and #interpret.
 Bytecode plant() {
     Bytecode bytecode = BytecodeBuilder()
                             .axiom("F L A")
@@ -175,7 +175,8 @@ TEST_CASE("origins count towards the limit on memory") {
     const Bytecode bytecode =
         BytecodeBuilder().axiom("F").production("p : F : * : F+F-F-F+F").build();
     DeriveOptions options = with_origins(8);
-    options.limits.max_bytes = 4'000'000; // 781,249 modules are of a byte, and of 8 more
+    // 781,249 modules take a byte each, and 8 more with origins.
+    options.limits.max_bytes = 4'000'000;
     options.threads = 1;
     for (const bool asks : {false, true}) {
         options.origins = asks;
@@ -212,7 +213,7 @@ TEST_CASE("what is drawn has the origin of its module") {
         }
         return lines;
     };
-    // after % nothing is drawn, so of the second generation there is only what L wrote
+    // A % cuts off the rest, so of generation 2 only the modules written by L are drawn.
     CHECK(said(stored.segment_origins) == Lines{"from the axiom, generation 0",
                                                 "from q, generation 2", "from q, generation 1",
                                                 "from p, generation 1", "from p, generation 1",
@@ -222,7 +223,7 @@ TEST_CASE("what is drawn has the origin of its module") {
     const std::uint32_t opens = stored.polygon_origins[0].place;
     CHECK(bytecode.symbol(bytecode.symbol_of(bytecode.template_codes[opens])).name == "{");
     CHECK(bytecode.template_codes[stored.segment_origins[4].place] !=
-          bytecode.template_codes[stored.segment_origins[3].place]); // F(2) and F
+          bytecode.template_codes[stored.segment_origins[3].place]); // one is F(2), the other F
 
     Turtle pieces(bytecode, {});
     const StreamOutcome outcome =

@@ -1,4 +1,4 @@
-// Choices and random ranges: which draw decides what, and how often.
+// Choices and random ranges: the draw that each uses, and their frequencies.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"
@@ -114,7 +114,7 @@ TEST_CASE("ranges are numbered after the choice, and by closing braces") {
             for (std::uint32_t number = 0; number < 4; ++number) {
                 CHECK(own[number] == at(module, number));
             }
-            // the inner range closes first
+            // The inner range closes first, so it takes the first number.
             CHECK(own[4] == draw_in_range(0.0F, at(module, 4), u_at(seed, 0, module, 5)));
             CHECK(own[5] == at(module, 6));
             CHECK(own[6] == 0.0F);
@@ -194,7 +194,7 @@ TEST_CASE("one choice a generation falls on each module's own matching set") {
         const float u = u_at(seed, 0, ~std::uint64_t{0}, 0);
         const std::string text = derived_every_way(builder.build(), 1, seed);
         if (0.5F > u) {
-            // ranges are numbered from 0
+            // Without a choice, ranges are numbered from 0.
             BytecodeBuilder plain;
             plain.axiom("x x x x").production("p : x : * : a({0,1})");
             const std::string draws = derived(plain.build(), 1, seed);
@@ -247,7 +247,7 @@ TEST_CASE("frequencies of choices over 100,000 draws") {
         const double expected = 100'000.0 * weights[i];
         chi_square += (seen[i] - expected) * (seen[i] - expected) / expected;
     }
-    CHECK(chi_square < 16.27); // three degrees of freedom, one in a thousand
+    CHECK(chi_square < 16.27); // three degrees of freedom, significance 0.001
 }
 
 TEST_CASE("ranges are uniform over 100,000 draws") {
@@ -274,5 +274,5 @@ TEST_CASE("ranges are uniform over 100,000 draws") {
     for (const double count : bins) {
         chi_square += (count - 6250.0) * (count - 6250.0) / 6250.0;
     }
-    CHECK(chi_square < 37.7); // fifteen degrees of freedom, one in a thousand
+    CHECK(chi_square < 37.7); // fifteen degrees of freedom, significance 0.001
 }

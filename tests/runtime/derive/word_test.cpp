@@ -86,7 +86,7 @@ TEST_CASE("a word may be printed in pieces") {
     const Bytecode bytecode = builder.build();
     WordPrinter printer(bytecode);
     std::string text;
-    // A, A(1) folded, B stored, C
+    // The codes are A, folded A(1), B with a stored parameter, C.
     const std::vector<Code> codes(bytecode.template_codes);
     REQUIRE(codes.size() == 4);
     const std::vector<float> parameters{2.0F, 4.0F};

@@ -1,4 +1,5 @@
-// Light skeletons: joints and keys. tests/export holds the meshes that they pose against the frames.
+// Light skeletons: joints and keys. tests/export compares the meshes that they pose with the
+// frames.
 #include "runtime/export/impl/bones.h"
 #include "tests/runtime/plants.h"
 
@@ -12,7 +13,7 @@ using namespace lsys::test;
 
 namespace {
 
-/// A clip of a bending line: each segment turns as much against the one before it.
+/// A clip of a bending line: each segment turns by the same angle relative to the one before it.
 PlantAnimation bending(const Skeleton& plant, float angle) {
     PlantAnimation clip;
     clip.frame_count = 5;
@@ -51,7 +52,7 @@ TEST_CASE("a plant that stands still has one joint without keys") {
 
 TEST_CASE("keys that follow from others are left out") {
     const Skeleton plant = line(1);
-    PlantAnimation clip = bending(plant, 0.4F); // turns evenly
+    PlantAnimation clip = bending(plant, 0.4F); // turns at a constant rate
     const Bones bones = make_bones(plant, clip, 4);
     REQUIRE(bones.joints.size() == 2);
     CHECK(bones.joints[1].keys == std::vector<std::uint32_t>{0, 4});

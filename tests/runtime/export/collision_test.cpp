@@ -49,7 +49,7 @@ ExportInfo info_with(CollisionKind kind, CollisionNames names) {
     return info;
 }
 
-/// A pole of ten segments with a bough halfway up.
+/// A pole of ten segments with a branch halfway up.
 Skeleton pole() {
     test::Plant plant;
     std::uint32_t last = kNoSegment;
@@ -81,8 +81,8 @@ TEST_CASE("a straight pole with a bough is two capsules") {
         CHECK(is_closed(shape));
         CHECK(volume_of(shape) > 0.0);
     }
-    // The poles are farthest apart, and the greatest distance from their line is the radius: so
-    // importers find the capsule.
+    // Importers recognise a capsule if its poles are the two vertices farthest apart and the
+    // greatest distance from the line between them is the radius.
     const auto& vertices = shapes[0].vertices;
     float longest = 0.0F;
     float widest = 0.0F;
@@ -95,7 +95,7 @@ TEST_CASE("a straight pole with a bough is two capsules") {
     CHECK(glm::length(vertices.front() - vertices.back()) == longest);
     CHECK(longest == Approx(10.0));
     CHECK(widest == Approx(0.5));
-    // A prism of eight sides between two domes.
+    // The shape is a prism of eight sides between two domes.
     CHECK(volume_of(shapes[0]) > 0.85 * std::numbers::pi * 0.25 * 9.333);
     CHECK(volume_of(shapes[0]) < std::numbers::pi * 0.25 * 9.334);
 }
@@ -109,7 +109,7 @@ TEST_CASE("hulls hold the joints of their segments") {
     CHECK(shapes[0].name == "oak_00-convcolonly");
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         CHECK(is_closed(shapes[i]));
-        CHECK(shapes[i].triangles.size() <= 255); // PhysX takes no more
+        CHECK(shapes[i].triangles.size() <= 255); // limit of PhysX
         const Segment& first = plant.segments[pieces[i].segments.front()];
         const glm::dvec3 middle(first.base + 0.5F * first.length * heading(first.frame));
         for (const auto& [a, b, c] : shapes[i].triangles) {

@@ -23,7 +23,7 @@ double volume_of(const ConvexHull& hull) {
     return volume / 6.0;
 }
 
-/// Closed, turned outwards, one piece, each vertex in use.
+/// Checks that the hull is closed, faces outwards, is one piece and uses each vertex.
 void check_closed(const ConvexHull& hull) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const auto& triangle : hull.triangles) {

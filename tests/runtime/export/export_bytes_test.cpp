@@ -1,4 +1,4 @@
-// Files of tiny meshes, byte by byte.
+// Files of tiny meshes, compared byte by byte.
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 
@@ -94,7 +94,7 @@ TEST_CASE("an OBJ has the leaves from behind too if asked for") {
 }
 
 TEST_CASE("files have +Z up if asked for") {
-    Mesh mesh = test::triangle_mesh(); // (0, 0, 0), (2, 0, 0), (0, 0.5, 0), seen from +Z
+    Mesh mesh = test::triangle_mesh(); // (0, 0, 0), (2, 0, 0), (0, 0.5, 0), faces +Z
     mesh.positions[1].z = 3.0F;
     ExportInfo with = info();
     with.up = UpAxis::Z;
@@ -143,7 +143,7 @@ TEST_CASE("an MTL gives materials of one name different ones") {
 }
 
 TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
-    Mesh mesh = test::plant_mesh(); // bark, and leaves that are cut out
+    Mesh mesh = test::plant_mesh(); // bark, and leaves with an alpha mask
     ExportInfo with = info();
     with.picture_prefix = "p q";
     const auto names = [&](ExportFormat format) {
@@ -182,7 +182,8 @@ TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
     CHECK(text.find("inputs:normal.connect = </Plant/Materials/bark/Relief.outputs:rgb>") !=
           std::string::npos);
 
-    // Without a place for them, or without the wish, there are none.
+    // Without a file prefix, without ExportInfo::textures or without texture coordinates, there are
+    // no pictures.
     for (int without = 0; without < 3; ++without) {
         with.picture_prefix = without == 0 ? "" : "p";
         with.textures = without != 1;
@@ -229,7 +230,8 @@ TEST_CASE("a PLY of a triangle") {
     CHECK(read<float>(bytes, third + 4) == 0.5F);
     CHECK(read<float>(bytes, third + 20) == 1.0F);
     CHECK(read<float>(bytes, third + 28) == 0.75F);
-    // Red of the palette is 0.604 linear: 1.055 * 0.604^(1 / 2.4) - 0.055 is 0.8001.
+    // Red of the palette is 0.604 linear, which is sRGB 1.055 * 0.604^(1 / 2.4) - 0.055 = 0.8001,
+    // or 204.
     CHECK(read<std::uint8_t>(bytes, third + 32) == 204);
     const std::size_t face = header.size() + 3 * 35;
     CHECK(bytes[face] == 3);

@@ -105,7 +105,7 @@ TEST_CASE("a drawing without extent has a view box") {
 
 TEST_CASE("objects are drawn as the outlines of their parts") {
     Skeleton skeleton;
-    // 2 m in diameter, around (10, 1).
+    // A sphere 2 m in diameter, drawn around (10, 1).
     skeleton.objects = {
         {.kind = TurtleOperation::Sphere, .position = {10.0F, 0.0F, 3.0F}, .size = 2.0F}};
     std::string text = drawn(skeleton);
@@ -135,7 +135,7 @@ TEST_CASE("objects of mesh files are drawn if their meshes are known") {
 }
 
 TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
-    // A white square of 8 texels in 16, with a red hole of 2.
+    // A white square of 8 by 8 texels in 16 by 16, with a red hole of 2 by 2.
     auto picture = std::make_shared<Texture>();
     picture->width = 16;
     picture->height = 16;
@@ -166,7 +166,7 @@ TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
         CHECK(std::max(std::abs(point.x - 0.5F), std::abs(point.y - 0.5F)) ==
               Approx(0.25F).margin(0.04));
     }
-    // What lies beyond the box does not count.
+    // The part outside of the given box is cut off.
     CHECK(area(opacity_outline(*picture, glm::vec2(0.0F), glm::vec2(1.0F, 0.375F)).at(0)) ==
           Approx(0.5F * 0.125F).margin(0.02));
 
@@ -184,16 +184,17 @@ TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
     CHECK(occurrences(text, "<path fill=\"#ffffff\" fill-rule=\"evenodd\" d=\"M") == 1);
     CHECK(occurrences(text, "z") >= 2);
     CHECK(occurrences(text, "<polygon") == 0);
-    // The square is 1 m wide, from 0.5 m to 1.5 m up; the drawing begins where the card hangs.
+    // The square is 1 m wide, at a height of 0.5 m to 1.5 m; the drawing includes the base of the
+    // card.
     CHECK(text.find("viewBox=\"-0.53 -1.53 1.06 1.56\"") != std::string::npos);
 
-    // Bent: drawn whole, in the mean colour.
+    // A bent card is drawn whole, in the mean colour.
     meshes[0].positions[2].z = 1.0F;
     meshes[0].texture_coordinates[2] = {0.25F, 0.5F};
     text = drawn(skeleton, &meshes);
     CHECK(occurrences(text, "<path") == 0);
     CHECK(occurrences(text, "<polygon fill=\"#ffffff\"") == 1);
-    // Without holes: drawn whole.
+    // A card without holes is drawn whole.
     auto whole = std::make_shared<Texture>(*picture);
     whole->texels.assign(whole->texels.size(), 255);
     meshes[0].picture = whole;

@@ -1,4 +1,4 @@
-// What holds for exports of any format: pieces, sinks that stop, what is too large or nothing.
+// Exports of any format: output in pieces, sinks that stop, meshes that are too large or empty.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/text.h"
 #include "tests/support/meshes.h"
@@ -172,7 +172,7 @@ TEST_CASE("where nothing is drawn nothing is written") {
 }
 
 TEST_CASE("what a format cannot count is refused at once") {
-    // None of the memory is touched.
+    // The large arrays are never touched, so they take no memory.
     Mesh mesh = test::triangle_mesh();
     mesh.positions.resize(std::uint64_t{180} << 20);
     CHECK(refusal(mesh, ExportFormat::Glb) == kTooLarge);
@@ -226,7 +226,7 @@ TEST_CASE("glTF gets directions of unit length") {
     const std::string right = exported(mesh, ExportFormat::Glb);
     const std::string mended = exported(wrong, ExportFormat::Glb);
     REQUIRE(right.size() == mended.size());
-    // The same numbers again, up to rounding in the last places.
+    // The directions are normalised: the files are equal up to rounding.
     std::size_t different = 0;
     for (std::size_t i = 0; i < right.size(); ++i) {
         different += right[i] != mended[i] ? 1U : 0U;

@@ -1,4 +1,4 @@
-// Films of growth in GLB: what a reader sees at the time of each frame is the mesh of that frame.
+// Films of growth in GLB: at the time of each frame, a reader shows the mesh of that frame.
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh_film.h"
 #include "tests/support/meshes.h"
@@ -67,8 +67,7 @@ File written(const MeshFilm& film) {
     return {json::parse(bytes.substr(20, json_bytes)), bytes.substr(28 + json_bytes)};
 }
 
-/// Values of the animation of a node at a time, as glTF 2.0 says (appendix C); empty without a
-/// channel.
+/// Values of the animation of a node at a time, by glTF 2.0, appendix C; empty without a channel.
 std::vector<float> animated(const File& file, std::size_t node, const char* path, float time) {
     if (!file.document.contains("animations")) {
         return {};
@@ -100,7 +99,7 @@ std::vector<float> animated(const File& file, std::size_t node, const char* path
     return {};
 }
 
-/// Positions, or normals, of the vertices that are seen at a time.
+/// Positions or normals of the vertices that are shown at a time, s.
 std::vector<float> seen(const File& file, float time, const char* attribute) {
     std::vector<float> all;
     for (const json& child : file.document["nodes"][0]["children"]) {

@@ -43,7 +43,7 @@ File exported(const Mesh& mesh, ExportCompression compression) {
     return exported(mesh, info);
 }
 
-/// Items of an accessor in their bytes, decoded where the view is compressed.
+/// Bytes of the items of an accessor, decoded if the view is compressed.
 std::string items(const File& file, std::size_t accessor) {
     const json& entry = file.document["accessors"][accessor];
     const json& view = file.document["bufferViews"][entry["bufferView"].get<std::size_t>()];
@@ -94,7 +94,7 @@ Mesh triangles(std::uint32_t count) {
     return mesh;
 }
 
-/// A triangle of each colour, with materials that differ in name and colour.
+/// A triangle per colour, with materials that differ in name and colour.
 Mesh coloured_triangles(const std::vector<glm::vec3>& colours) {
     Mesh mesh = triangles(static_cast<std::uint32_t>(colours.size()));
     mesh.parts.clear();
@@ -109,7 +109,7 @@ Mesh coloured_triangles(const std::vector<glm::vec3>& colours) {
 
 using Place = std::array<std::uint16_t, 3>;
 
-/// Triangles as the places of their corners, the least first, sorted. Indices have 16 bits.
+/// Triangles as places of their corners, smallest corner first, sorted. `indices`: 16 bits each.
 std::vector<std::array<Place, 3>> triangles_of(const std::string& indices,
                                                const std::vector<Place>& places) {
     std::vector<std::array<Place, 3>> list;
@@ -193,7 +193,7 @@ TEST_CASE("four materials that differ in colour become one with colours of verti
     CHECK(file.document["materials"][0]["name"] == "colour 0, 4 colours");
     const json& factor = file.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
     CHECK(factor[0].get<float>() == 0.5F);
-    CHECK(factor[1].get<float>() == 1.0F); // no part has green
+    CHECK(factor[1].get<float>() == 1.0F); // all parts have green 0, which a factor of 1 keeps
     const std::string bytes = items(file, accessor_of(file, 0, "COLOR_0"));
     for (std::size_t vertex = 0; vertex < 12; ++vertex) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -245,7 +245,7 @@ TEST_CASE("compressed positions decode within half a step, and normals and indic
         const auto step = node["scale"][0].get<float>();
         CHECK(node["scale"][1] == node["scale"][0]);
         CHECK(node["scale"][2] == node["scale"][0]);
-        // Vertices of the plain file by the item of their place: the order may be another.
+        // Vertices of the plain file by quantised position, because the order may differ.
         std::map<Place, std::vector<std::size_t>> places;
         std::vector<Place> place_of(wanted.size() / 12);
         for (std::size_t i = 0; i < place_of.size(); ++i) {
@@ -317,9 +317,9 @@ TEST_CASE("triangles of a tube follow one another over edges, and equal vertices
         }
         return count;
     };
-    CHECK(breaks(ordered) <= 60); // once for each ring at most
+    CHECK(breaks(ordered) <= 60); // at most one break per ring
     CHECK(breaks(ordered) < breaks(before) / 2);
-    // A vertex that is there twice is written once, and the triangles stay.
+    // Equal vertices are written once; the triangles stay the same.
     mesh = triangles(100);
     for (std::uint32_t i = 1; i < 100; ++i) {
         mesh.positions[3 * i] = mesh.positions[0];
@@ -360,7 +360,7 @@ TEST_CASE("a long stem gets finer texture coordinates, and floats where 16 bits 
         INFO(tiles);
         Mesh mesh = test::tube_mesh(50, 8);
         for (glm::vec2& coordinates : mesh.texture_coordinates) {
-            coordinates.y *= 0.5F * tiles; // from 0 to 2
+            coordinates.y *= 0.5F * tiles; // texture coordinates from 0 to `tiles`
         }
         const File file = exported(mesh, ExportCompression::Quantize);
         const std::size_t accessor = accessor_of(file, 0, "TEXCOORD_0");
@@ -407,7 +407,7 @@ TEST_CASE("a glTF refers to its buffer and pictures by escaped names") {
     REQUIRE(pictures.ok());
     REQUIRE(pictures.value().size() == document["images"].size());
     CHECK(pictures.value()[1].name == "a b.bark_normals.png");
-    // A file that holds all has the same arrays and pictures.
+    // A GLB, which contains everything, has the same arrays and pictures.
     const File whole = exported(mesh, ExportCompression::None);
     CHECK(whole.data.substr(0, text.size()) == text);
     CHECK(whole.data.find(pictures.value()[1].bytes) != std::string::npos);

@@ -1,4 +1,4 @@
-// JSON as it is written: brackets, commas, numbers, strings.
+// The JSON writer: brackets, commas, numbers, strings.
 #include "runtime/export/impl/json_writer.h"
 
 #include <catch2/catch.hpp>
@@ -57,7 +57,7 @@ TEST_CASE("numbers of JSON are the shortest that read back") {
     CHECK(number(3.0) == "3");
     CHECK(number(std::numeric_limits<double>::lowest()) == "-1.7976931348623157e+308");
     CHECK(number(std::numeric_limits<float>::denorm_min()) == "1e-45");
-    // Many readers have doubles only.
+    // Many readers store numbers as doubles, so larger ones are written as strings.
     CHECK(number((std::uint64_t{1} << 53U) - 1) == "9007199254740991");
     CHECK(number(std::uint64_t{1} << 53U) == R"("9007199254740992")");
     CHECK(number(~std::uint64_t{0}) == R"("18446744073709551615")");

@@ -1,4 +1,4 @@
-// What a mesh hangs on: the segments of its vertices, and the joints that segments share.
+// Skins: the segments that move each vertex, and the joints that segments share.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/skin.h"
 #include "tests/runtime/plants.h"
@@ -29,7 +29,7 @@ Mesh mesh_of(const Skeleton& plant, MeshOptions options) {
     return mesh;
 }
 
-/// From `point` to the axis of a segment, and where along it, 0 to 1.
+/// The nearest point of a segment's axis: its distance, and its place along the segment, 0 to 1.
 struct Foot {
     float distance = 0.0F;
     float along = 0.0F;
@@ -41,7 +41,7 @@ Foot foot(const Segment& segment, const glm::vec3& point) {
     return {glm::length(point - segment.base - along * way), along};
 }
 
-/// A crooked line of `count` segments, none at the place of another.
+/// A crooked line of `count` segments that do not overlap.
 Skeleton crooked(std::uint32_t count) {
     Skeleton plant;
     std::uint32_t last = kNoSegment;
@@ -52,7 +52,7 @@ Skeleton crooked(std::uint32_t count) {
     return plant;
 }
 
-/// Poses of a skeleton that stands still.
+/// Poses of a skeleton at rest.
 PlantAnimation still(const Skeleton& plant, std::uint32_t frames) {
     PlantAnimation poses;
     poses.frame_count = frames;
@@ -89,7 +89,7 @@ TEST_CASE("a ring hangs on the segments of its joint, half each") {
             }
         }
         CHECK(halved);
-        // The cap at the end is the last segment's, the one at the start the first one's.
+        // The cap at the end belongs to the last segment, the cap at the start to the first.
         CHECK(mesh.segments[0] == VertexSegments{0, 0});
         const auto highest =
             std::max_element(mesh.positions.begin(), mesh.positions.end(),
@@ -120,14 +120,15 @@ TEST_CASE("vertices of any tree hang on segments that they are at, by every meth
               MeshOptions{.method = MeshMethod::Boxes},
               MeshOptions{.method = MeshMethod::Boxes, .subdivisions = 0}}) {
             const Mesh mesh = mesh_of(plant, options);
-            // Smoothed boxes cut the corners of their axes.
+            // Smoothed boxes cut corners of the axis.
             const bool smooth = options.method == MeshMethod::Boxes && options.subdivisions != 0U;
             const float cut = smooth ? 0.2F : 0.0F;
             std::size_t far = 0;
             std::size_t halved = 0;
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 halved += mesh.segments[i][0] != mesh.segments[i][1] ? 1U : 0U;
-                float thick = 0.0F; // a box begins at the corner of a thicker one
+                // The larger radius, because a box may begin at the corner of a thicker one.
+                float thick = 0.0F;
                 for (const std::uint32_t number : mesh.segments[i]) {
                     REQUIRE(number < plant.segments.size());
                     thick = std::max(thick, plant.segments[number].base_radius);
@@ -176,7 +177,7 @@ TEST_CASE("objects and polygons hang on their parents, or on nothing") {
 }
 
 TEST_CASE("segments that go together share a joint") {
-    // 0 stands still, 1 turns, 2 goes with it, 3 turns more.
+    // Segment 0 is at rest, 1 turns, 2 moves with 1, 3 turns further.
     const Skeleton plant = crooked(4);
     Mesh mesh = mesh_of(plant, {});
     PlantAnimation poses = still(plant, 3);
@@ -198,7 +199,7 @@ TEST_CASE("segments that go together share a joint") {
     CHECK(skin->joint_of(3) == 2);
     CHECK(skin->joint_of(kNoSegment) == 0);
 
-    // A joint that no vertex hangs on is none.
+    // A joint without vertices is left out.
     for (VertexSegments& segments : mesh.segments) {
         segments = {std::min(segments[0], 2U), std::min(segments[1], 2U)};
     }
@@ -251,7 +252,7 @@ TEST_CASE("a USDA has the skin as a skeleton with a sample for each frame") {
     CHECK(has("def SkelRoot \"Plant\" ("));
     CHECK(
         has("    def Mesh \"Mesh\" (\n        prepend apiSchemas = [\"SkelBindingAPI\"]\n    )\n"));
-    // Segment 0 stands still; the first ring hangs on it alone, the second on both.
+    // Segment 0 is at rest; the first ring belongs to it alone, the second to both segments.
     CHECK(has("        int[] primvars:skel:jointIndices = [0, 0, "));
     CHECK(has("        float[] primvars:skel:jointWeights = [1, 0, "));
     CHECK(has("0, 1, 0, 1"));
@@ -266,7 +267,8 @@ TEST_CASE("a USDA has the skin as a skeleton with a sample for each frame") {
                           "            }}\n",
                           rest.x, rest.y, rest.z, moved.x, moved.y, moved.z)));
     CHECK(has("                1: [(1, 0, 0, 0), (0.5, 0.5, -0.5, 0.5)],\n"));
-    CHECK(has(fmt::format("({}, {}, {}, 1))]\n", rest.x, rest.y, rest.z))); // of restTransforms
+    // Last row of restTransforms.
+    CHECK(has(fmt::format("({}, {}, {}, 1))]\n", rest.x, rest.y, rest.z)));
 }
 
 TEST_CASE("a skin has 65,535 joints that move, and no more") {

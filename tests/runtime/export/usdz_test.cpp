@@ -1,4 +1,4 @@
-// Archives of USDZ: stored entries at multiples of 64 bytes, and what they hold.
+// USDZ archives: stored entries at multiples of 64 bytes, and their contents.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/stored_zip.h"
 #include "tests/support/meshes.h"
@@ -26,10 +26,10 @@ std::uint64_t field(const std::string& bytes, std::size_t at, std::size_t size) 
 struct ZipEntry {
     std::string name;
     std::string bytes;
-    std::size_t place = 0; // of its bytes
+    std::size_t place = 0; // offset of its bytes
 };
 
-/// By the list at the end; checks headers against the list.
+/// Entries by the central directory; checks that the local headers agree with it.
 std::vector<ZipEntry> entries_of(const std::string& archive) {
     std::vector<ZipEntry> entries;
     REQUIRE(archive.size() >= 22);
@@ -78,7 +78,8 @@ TEST_CASE("the checksum of an entry is CRC-32, however it comes in pieces") {
 }
 
 TEST_CASE("entries of an archive begin at multiples of 64 bytes, whatever their names and sizes") {
-    // A header without padding ends at 30 and the length of the name: all remainders by 64.
+    // A header without padding has 30 bytes and the name, so these lengths give all remainders
+    // modulo 64.
     for (std::size_t name_bytes = 1; name_bytes <= 65; ++name_bytes) {
         std::string archive;
         const ByteSink append = [&archive](std::string_view piece) {

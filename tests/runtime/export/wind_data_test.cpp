@@ -1,4 +1,4 @@
-// Wind data of vertices, held against sums over the way from the pivot.
+// Compares wind data of vertices with sums over the segments from the pivot.
 #include "runtime/export/impl/wind_data.h"
 #include "tests/runtime/plants.h"
 
@@ -15,7 +15,7 @@ using namespace lsys::test;
 
 namespace {
 
-/// A trunk of three segments; a thin bough of two leaves the first one.
+/// A trunk of three segments; a thin branch of two segments begins at the first.
 Skeleton forked() {
     Skeleton plant;
     const std::uint32_t base = add_segment(plant, kNoSegment, leaning(0), rod(2, 0.2F, 1, 1));
@@ -26,9 +26,9 @@ Skeleton forked() {
     return plant;
 }
 
-/// Bending of a branch of even stress at a distance from its pivot, by its definition: each segment
-/// turns by length / radius, and moves the place by that angle times the way to it. The turn is
-/// spread over the segments in the limit of the mesh: it acts from the segment's base.
+/// Displacement of the end of `way` for a branch of even stress, by definition: each segment turns
+/// by length / radius about its base and displaces the end by that angle times the length from
+/// there to the end.
 double bending(const Skeleton& plant, const std::vector<std::uint32_t>& way) {
     double sum = 0.0;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("wind data hold pivot, distance, phase and stiffness") {
     const WindVertex start = wind.at({1, 1}, plant.segments[1].base);
     CHECK(start.pivot.y == 0.0F);
     CHECK(start.motion.y == 1.0F);
-    // The foot of a vertex beside a branch counts.
+    // For a vertex beside a branch, the nearest point of the axis counts.
     const Segment& last = plant.segments[2];
     const glm::vec3 side = last.frame * glm::vec3(0.3F, 1.5F, 0.0F);
     CHECK(wind.at({2, 2}, last.base + side).pivot.y == Approx(2.5F));

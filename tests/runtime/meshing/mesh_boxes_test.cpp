@@ -1,4 +1,5 @@
-// Catmull-Clark subdivision by its closed forms, and plants of joined boxes as closed surfaces.
+// Catmull-Clark subdivision compared with closed forms, and plants of joined boxes as closed
+// surfaces.
 #include "runtime/meshing/impl/box_joints.h"
 #include "runtime/meshing/impl/boxes.h"
 #include "runtime/meshing/impl/catmull_clark.h"
@@ -23,7 +24,7 @@ void add_face(PolygonMesh& mesh, const std::vector<std::uint32_t>& corners) {
     mesh.colours.push_back(static_cast<std::uint16_t>(mesh.colours.size()));
 }
 
-/// From -1 to 1; texture coordinates are x and y.
+/// A cube from -1 to 1; texture coordinates are x and y.
 PolygonMesh cube() {
     PolygonMesh mesh;
     for (int i = 0; i < 8; ++i) {
@@ -57,7 +58,7 @@ glm::quat turned(float degrees, const glm::vec3& axis) {
     return glm::angleAxis(degrees * std::numbers::pi_v<float> / 180.0F, axis);
 }
 
-/// Draws like a turtle, with all the facts of a segment.
+/// Adds segments as the turtle does, with all their fields.
 struct Plant {
     Skeleton skeleton;
 
@@ -116,7 +117,7 @@ MeshOptions boxes(std::uint32_t subdivisions) {
     return options;
 }
 
-/// The mesh with equal positions as one vertex: faces of unsmoothed boxes have their own.
+/// The mesh with one vertex per position: faces of unsmoothed boxes have separate vertices.
 Mesh welded(const Mesh& mesh) {
     Mesh one;
     std::map<std::array<float, 3>, std::uint32_t> places;
@@ -175,11 +176,12 @@ TEST_CASE("a subdivided cube has the known counts and limits") {
         const test::Topology topology = test::topology_by_index(triangles_of(surface.mesh()));
         CHECK(topology.open_edges == 0);
         CHECK(topology.euler() == 2);
-        // (n^2 p + 4 edge + faces) / n (n + 5) for the corner of valence 3: half of it.
+        // The limit position (n^2 p + 4 edges + faces) / n (n + 5) of the corner, with valence n =
+        // 3, is half of the corner.
         const float now = glm::distance(surface.mesh().positions[7], glm::vec3(0.5F));
         CHECK(now < step);
         step = now * 0.5F;
-        // What is symmetric stays so; texture coordinates move with positions.
+        // Symmetry is kept; texture coordinates move with positions.
         for (std::size_t j = 0; j < surface.mesh().positions.size(); ++j) {
             const glm::vec3& at = surface.mesh().positions[j];
             CHECK(glm::distance(glm::vec2(at), surface.mesh().texture_coordinates[j]) < 1e-6F);
@@ -197,7 +199,8 @@ TEST_CASE("the first step of Catmull-Clark by hand") {
     CatmullClark surface(cube(), workers);
     surface.refine();
     const PolygonMesh& mesh = surface.mesh();
-    // The corner: (F + 2R + 0 P) / 3 with F = (1/3, 1/3, 1/3), R = (2/3, 2/3, 2/3).
+    // The corner moves to (F + 2 R + 0 P) / 3, with F = (1/3, 1/3, 1/3) the mean of the face points
+    // and R = (2/3, 2/3, 2/3) that of the edge midpoints.
     CHECK(glm::distance(mesh.positions[7], glm::vec3(5.0F / 9.0F)) < 1e-6F);
     std::size_t faces = 0;
     std::size_t edges = 0;
@@ -233,7 +236,7 @@ TEST_CASE("faces of any number of corners become quads") {
     const Mesh triangles = triangles_of(surface.mesh());
     CHECK(test::topology_by_index(triangles).open_edges == 0);
     CHECK(test::volume_of(triangles) > 1.0);
-    // Faces around a vertex, each once: 5 around the middle of a pentagon.
+    // Each face around a vertex counts once: the middle of a pentagon has 5.
     for (std::uint32_t vertex = 0; vertex < surface.mesh().positions.size(); ++vertex) {
         std::size_t count = 0;
         surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
@@ -285,7 +288,7 @@ TEST_CASE("a tree whose branches fit is one surface") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.08F);
     const std::uint32_t top = plant.grow(trunk, turned(20, {0, 0, 1}), 1.0F, 0.08F, 0.06F);
-    for (int i = 0; i < 3; ++i) { // all of them nearest to the top
+    for (int i = 0; i < 3; ++i) { // all three begin nearest to the top of the box
         const std::uint32_t branch = plant.grow(
             top, turned(120.0F * static_cast<float>(i), {0, 1, 0}) * turned(25, {1, 0, 0}), 0.8F,
             0.05F, 0.03F);
@@ -296,7 +299,8 @@ TEST_CASE("a tree whose branches fit is one surface") {
     for (std::uint32_t subdivisions = 0; subdivisions < 4; ++subdivisions) {
         const Mesh mesh = meshed(plant.skeleton, boxes(subdivisions));
         const Mesh joined = subdivisions == 0 ? welded(mesh) : mesh;
-        // Without smoothing, branches that would narrow in their openings are closed boxes.
+        // Without smoothing, branches that would get narrower in their openings are separate closed
+        // boxes.
         const std::size_t plants = plants_in(joined);
         CHECK((plants == 1) == (subdivisions > 0));
         CHECK(test::topology_by_index(joined).open_edges == 0);
@@ -328,7 +332,7 @@ TEST_CASE("a smoothed stem is round, of its radius and length") {
     CHECK(box.low.y == Approx(0.0F).margin(0.05));
     CHECK(box.high.y == Approx(5.0F).margin(0.05));
     CHECK(test::triangles_turned_over(mesh) == 0);
-    // u goes there and back, v up the stem.
+    // u goes from 0 to 1 and back around the stem; v rises along the stem.
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         CHECK(mesh.texture_coordinates[i].x >= 0.0F);
         CHECK(mesh.texture_coordinates[i].x <= 1.0F);
@@ -357,7 +361,7 @@ TEST_CASE("too many or too short children are closed boxes of their own") {
     short_one.grow(base, turned(90, {1, 0, 0}), 0.05F, 0.02F, 0.02F);
     short_one.grow(base, turned(10, {1, 0, 0}), 1.0F, 0.02F, 0.02F);
     CHECK(plants_in(meshed(short_one.skeleton, boxes(1))) == 2);
-    // One that turns back into its parent.
+    // A branch that turns back into its parent.
     Plant back;
     back.grow(back.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F),
               turned(175, {1, 0, 0}), 1.0F, 0.05F, 0.05F);
@@ -368,7 +372,7 @@ TEST_CASE("segments that cannot be drawn are passed over") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     const std::uint32_t without = plant.grow(trunk, turned(5, {1, 0, 0}), 0.0F, 0.1F, 0.1F);
-    plant.grow(without, turned(5, {1, 0, 0}), 1.0F, 0.1F, 0.1F); // goes on from the trunk
+    plant.grow(without, turned(5, {1, 0, 0}), 1.0F, 0.1F, 0.1F); // is joined to the trunk
     CHECK(plants_in(meshed(plant.skeleton, boxes(1))) == 1);
     Plant thin;
     thin.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.0F, 0.0F);
@@ -397,7 +401,7 @@ TEST_CASE("boxes keep colours, levels take steps away, and threads do not show")
     options.level = 1;
     CHECK(meshed(plant.skeleton, options).positions == meshed(plant.skeleton, boxes(2)).positions);
     options.level = 9;
-    // The last one is not smoothed, but its edges are not sharp.
+    // The coarsest level is not subdivided, but its edges are shaded smoothly.
     CHECK(meshed(plant.skeleton, options).positions.size() ==
           welded(meshed(plant.skeleton, boxes(0))).positions.size());
 }
@@ -427,7 +431,7 @@ TEST_CASE("an unsmoothed box of a .sys plant is its segment: length, widths, fla
             CHECK(glm::dot(glm::normalize(area), normal) == Approx(1.0).epsilon(1e-5));
         }
     }
-    // One that follows begins with its own width, at a step.
+    // A following box begins with its own width, so there is a step.
     plant.grow(first, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
     const Mesh two = meshed(plant.skeleton, boxes(0));
     CHECK(test::volume_of(two) == Approx(4.0 / 3.0 * (0.16 + 0.04 + 0.08)).epsilon(1e-5));
@@ -489,7 +493,8 @@ TEST_CASE("smoothed ends are flat, with a rounded edge") {
     const Bounds box = test::bounds_of(mesh);
     CHECK(box.high.y == Approx(1.0F).margin(0.01));
     CHECK(box.low.y == Approx(0.0F).margin(0.01));
-    // A ball would be a radius lower at the distance of a radius, and 0.03 lower at 0.07.
+    // Below a half ball, the surface would be 0.03 lower than the end at a distance of 0.07 from
+    // the axis.
     float widest = 0.0F;
     for (const glm::vec3& at : mesh.positions) {
         widest = at.y > 0.985F ? std::max(widest, std::hypot(at.x, at.z)) : widest;
@@ -509,7 +514,7 @@ TEST_CASE("boxes that are cut at a joint overlap there") {
         const Mesh mesh = welded(made);
         CHECK(plants_in(mesh) == 2);
         CHECK(test::topology_by_index(mesh).open_edges == 0);
-        // The trunk ends behind the joint, within the branch; the branch begins within the trunk.
+        // The trunk ends after the joint, within the branch; the branch begins within the trunk.
         const Segment& own = plant.skeleton.segments[branch];
         float trunk_top = 0.0F;
         float nearest = 1.0F;
@@ -555,7 +560,7 @@ TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its r
     }
     CHECK(least < 0.01F);
     CHECK(most > 0.29F);
-    // A coarser level has no room for them, and is as thick on average.
+    // A coarser level has too few vertices for grooves, but the same mean thickness.
     options.level = 3;
     const Mesh coarse = meshed(plant.skeleton, options);
     const double coarse_part =

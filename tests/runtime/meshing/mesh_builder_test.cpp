@@ -71,7 +71,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
     fill(block, 2);
     REQUIRE(builder.reserve(builder.part({.kind = MaterialKind::Leaf}), 3, 3, block));
     fill(block, 3);
-    REQUIRE(builder.reserve(builder.part(wood_material(0)), 3, 3, block)); // more of the first
+    REQUIRE(builder.reserve(builder.part(wood_material(0)), 3, 3, block)); // adds to the first part
     fill(block, 4);
     REQUIRE(builder.finish() == std::nullopt);
 

@@ -1,4 +1,4 @@
-// One closed truncated cone for each segment.
+// MeshMethod::Cylinders: one closed truncated cone per segment.
 #include "runtime/meshing/impl/cylinders.h"
 #include "tests/support/mesh_checks.h"
 

@@ -1,4 +1,5 @@
-// Sides by radius: rings of tubes have as few as keep them near to their circles.
+// MeshOptions::deviation: rings of tubes have as few sides as keep them within the deviation from a
+// circle.
 #include "runtime/meshing/mesh.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/plants.h"
@@ -38,7 +39,7 @@ float radius_at(std::uint32_t joint) {
     return kThick * (1.0F - static_cast<float>(joint) / (kPieces + 1.0F));
 }
 
-/// A straight taper along +Y with a joint every 0.3.
+/// A straight taper along +Y with a joint every 0.3 m.
 Skeleton taper(std::uint8_t sides) {
     Plant plant;
     std::uint32_t last = kNoSegment;
@@ -50,13 +51,13 @@ Skeleton taper(std::uint8_t sides) {
     return plant.skeleton();
 }
 
-/// A ring of the taper: its first vertex, and its corners.
+/// A ring of vertices: the index of the first, and the number of sides.
 struct Ring {
     std::size_t first = 0;
     std::uint32_t sides = 0;
 };
 
-/// Of a mesh with texture coordinates, where each ring begins with u of 0 and ends with 1.
+/// The rings of a mesh with texture coordinates: each begins at u = 0 and ends at u = 1.
 std::vector<Ring> rings_of(const Mesh& mesh) {
     std::vector<Ring> rings;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -99,7 +100,7 @@ TEST_CASE("rings deviate by what is allowed, with the fewest odd sides", "[mesh]
         REQUIRE(sides <= before);
         before = sides;
         CHECK((sides == most || sides % 2 == 1));
-        if (sides > 3) { // with fewer it deviates too much
+        if (sides > 3) { // with fewer sides, the deviation would be too large
             CHECK(sagitta(radius, sides % 2 == 1 ? sides - 2 : sides - 1) >
                   0.99999 * static_cast<double>(deviation));
         }
@@ -132,7 +133,7 @@ TEST_CASE("transitions between numbers of sides are smooth and textured", "[mesh
             CHECK(mesh.texture_coordinates[first + k].x ==
                   Approx(static_cast<float>(k) / static_cast<float>(sides)));
             CHECK(mesh.texture_coordinates[first + k].y == mesh.texture_coordinates[first].y);
-            // Normals lean with the branch, not with what its polygons are widened by.
+            // Normals follow the taper of the branch, not the widening of the polygons.
             const glm::vec3& normal = mesh.normals[first + k];
             CHECK(normal.y == Approx(slope * part).epsilon(1e-3));
             const glm::vec3 up = mesh.tangents[first + k].w *
@@ -146,7 +147,7 @@ TEST_CASE("transitions between numbers of sides are smooth and textured", "[mesh
 
 TEST_CASE("a tube of different numbers of sides is closed", "[mesh][tubes]") {
     const float bend = GENERATE(0.0F, 0.3F, 0.9F, 1.4F, 3.0F);
-    const std::uint32_t ends = GENERATE(0U, 1U, 2U, 3U); // which of them are points
+    const std::uint32_t ends = GENERATE(0U, 1U, 2U, 3U); // bits: which ends are points
     const bool textured = GENERATE(false, true);
     const float noise = GENERATE(0.0F, 0.3F);
     const std::uint32_t level = GENERATE(0U, 1U);
@@ -227,7 +228,7 @@ TEST_CASE("what deviates by nothing is what it was", "[mesh][tubes]") {
     const Skeleton skeleton = test::random_tree(5, 2);
     MeshOptions options{.segments = true, .bark_noise = noise, .threads = 1};
     const Mesh whole = tubes(skeleton, options);
-    options.deviation = 1e-9F; // all the sides that there may be
+    options.deviation = 1e-9F; // so small that every ring has the maximum of sides
     CHECK(same(whole, tubes(skeleton, options)));
     options.deviation = 0.0F;
     CHECK(same(whole, tubes(skeleton, options)));
@@ -252,7 +253,7 @@ TEST_CASE("branches of few sides begin within parents of few sides", "[mesh][tub
     const std::vector<Ring> rings = rings_of(mesh);
     const std::size_t own = rings_of(alone).size();
     REQUIRE(rings.size() > own);
-    // From the axis of the trunk to the middle of its sides.
+    // Distance from the axis of the trunk to the middle of its sides.
     const Ring& outer = rings.front();
     const double inner = from_axis(mesh.positions[outer.first]) * std::cos(kPi / outer.sides);
     const Ring& base = rings[own];

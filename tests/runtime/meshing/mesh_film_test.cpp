@@ -6,7 +6,7 @@ using namespace lsys;
 
 namespace {
 
-/// Triangles one above the other, at `height` and above.
+/// Triangles above one another, from `height` on.
 Mesh triangles(std::uint32_t count, float height, const std::string& material) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < count; ++i) {

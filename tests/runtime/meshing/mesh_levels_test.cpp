@@ -21,7 +21,7 @@ Mesh at_level(const Skeleton& skeleton, std::uint32_t level, std::uint32_t sides
     return mesh;
 }
 
-constexpr int kViews = 8; // from all around
+constexpr int kViews = 8; // views around +Y
 
 double coverage_of(const Mesh& mesh, const Bounds& frame, int view) {
     return static_cast<double>(test::coverage(mesh, frame, 256, 0.39F * static_cast<float>(view)));
@@ -53,7 +53,8 @@ TEST_CASE("levels keep bounds and silhouette with fewer triangles", "[mesh][tube
         for (int view = 0; view < kViews; ++view) {
             const double before = coverage_of(finest, frame, view);
             const double after = coverage_of(mesh, frame, view);
-            CHECK(after == Approx(before).epsilon(0.08)); // a triangle from its narrow side
+            // A coarse ring may be a triangle, which is narrower from some sides.
+            CHECK(after == Approx(before).epsilon(0.08));
             fine += before;
             coarse += after;
         }

@@ -1,4 +1,4 @@
-// Objects where the turtle put them: places, turns, sizes, colours and drooping leaves.
+// Objects placed by the turtle: positions, rotations, sizes, colours and drooping leaves.
 #include "runtime/meshing/impl/objects.h"
 #include "runtime/meshing/shapes.h"
 #include "tests/support/mesh_checks.h"
@@ -108,7 +108,7 @@ TEST_CASE("objects have a part for each material and colour") {
     // Leaves of colour 0 and 1 are one part; the centre and the calyx of flowers keep their colour.
     CHECK(names == std::vector<std::string>{"leaf", "leaf 7", "flower 1", "flower 7", "flower 18",
                                             "flower 20", "flower 14"});
-    // Yellow in pink.
+    // The centre is yellow, the petals are pink.
     CHECK(palette_colour(18).g > palette_colour(20).g);
     CHECK(palette_colour(18).b < palette_colour(20).b);
     const std::size_t leaf = make_shape(TurtleOperation::Leaf, 0).parts[0].indices.size();
@@ -128,8 +128,10 @@ TEST_CASE("meshes of files are objects") {
     object.mesh_file = 1;
     object.size = 3.0F;
     Skeleton skeleton = one(object);
-    skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 9}); // not given
-    skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 0}); // empty
+    // There is no such mesh.
+    skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 9});
+    // The mesh is empty.
+    skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 0});
     const Mesh mesh = meshed(skeleton, {}, {UserMesh{}, triangle()});
     REQUIRE(mesh.indices.size() == 3);
     CHECK(mesh.positions[2] == glm::vec3(0, 6, 0));
@@ -171,7 +173,7 @@ TEST_CASE("leaves droop as the skeleton says, unless the options say otherwise")
     CHECK(meshed(skeleton, {.droop = 0.0F}).positions == straight.positions);
     CHECK(meshed(one({.kind = TurtleOperation::Leaf}), {.droop = 0.25F}).positions ==
           drooping.positions);
-    // A leaf that points straight up loses a quarter of its height, as that of the program L3D.
+    // A leaf that points straight up loses a quarter of its height, as in the program L3D.
     CHECK(test::bounds_of(straight).high.y == 1.0F);
     CHECK(test::bounds_of(drooping).high.y == Approx(0.75F).margin(0.015));
     skeleton.l3d_compatible_surface = true;
@@ -211,8 +213,8 @@ TEST_CASE("leaves droop to the ground, whatever their frame, and are not stretch
         for (std::size_t i = 1; i < tips.size(); ++i) {
             CHECK(tips[i] <= tips[i - 1] + 0.06F);
         }
-        CHECK(tips[5] == tips[4]); // 1 is all there is
-        // All but leaves that stand nearly upright end below their base.
+        CHECK(tips[5] == tips[4]); // larger droops count as 1
+        // All leaves end below their base, except those that stand nearly upright.
         if (heading(frame).y < 0.0F) {
             CHECK(tips[4] < -0.7F);
         }
@@ -225,7 +227,7 @@ TEST_CASE("a leaf that points straight up falls over its lower side") {
     const Mesh mesh = meshed(one({.kind = TurtleOperation::Leaf}), options);
     CHECK(test::bounds_of(mesh).low.z < -0.2F);
     CHECK(test::bounds_of(mesh).high.x <= 0.2501F);
-    // One that points straight down stays as it is.
+    // A leaf that points straight down does not change.
     const glm::quat down = glm::angleAxis(3.14159265F, glm::vec3(0, 0, 1));
     const Mesh hanging = meshed(one({.kind = TurtleOperation::Leaf, .frame = down}), options);
     CHECK(test::bounds_of(hanging).low.y == Approx(-1.0F));

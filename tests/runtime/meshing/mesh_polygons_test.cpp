@@ -1,4 +1,4 @@
-// Triangulation: areas of polygons of every shape, and what becomes of those that are none.
+// Triangulation: areas of polygons of every shape, and degenerate polygons.
 #include "runtime/meshing/impl/polygons.h"
 #include "runtime/meshing/impl/triangulate.h"
 #include "tests/support/mesh_checks.h"
@@ -33,7 +33,7 @@ struct Cut {
 
 Cut triangulated(const Corners& corners) {
     Triangulator triangulator;
-    std::vector<std::uint32_t> triangles{7, 7, 7}; // what is there stays
+    std::vector<std::uint32_t> triangles{7, 7, 7}; // append() keeps earlier triangles
     triangulator.append(corners, triangles);
     REQUIRE(triangles.size() % 3 == 0);
     Cut cut;
@@ -52,7 +52,7 @@ Cut triangulated(const Corners& corners) {
     return cut;
 }
 
-/// Rays from the middle at rising angles: simple, and mostly concave.
+/// Corners at random distances from the middle and ascending angles: simple, mostly concave.
 Corners random_star(std::mt19937& random, std::size_t count) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     Corners corners;
@@ -70,7 +70,8 @@ double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Random points joined in an order without crossings, found by turning crossings over.
+/// Random points in an order without crossings, found by reversing the part between two crossing
+/// edges.
 Corners random_knot(std::mt19937& random, std::size_t count) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     Corners corners;
@@ -151,7 +152,7 @@ TEST_CASE("corners on lines and on other corners leave the area as it is") {
     const Corners ring{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0},
                        {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
     CHECK(triangulated(ring).area == Approx(8.0));
-    // Each corner twice.
+    // Each corner occurs twice.
     const Corners twice{{0, 0}, {0, 0}, {2, 0}, {2, 0}, {1, 0.5}, {1, 0.5}, {0, 2}, {0, 2}};
     CHECK(triangulated(twice).area == Approx(1.5));
     // A spike without area.
@@ -184,7 +185,7 @@ TEST_CASE("polygons that cross themselves have valid triangles") {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     CHECK(triangulated({{0, 0}, {1, 1}, {1, 0}, {0, 1}}).triangles > 0);
-    Corners star; // a pentagram: all its corners are convex
+    Corners star; // a pentagram: though all its corners are convex, its edges cross
     for (int i = 0; i < 5; ++i) {
         const double angle = 4.0 * std::numbers::pi * i / 5.0;
         star.emplace_back(std::cos(angle), std::sin(angle));
@@ -228,11 +229,11 @@ TEST_CASE("polygons of ten thousand corners take no more than moments") {
     CHECK(triangulated(zigzag).area == Approx(std::abs(shoelace(zigzag))));
     CHECK(triangulated(noise).triangles > 0);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    CHECK(passed.count() < 20.0); // a second on a slow machine, more under sanitizers
+    CHECK(passed.count() < 20.0); // s; it takes 1 s on a slow machine, more with sanitizers
 }
 
 TEST_CASE("the polygon of a turtle lies in its plane and faces its up") {
-    // Concave, in the plane spanned by the turned axes.
+    // A concave polygon in a rotated plane.
     const Corners flat{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}};
     std::mt19937 random(4);
     std::normal_distribution<float> normal;
@@ -254,7 +255,8 @@ TEST_CASE("the polygon of a turtle lies in its plane and faces its up") {
         for (const glm::vec3& n : mesh.normals) {
             CHECK(glm::distance(n, frame * glm::vec3(0, 0, 1)) < 1e-4F);
         }
-        // u to the turtle's right, v against its heading, over the whole box.
+        // u increases to the turtle's right and v against its heading, from 0 to 1 over the
+        // bounding box.
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::dvec2 at = round % 2 == 1 ? flat[flat.size() - 1 - i] : flat[i];
             CHECK(glm::distance(mesh.texture_coordinates[i],
@@ -273,7 +275,7 @@ TEST_CASE("polygons that are not flat, or hardly polygons") {
     CHECK(meshed(skeleton_of({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}})).positions.empty());
     const float large = 1e38F;
     CHECK(meshed(skeleton_of({{-large, 0, 0}, {large, 0, 0}, {0, large, 0}})).indices.size() == 3);
-    // In the plane across the heading.
+    // A polygon in the plane perpendicular to the heading.
     CHECK(meshed(skeleton_of({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}})).indices.size() == 3);
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("the normals of a sphere are its radii and those of a cone stand on it
     const Mesh sphere = mesh_of(make_shape(TurtleOperation::Sphere, 0));
     for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
         const glm::vec3 radius = 2.0F * (sphere.positions[i] - glm::vec3(0, 0.5F, 0));
-        // A pole has a vertex for each side.
+        // The poles have a vertex per side, with the same normal.
         CHECK(glm::distance(radius, sphere.normals[i]) < 1e-5F);
     }
     for (const glm::vec3& normal : mesh_of(make_shape(TurtleOperation::Cone, 0)).normals) {
@@ -163,11 +163,11 @@ TEST_CASE("a leaf is a pointed blade with a stem, bent along its midrib") {
     CHECK(leaf.indices.size() / 3 <= 20);
     for (std::size_t i = 0; i < leaf.positions.size(); ++i) {
         const glm::vec3& at = leaf.positions[i];
-        // The outline is that of pictures, and texture coordinates go over the box of it.
+        // The outline is that of leaf pictures, and texture coordinates cover its bounding box.
         CHECK(std::abs(at.x) <= leaf_half_width(at.y) + 1e-6F);
         CHECK(leaf.texture_coordinates[i].x == Approx(at.x / 0.5F + 0.5F));
         CHECK(leaf.texture_coordinates[i].y == Approx(1.0F - at.y));
-        CHECK(leaf.normals[i].z > 0.0F); // up is the turtle's
+        CHECK(leaf.normals[i].z > 0.0F); // the front faces the turtle's up
         CHECK(leaf.tangents[i].x > 0.5F);
         CHECK(leaf.tangents[i].w == 1.0F);
     }
@@ -178,7 +178,7 @@ TEST_CASE("a leaf is a pointed blade with a stem, bent along its midrib") {
     CHECK(leaf_half_width(0.38F) == 0.25F);
     CHECK(leaf_half_width(-1.0F) == 0.0F);
     CHECK(leaf_half_width(2.0F) == 0.0F);
-    // A V: normals of the two halves lean to the middle.
+    // The leaf is folded to a V: normals of both halves lean to the middle.
     for (std::size_t i = 0; i < leaf.positions.size(); ++i) {
         if (leaf.positions[i].x > 0.1F) {
             CHECK(leaf.normals[i].x < -0.1F);
@@ -209,7 +209,8 @@ TEST_CASE("tangents follow u and tell mirrored texture coordinates") {
     user.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
     user.normals.assign(3, {0, 0, 1});
     user.indices = {0, 1, 2};
-    user.texture_coordinates = {{0, 1}, {1, 1}, {1, 0}}; // v downwards: not mirrored
+    // V points down, so the texture is not mirrored.
+    user.texture_coordinates = {{0, 1}, {1, 1}, {1, 0}};
     CHECK(make_shape(user).parts[0].tangents[0] == glm::vec4(1, 0, 0, 1));
     user.texture_coordinates = {{1, 1}, {0, 1}, {0, 0}};
     CHECK(make_shape(user).parts[0].tangents[0] == glm::vec4(-1, 0, 0, -1));

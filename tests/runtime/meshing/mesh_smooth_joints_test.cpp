@@ -30,8 +30,8 @@ Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
     return mesh;
 }
 
-/// Thin segments in a plane, each turned by `degrees` from the one before, in turn to both sides if
-/// `winds`.
+/// Thin segments in a plane, each turned by `degrees` from the one before; `winds`: alternately to
+/// both sides.
 Skeleton chain(int count, float degrees, bool winds, float radius) {
     Plant plant;
     std::uint32_t last = kNoSegment;
@@ -44,7 +44,7 @@ Skeleton chain(int count, float degrees, bool winds, float radius) {
     return plant.skeleton();
 }
 
-/// The joints of the run of the axis that begins with the segment.
+/// The joints of the tube along the axis that begins with segment `first`.
 std::vector<Joint>
 joints_of(const Skeleton& skeleton, const MeshOptions& options, std::uint32_t first) {
     Workers workers(1);
@@ -72,7 +72,7 @@ TEST_CASE("a smooth curve passes through the joints and turns by small steps", "
     CAPTURE(degrees, winds);
     const Skeleton skeleton = chain(7, degrees, winds, 0.002F);
     const std::vector<Joint> joints = joints_of(skeleton, kSmooth, 0);
-    // Each base is a joint, bit for bit, and so is the tip.
+    // The base of each segment and the tip are joints, bit for bit.
     std::size_t at = 0;
     for (const Segment& segment : skeleton.segments) {
         while (at < joints.size() && joints[at].centre != segment.base) {
@@ -96,14 +96,15 @@ TEST_CASE("a smooth curve passes through the joints and turns by small steps", "
 }
 
 TEST_CASE("rings of a smooth curve are no more than it bends", "[mesh][tubes]") {
-    // Seven segments with six bends of 24 degrees: the whole turn is 144, a ring at most 11.5.
+    // Seven segments with six bends of 24 degrees turn by 144 degrees in all; a ring turns by at
+    // most 11.5.
     const std::size_t rings = joints_of(chain(7, 24.0F, false, 0.002F), kSmooth, 0).size();
     CHECK(rings > 144 / 15);
     CHECK(rings < 8 + 2 * 144 / 11);
 }
 
 TEST_CASE("a bend of equal segments keeps its curve in their circle", "[mesh][tubes]") {
-    // Chords of a circle: a curve through their ends is near the circle.
+    // The segments are chords of a circle: the curve through their ends must be near the circle.
     Plant plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 8; ++i) {
@@ -115,7 +116,8 @@ TEST_CASE("a bend of equal segments keeps its curve in their circle", "[mesh][tu
     const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, 0);
     for (const Joint& joint : joints) {
         const glm::vec3 from_centre = joint.centre - glm::vec3(0.0F, radius, 0.0F);
-        // Chords lie 0.066 within the circle; the first and the last of them end straight.
+        // The middles of chords lie 0.066 m inside the circle. The curve has straight ends, so the
+        // first and last chord may be off as far.
         const float angle = std::atan2(joint.centre.x, radius - joint.centre.y) / kDegree;
         const float turned = angle < -1.0F ? angle + 360.0F : angle;
         const bool inner = turned > 29.0F && turned < 211.0F;
@@ -156,7 +158,7 @@ TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh
     const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, branch);
     CHECK(joints.front().centre == plant.skeleton().segments[branch].base);
     CHECK(joints.back().centre == tip(plant.skeleton().segments[branch]));
-    // The first chord turns from the trunk by about half of a part.
+    // The first piece of the curve turns from the trunk by only about half of a ring's turn.
     CHECK(glm::dot(joints.front().heading, glm::vec3(0, 1, 0)) > std::cos(10.0F * kDegree));
     CHECK(max_turn(joints) < 15.0F);
     for (std::size_t i = 1; i < joints.size(); ++i) {
@@ -207,7 +209,7 @@ TEST_CASE("smooth joints go with every option of tubes and any threads", "[mesh]
         CHECK(one.positions == three.positions);
         CHECK(one.indices == three.indices);
         CHECK(one.segments == three.segments);
-        // A vertex hangs on the segment that its curve replaces.
+        // A vertex belongs to the segment that its part of the curve replaces.
         std::size_t far = 0;
         for (std::size_t i = 0; i < one.positions.size(); ++i) {
             for (const std::uint32_t number : one.segments[i]) {

@@ -1,4 +1,4 @@
-// One closed surface around a whole plant.
+// Solids: one closed surface around a whole plant.
 #include "tests/support/mesh_checks.h"
 
 #include <glm/common.hpp>
@@ -39,7 +39,8 @@ segment_to(const glm::vec3& base, const glm::vec3& end, float base_radius, float
     return segment;
 }
 
-/// Whether the hull of two balls holds a point: some ball between them does.
+/// Whether the convex hull of the balls at the ends of a segment contains a point: some ball
+/// between them does.
 bool holds(const Segment& segment, double min_radius, const glm::dvec3& point) {
     const glm::dvec3 offset = glm::dvec3(segment.base) - point;
     const glm::dvec3 line = glm::dvec3(tip(segment)) - glm::dvec3(segment.base);
@@ -53,7 +54,7 @@ bool holds(const Segment& segment, double min_radius, const glm::dvec3& point) {
     return std::min({c, a * u * u + 2.0 * b * u + c, a + 2.0 * b + c}) <= 0.0;
 }
 
-/// The volume of the cubes of side `side` above `ground` whose middles some segment holds.
+/// Total volume of the grid cubes of side `side` above `ground` whose centres lie in some segment.
 double volume_by_cubes(const Skeleton& skeleton, double min_radius, double side, double ground) {
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high = -low;
@@ -81,7 +82,8 @@ double volume_by_cubes(const Skeleton& skeleton, double min_radius, double side,
     return static_cast<double>(cubes) * side * side * side;
 }
 
-/// The square of the distance of a point from a triangle: the least over a lattice of its points.
+/// The square of the distance of a point from a triangle: the minimum over a lattice of points of
+/// the triangle.
 double square_from(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
     constexpr int kSteps = 24;
     double least = std::numeric_limits<double>::max();
@@ -95,7 +97,7 @@ double square_from(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& p
     return least;
 }
 
-/// The number of edges that pass through the inside of a triangle without a common vertex.
+/// The number of edges that cross the inside of a triangle with which they share no vertex.
 std::size_t crossings(const Mesh& mesh) {
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
     std::map<std::array<int, 3>, std::vector<std::size_t>> cells;
@@ -163,11 +165,11 @@ void check_closed(const Mesh& mesh, std::uint64_t shells) {
     const test::Topology by_position = test::topology_of(mesh);
     CHECK(by_position.open_edges == 0);
     CHECK(by_position.vertices == mesh.positions.size());
-    // Narrow triangles in the crease between two branches stand across the normals there.
+    // Narrow triangles in the crease between two branches may face away from the normals there.
     CHECK(500 * test::turned_over(mesh) < by_position.triangles);
 }
 
-/// A stem with a fork, a bend that turns back, a thin twig, a part that is drawn twice.
+/// A stem with a fork, a bend that turns back, a thin twig, and a segment drawn twice.
 Skeleton branched() {
     Skeleton skeleton;
     const auto add = [&](const glm::vec3& from, const glm::vec3& to, float base, float end,
@@ -253,7 +255,7 @@ TEST_CASE("polygons and objects of a solid have a thickness and no hollow") {
     options.min_width = 0.2F;
     const Mesh plate = meshed(skeleton, options);
     check_closed(plate, 1);
-    // A plate, half a cylinder along each side, a ball for the corners.
+    // The volume is a plate, half a cylinder along each side, and in all one ball at the corners.
     const double r = 0.1;
     CHECK(test::volume_of(plate) ==
           Approx(0.4 + kPi * r * r * 3.0 + 4.0 / 3.0 * kPi * r * r * r).epsilon(0.02));
@@ -262,13 +264,14 @@ TEST_CASE("polygons and objects of a solid have a thickness and no hollow") {
     const Mesh round = meshed(ball, options);
     check_closed(round, 1);
     CHECK(test::topology_of(round).euler() == 2);
-    // The object has corners on a ball.
+    // The corners of the sphere's mesh lie on a ball, so the solid is smaller than a ball with the
+    // added thickness.
     CHECK(test::volume_of(round) < 4.0 / 3.0 * kPi * 1.1 * 1.1 * 1.1);
     CHECK(test::volume_of(round) > 4.0 / 3.0 * kPi);
 }
 
 TEST_CASE("triangles of any shape and size have the volume of their cubes") {
-    // Large and small ones, narrow ones, one without area, that share corners and cross.
+    // Large, small and narrow triangles and one without area; some share corners, some cross.
     Skeleton skeleton;
     const std::vector<std::array<glm::vec3, 3>> triangles{
         {{{0, 0, 0}, {1, 0.1F, 0}, {0.2F, 0.9F, 0.3F}}},
@@ -289,7 +292,8 @@ TEST_CASE("triangles of any shape and size have the volume of their cubes") {
     const Mesh mesh = meshed(skeleton, options);
     check_closed(mesh, 1);
     CHECK(crossings(mesh) == 0);
-    // The lattice is at most 0.03 from a point of a triangle, far from which it loses 0.005.
+    // square_from() uses lattice points at most 0.03 from any point of the triangle, which changes
+    // distances near 0.1 by at most 0.005.
     const double side = 0.025;
     std::uint64_t cubes = 0;
     for (double x = -0.2; x < 1.6; x += side) {

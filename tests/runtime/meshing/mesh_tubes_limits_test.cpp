@@ -1,4 +1,4 @@
-// Tubes of skeletons that are large, odd or hostile.
+// Tubes of skeletons that are large, unusual or invalid.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/mesh.h"
 #include "tests/support/mesh_checks.h"
@@ -27,7 +27,7 @@ Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
     return mesh;
 }
 
-/// Segments of any kind: zeros, giants, dwarfs, turns back, forks, jumps.
+/// Segments of any kind: zero, huge and tiny sizes, reversals, forks, jumps.
 Skeleton random_skeleton(std::uint32_t seed) {
     test::Numbers numbers(seed);
     Plant plant;
@@ -99,7 +99,7 @@ TEST_CASE("tubes are the same for any number of threads", "[mesh][tubes]") {
     for (std::size_t i = 0; i < skeleton.segments.size(); i += 50) {
         skeleton.segments[i].colour = static_cast<std::uint16_t>(i % 7);
     }
-    REQUIRE(skeleton.segments.size() > std::size_t{3} * 4096); // pieces of work
+    REQUIRE(skeleton.segments.size() > std::size_t{3} * 4096); // enough for several pieces of work
     MeshOptions options{.threads = 1};
     Mesh one;
     REQUIRE(make_mesh(skeleton, {}, options, one) == std::nullopt);
@@ -109,7 +109,7 @@ TEST_CASE("tubes are the same for any number of threads", "[mesh][tubes]") {
         REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
         CHECK(same_bytes(one, mesh));
     }
-    // And in memory that held another mesh.
+    // The result is the same in memory that held another mesh.
     Mesh used = tubes(test::random_tree(8, 1), kBare);
     REQUIRE(make_mesh(skeleton, {}, options, used) == std::nullopt);
     CHECK(same_bytes(one, used));
@@ -165,7 +165,7 @@ TEST_CASE("sizes beyond reason are drawn or left out", "[mesh][tubes]") {
         last =
             plant.add(last, {side, 1, 0.1F}, length, {.base_radius = radius, .tip_radius = radius});
     }
-    plant.skeleton().segments[3].base_radius = 0.1F; // as a step
+    plant.skeleton().segments[3].base_radius = 0.1F; // a step in width
     for (const MeshOptions& options :
          {kBare, MeshOptions{.threads = 1}, MeshOptions{.level = 2, .threads = 1},
           MeshOptions{.bark_noise = 0.5F, .threads = 1}}) {
@@ -192,8 +192,8 @@ TEST_CASE("an axis a million segments deep keeps its frame", "[mesh][tubes]") {
 }
 
 TEST_CASE("threads that share a long axis make the same tube", "[mesh][tubes]") {
-    // Longer than one part of a run, with branches before and behind, bends of all kinds, two
-    // colours, and a gap, behind which the next run is long too.
+    // An axis longer than one piece of work, with branches, bends of all kinds, two colours, and a
+    // gap after which the axis is long again.
     test::Numbers numbers(5);
     Plant plant;
     std::uint32_t last = kNoSegment;
@@ -231,7 +231,7 @@ TEST_CASE("threads that share a long axis make the same tube", "[mesh][tubes]") 
 }
 
 TEST_CASE("a segment drawn backwards begins an axis", "[mesh][tubes]") {
-    // F(1) F(-0.5) F(1): the second one is turned around and ends where the first one does.
+    // F(1) F(-0.5) F(1): the second segment is turned around and ends where the first ends.
     Plant plant;
     const std::uint32_t first = plant.add(kNoSegment, {0, 1, 0}, 1.0F);
     const std::uint32_t second =
@@ -286,7 +286,8 @@ TEST_CASE("noise moves the bark by its part of the radius and leaves it closed",
     CHECK(test::topology_of(mesh).open_edges == 0);
     float least = 1.0F;
     float most = 0.0F;
-    for (std::size_t i = 1; i + 1 < mesh.positions.size(); ++i) { // without the caps
+    // Without the vertices of the caps.
+    for (std::size_t i = 1; i + 1 < mesh.positions.size(); ++i) {
         const float radius = std::hypot(mesh.positions[i].x, mesh.positions[i].z);
         least = std::min(least, radius);
         most = std::max(most, radius);

@@ -52,11 +52,13 @@ TEST_CASE("neighbours along an axis share their ring", "[mesh][tubes]") {
         last = plant.add(last, {0.1F * static_cast<float>(i), 1, 0}, 1.0F);
     }
     const Mesh mesh = tubes(plant.skeleton(), kBare);
-    CHECK(mesh.positions.size() == std::size_t{6} * 8 + 2); // and a corner for each cap
+    // Six rings of 8 vertices, and one vertex per cap.
+    CHECK(mesh.positions.size() == std::size_t{6} * 8 + 2);
     CHECK(mesh.indices.size() == std::size_t{3} * (5 * 16 + 2 * 8));
     CHECK(test::topology_of(mesh).vertices == mesh.positions.size());
     const MeshOptions full{.threads = 1};
-    CHECK(tubes(plant.skeleton(), full).positions.size() == std::size_t{6} * 9 + 2); // and a seam
+    // A ninth vertex per ring for the seam.
+    CHECK(tubes(plant.skeleton(), full).positions.size() == std::size_t{6} * 9 + 2);
 }
 
 TEST_CASE("an isolated tube is closed", "[mesh][tubes]") {
@@ -81,7 +83,7 @@ TEST_CASE("a tube has its radius on both sides of a bend", "[mesh][tubes]") {
     const Skeleton skeleton = bent(degrees, 0.1F);
     const Mesh mesh = tubes(skeleton, kBare);
     for (std::size_t i = 0; i < 8; ++i) {
-        const glm::vec3& corner = mesh.positions[1 + 8 + i]; // after a cap and a ring
+        const glm::vec3& corner = mesh.positions[1 + 8 + i]; // a vertex of the second ring
         for (const Segment& segment : skeleton.segments) {
             CHECK(distance_to_line(corner, segment.base, heading(segment.frame)) ==
                   Approx(0.1F).margin(1e-5));
@@ -120,7 +122,7 @@ TEST_CASE("a rolling turtle does not twist the tube", "[mesh][tubes]") {
 }
 
 TEST_CASE("frames carried around bends stay flat in a plane", "[mesh][tubes]") {
-    // A ring of joints in the plane z = 0: the corner that begins along z stays there.
+    // Joints along a circle in the plane z = 0: the vertex that starts in direction z stays there.
     Plant plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 40; ++i) {
@@ -135,7 +137,7 @@ TEST_CASE("frames carried around bends stay flat in a plane", "[mesh][tubes]") {
 }
 
 TEST_CASE("lines between the corners of two rings are parallel to the edge", "[mesh][tubes]") {
-    // A screw: every bend turns about another axis. Up to 60 degrees have one ring, up to 120 two.
+    // A helix: every bend has another axis. A bend of up to 60 degrees has one ring, up to 120 two.
     const float degrees = GENERATE(20.0F, 58.0F, 62.0F, 110.0F, 130.0F, 170.0F);
     CAPTURE(degrees);
     const std::size_t rings = degrees < 60.0F ? 1 : degrees < 120.0F ? 2 : 3;
@@ -190,7 +192,8 @@ TEST_CASE("texture runs around and up with square texels", "[mesh][tubes]") {
             const glm::vec2& place = mesh.texture_coordinates[begin + i];
             CHECK(place.x == static_cast<float>(i) / 8.0F);
             CHECK(place.y == Approx(-mesh.positions[begin + i].y / circumference).margin(1e-6));
-            // Right-handed seen from outside: u to the right, the picture's top to the tip.
+            // Seen from outside, u increases to the right, and the top of the picture is at the
+            // tip.
             const glm::vec4& tangent = mesh.tangents[begin + i];
             const glm::vec3 up =
                 tangent.w * glm::cross(mesh.normals[begin + i], glm::vec3(tangent));
@@ -252,7 +255,7 @@ TEST_CASE("a branch begins within its parent and is open there", "[mesh][tubes]"
         plant.add(trunk, {0, 1, 0}, 1.0F, {.base_radius = 0.2F, .tip_radius = 0.2F});
     }
     const Mesh mesh = tubes(plant.skeleton(), kBare);
-    // The trunk is the first tube, the branch the rest.
+    // The first tube is the trunk, the other vertices are the branch.
     const std::size_t ball = goes_on ? 0 : 8;
     const std::size_t begin = 1 + (goes_on ? 3 : 2) * 8 + ball + 1;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -260,7 +263,7 @@ TEST_CASE("a branch begins within its parent and is open there", "[mesh][tubes]"
         CHECK((goes_on ? std::hypot(corner.x, corner.z) : glm::length(corner)) < 0.19F);
     }
     CHECK(test::topology_of(mesh).open_edges == 8);
-    // Far from its base the branch is as thick as it was asked to be.
+    // Far from its base, the branch has its given radius.
     CHECK(distance_to_line(mesh.positions[mesh.positions.size() - 2], {0, 1, 0},
                            glm::normalize(direction)) == Approx(radius).margin(1e-5));
 }

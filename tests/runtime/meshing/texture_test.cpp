@@ -1,4 +1,4 @@
-// Textures that are computed.
+// Procedural textures.
 #include "grammar/base/hash.h"
 #include "runtime/meshing/shapes.h"
 #include "runtime/meshing/texture.h"
@@ -64,7 +64,8 @@ TEST_CASE("a leaf is opaque within the outline of the mesh") {
     for (std::uint32_t row = 0; row < 256; ++row) {
         CAPTURE(row);
         const float distance = 1.0F - (static_cast<float>(row) + 0.5F) / 256.0F;
-        const float half = leaf_half_width(distance) / 0.25F; // of half the picture
+        // Half width as a fraction of half the picture.
+        const float half = leaf_half_width(distance) / 0.25F;
         const auto column = [](float side) {
             return static_cast<std::uint32_t>(std::clamp(128.0F + 128.0F * side, 0.0F, 255.0F));
         };
@@ -95,7 +96,7 @@ TEST_CASE("other readers of PNG read what was written") {
     for (std::uint8_t i = 0; i < 24; ++i) {
         odd.texels.push_back(static_cast<std::uint8_t>(37 * i));
     }
-    Texture noise{101, 257, {}}; // hardly compressible
+    Texture noise{101, 257, {}}; // noise is hardly compressible
     for (std::uint32_t i = 0; i < 4 * noise.width * noise.height; ++i) {
         noise.texels.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(lowbias32(i)));
     }

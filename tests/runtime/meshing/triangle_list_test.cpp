@@ -15,7 +15,7 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-/// Column `i` of a ring, which goes around.
+/// Vertex of column `i` of a ring; columns wrap around.
 std::uint32_t corner(const RingCorners& ring, std::uint32_t i) {
     return ring.first + (ring.seam ? i : i % ring.sides);
 }
@@ -40,7 +40,7 @@ void put_fan(const RingCorners& ring, std::uint32_t point, bool own, bool upward
     }
 }
 
-/// A list of all that there is, and its indices.
+/// A random list with triangles of all kinds, and its expected indices.
 std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
     test::Numbers random(seed);
     TriangleList list;
@@ -51,7 +51,7 @@ std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
                          .sides = 3 + random.below(i % 7 == 0 ? 62 : 6),
                          .seam = random.below(2) == 1};
         switch (random.below(4)) {
-        case 0: { // joined to one patch
+        case 0: { // bands that are merged into one patch
             const std::uint32_t bands = 1 + random.below(4);
             put_bands(ring, bands, indices);
             for (std::uint32_t band = 0; band < bands; ++band) {
@@ -70,7 +70,7 @@ std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
             vertex += random.below(3);
             break;
         }
-        case 2: { // equal sides, one after the other, are two triangles a side as well
+        case 2: { // an uneven band whose rings have equally many sides, with two triangles per side
             RingCorners high = ring;
             high.first += ring.columns();
             TriangleList uneven;
@@ -160,7 +160,7 @@ TEST_CASE("lists are joined, with their vertices moved", "[mesh]") {
 }
 
 TEST_CASE("a tube of millions of rings takes some bytes", "[mesh]") {
-    // More indices than 32 bits count: two blocks, whose border lies within the tube.
+    // More indices than 32 bits can count: two blocks, whose border lies within the tube.
     TriangleList list;
     constexpr std::uint32_t kBands = 1U << 20;
     RingCorners ring{.first = 5, .sides = 64};

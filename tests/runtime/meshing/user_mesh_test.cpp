@@ -1,4 +1,4 @@
-// Reading Wavefront OBJ: every form of a face, what is computed, what is refused.
+// Reading Wavefront OBJ: every form of a face, computed values, refused files.
 #include "runtime/meshing/user_mesh.h"
 
 #include <catch2/catch.hpp>
@@ -62,7 +62,8 @@ TEST_CASE("every form of an index of an OBJ face") {
         CHECK(mesh.positions[2] == glm::vec3(1, 1, 0));
         CHECK(mesh.normals[1] == glm::vec3(0, 0, 1));
         if (form.find("2/2") != std::string::npos) {
-            CHECK(mesh.texture_coordinates[1] == glm::vec2(1.0F, 0.75F)); // v downwards
+            // V is flipped to point down.
+            CHECK(mesh.texture_coordinates[1] == glm::vec2(1.0F, 0.75F));
         }
     }
 }
@@ -78,7 +79,7 @@ TEST_CASE("corners of OBJ faces are shared where all of them is equal") {
     CHECK(shared.positions.size() == 4);
     const UserMesh split = read(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/2 4/2\n");
     CHECK(split.positions.size() == 6);
-    // The normal is that of the vertex all the same.
+    // The split vertices keep the normal of the original vertex.
     CHECK(split.normals[0] == split.normals[3]);
 }
 
@@ -159,7 +160,8 @@ TEST_CASE("hostile OBJ text ends in an error or a mesh") {
     CHECK(message(std::string(1'000'000, '\0')) == "there is no face in it");
     CHECK(message("\\") == "there is no face in it");
     CHECK(message("f \\") == "line 1: a face needs three corners and has 0");
-    // One vertex in a hundred thousand corners that differ, and a face of as many corners.
+    // A face of about 200,000 corners; 100,000 of them are one position with different texture
+    // coordinates.
     std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     std::string face = "f 2";
     for (int i = 1; i <= 100'000; ++i) {

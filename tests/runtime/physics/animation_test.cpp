@@ -15,7 +15,7 @@ TEST_CASE("an animation is the poses at its frames") {
     options.threads = 1;
     options.wind = {{4.0F, 0.0F, 1.0F}, 0.5F};
     PlantPhysics recorded(plant, options);
-    const PlantAnimation animation = record(recorded, 5, 20.0F); // three steps of 1/60 s a frame
+    const PlantAnimation animation = record(recorded, 5, 20.0F); // three steps of 1/60 s per frame
     CHECK(animation.frame_count == 5);
     CHECK(animation.segment_count == plant.segments.size());
     CHECK(animation.frames_per_second == 20.0F);
@@ -73,9 +73,9 @@ TEST_CASE("a loop ends where it begins, and goes on as it begins") {
         const auto base = [&](std::uint32_t frame, std::size_t segment) {
             return glm::dvec3(clip.frame(frame)[segment].base);
         };
-        double most = 0.0; // m, way within the loop
-        double step = 0.0; // m/frame, change of the velocity
-        double seam = 0.0; // the same at the seam
+        double most = 0.0; // m, max distance from the first frame
+        double step = 0.0; // m/frame, max change of the velocity between frames
+        double seam = 0.0; // m/frame, max change of the velocity at the seam
         for (std::size_t i = 0; i < plant.segments.size(); ++i) {
             REQUIRE(clip.frame(0)[i].base == clip.frame(frames - 1)[i].base);
             REQUIRE(clip.frame(0)[i].frame == clip.frame(frames - 1)[i].frame);

@@ -1,4 +1,4 @@
-// Plants that fall settle in stages: coarse plants, and the plant from where they lie.
+// Falling plants settle in stages: first coarse plants, then the whole plant from their pose.
 #include "runtime/physics/impl/coarse.h"
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"
@@ -66,7 +66,7 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
         REQUIRE(bodies.size() >= 100);
         CHECK(bodies.size() * 3 <= whole.bodies.size());
         CHECK(stage.bodies.level_ends.back() == bodies.size());
-        // Body::moment, from the bodies of the stage alone.
+        // Recompute Body::moment from the bodies of the stage alone.
         std::vector<double> carried(bodies.size(), 0.0);
         double stage_mass = 0.0;
         for (std::size_t b = bodies.size(); b-- > 0;) {
@@ -95,7 +95,7 @@ TEST_CASE("twigs keep their bend when poses are completed") {
     const Bodies plant = make_bodies(limp_plant(), 0.2);
     const std::size_t count = plant.bodies.size();
     std::vector<BodyPose> before(count);
-    for (std::size_t b = 0; b < count; ++b) { // each joint is bent by 0.1
+    for (std::size_t b = 0; b < count; ++b) { // each joint is bent by 0.1 rad
         const std::uint32_t parent = plant.bodies[b].parent;
         const glm::dquat turn = glm::angleAxis(0.1, glm::dvec3(0.0, 0.0, 1.0));
         before[b].turn = parent == kNoSegment ? turn : glm::normalize(before[parent].turn * turn);
@@ -138,7 +138,7 @@ TEST_CASE("a large plant that falls settles in few rounds, the same for any numb
             REQUIRE(tip(segment).y >= -1e-5F);
         }
         CHECK(lifted_mass(bent) < 0.2 * lifted_mass(plant));
-        // It stays where it lies.
+        // Further rounds do not move it.
         const double settled = physics.energy();
         CHECK(physics.settle(1e-6, 60));
         CHECK(physics.energy() <= settled);

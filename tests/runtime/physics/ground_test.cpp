@@ -1,4 +1,4 @@
-// The ground and the rule of loads.
+// Contact with the ground, and PhysicsOptions::load.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"
 
@@ -15,8 +15,8 @@ using namespace lsys::test;
 
 namespace {
 
-/// The lowest of the ends of segments, objects and corners of `bent` that `rest` has above the
-/// ground.
+/// The lowest height in `bent` among the ends of segments, objects and corners that are above the
+/// ground in `rest`.
 double lowest(const Skeleton& rest, const Skeleton& bent) {
     float low = 1.0F;
     const auto see = [&](const glm::vec3& before, const glm::vec3& after) {
@@ -92,7 +92,7 @@ TEST_CASE("a stalk without stiffness lies on the ground, at its radius") {
         }
         CHECK(tip(bent.segments[1]).x > 1.9F);
     }
-    // Without the ground it hangs.
+    // Without the ground, the plant hangs down.
     options.load = LoadRule::Carried;
     options.ground = false;
     PlantPhysics hanging(plant, options);
@@ -113,7 +113,7 @@ TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
         options.threads = 1;
         options.damping = 0.0F;
         PlantPhysics physics(rod_on_ground, options);
-        for (int i = 0; i < 120; ++i) { // it sinks into the ground until this bears it
+        for (int i = 0; i < 120; ++i) { // the rod sinks in until the ground bears it
             physics.step();
         }
         options.wind.velocity = {0.0F, 0.0F, static_cast<float>(speed)};
@@ -127,13 +127,13 @@ TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
         return std::atan2(static_cast<double>(along.z), static_cast<double>(along.x));
     };
     CHECK(turn_in_wind(0.0) == Approx(0.0).margin(1e-9));
-    CHECK(std::abs(turn_in_wind(0.9 * limit)) < 0.01); // it creeps below the sticking speed
+    CHECK(std::abs(turn_in_wind(0.9 * limit)) < 0.01); // below the sticking speed it creeps
     CHECK(turn_in_wind(1.1 * limit) > 0.1);
 }
 
 TEST_CASE("a flat plant that falls in its plane settles with the speed of Newton's method") {
-    // Upright in its plane it could fall to either side of it, so second derivatives are negative
-    // there; those within the plane must stay as they are.
+    // A plant upright in its plane could fall to either side of the plane, so second derivatives
+    // out of the plane are negative; derivatives within the plane must not be changed for that.
     Skeleton plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 40; ++i) {
@@ -171,7 +171,8 @@ TEST_CASE("what is away from the ground does not feel it") {
 }
 
 TEST_CASE("with own loads each joint bears its own segment only") {
-    // k (a - a_parent - rest angle) = m g l / 2 sin(a), from the root on.
+    // Equilibrium of each segment, from the root on: k (a - a_parent - rest angle) = m g l / 2
+    // sin(a).
     constexpr double kMoment = 2.0 * 9.81 * 1.5 / 2.0;
     Skeleton plant;
     std::uint32_t last = kNoSegment;
@@ -189,7 +190,7 @@ TEST_CASE("with own loads each joint bears its own segment only") {
     REQUIRE(physics.settle(1e-9, 100));
     Skeleton bent;
     physics.pose(bent);
-    double parent = 0.0; // its turn since rest
+    double parent = 0.0; // turn of the parent relative to rest
     for (std::size_t i = 0; i < leans.size(); ++i) {
         double low = 0.0;
         double high = std::numbers::pi;
@@ -203,7 +204,7 @@ TEST_CASE("with own loads each joint bears its own segment only") {
         CHECK(std::atan2(static_cast<double>(up.x), static_cast<double>(up.y)) ==
               Approx(leans[i] + parent).margin(3e-6));
     }
-    // A straight trunk bears any crown, which is why the printed springs hold.
+    // A straight trunk bears any crown, so springs from the literature suffice.
     Skeleton straight;
     last = add_segment(straight, kNoSegment, leaning(0.0F), rod(1.0F, 0.03F, 1.0F, 100.0F));
     add_segment(straight, last, leaning(1.2F), rod(1.0F, 0.03F, 1e4F, 100.0F));

@@ -1,4 +1,4 @@
-// The physics of plants at the edges: any numbers, any number of threads, any depth.
+// The physics of plants at its limits: arbitrary numbers, numbers of threads and depths.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"
 
@@ -44,7 +44,7 @@ TEST_CASE("energy does not grow without wind, whatever the plant and the step") 
         options.damping = plant_number % 2 == 0 ? 0.0F : power(numbers, -range, range);
         options.air_density = plant_number % 5 == 0 ? 1.225F : 0.0F;
         options.surface_mass = 0.0F;
-        options.ground = false; // its energy is not in potential()
+        options.ground = false; // potential() does not include the energy of the ground
         options.time_step =
             std::array{1.0F / 240.0F, 1.0F / 60.0F, 1.0F / 10.0F}[below(numbers, 3)];
         PlantPhysics physics(plant, options);
@@ -61,7 +61,7 @@ TEST_CASE("energy does not grow without wind, whatever the plant and the step") 
                 CAPTURE(plant_number, i, range, seen.energy, seen.terms);
                 REQUIRE(is_sound(bent));
                 REQUIRE(seen.energy <= 2e-6 * std::abs(seen.terms));
-                physics.set(options); // adds up anew
+                physics.set(options); // recomputes the energy
                 REQUIRE(physics.energy() <= energy + 1e-9 * std::abs(seen.terms));
                 energy = physics.energy();
             }
@@ -91,7 +91,7 @@ TEST_CASE("plants of any numbers come down") {
 }
 
 TEST_CASE("the same motion for any number of threads") {
-    const Skeleton plant = tree(5, 7); // depths of up to 243 axes and 1,701 segments
+    const Skeleton plant = tree(5, 7); // up to 243 axes and 1,701 segments at one depth
     REQUIRE(plant.segments.size() > 2000);
     std::string expected;
     for (const std::uint32_t threads : {1U, 2U, 5U}) {
@@ -121,7 +121,7 @@ TEST_CASE("among many plants each moves as if it were alone") {
     Skeleton single = random_plant(numbers, 6, 0.5);
     single.objects.clear();
     Skeleton many;
-    constexpr std::uint32_t kCount = 300; // wide enough for pieces
+    constexpr std::uint32_t kCount = 300; // enough segments per depth for several pieces of work
     for (std::uint32_t copy = 0; copy < kCount; ++copy) {
         for (Segment segment : single.segments) {
             segment.parent += segment.parent == kNoSegment ? 0 : copy * 6;
@@ -181,7 +181,7 @@ TEST_CASE("without mass, length, radius or spring everything stays finite") {
                     Skeleton plant;
                     const std::uint32_t first =
                         add_segment(plant, kNoSegment, leaning(0.5F), rod(1.0F, 0.1F, 5.0F, 1.0F));
-                    // Too long for positions: such a segment comes last.
+                    // Positions after a segment of such a length would overflow, so it comes last.
                     const std::uint32_t second =
                         add_segment(plant, first, leaning(1.5F),
                                     rod(length > 1e6F ? 1.0F : length, radius, spring, mass));

@@ -28,13 +28,13 @@ PhysicsOptions in_vacuum() {
     return options;
 }
 
-/// The angle from +Y to +X.
+/// The angle of a segment from +Y towards +X, radians.
 double lean_of(const Segment& segment) {
     const glm::dvec3 up = glm::dquat(segment.frame) * glm::dvec3(0.0, 1.0, 0.0);
     return std::atan2(up.x, up.y);
 }
 
-/// Where `f`, which grows through 0 between low and high, is 0.
+/// The root of `f`, which increases from below 0 at `low` to above 0 at `high`, by bisection.
 double root(double low, double high, const std::function<double(double)>& f) {
     for (int i = 0; i < 200; ++i) {
         const double middle = 0.5 * (low + high);
@@ -56,7 +56,7 @@ TEST_CASE("a cantilever under its weight comes to rest at the closed form") {
             Skeleton bent;
             physics.pose(bent);
             const double angle = lean_of(bent.segments[0]);
-            // k theta = m g l / 2 sin(angle); more than one angle may do for weak springs.
+            // Equilibrium: k theta = m g l / 2 sin(angle). Weak springs may have several solutions.
             const double moment = 2.0 * kGravity * 1.5 / 2.0;
             CAPTURE(lean, spring, angle);
             CHECK(spring * (angle - lean) ==
@@ -108,7 +108,7 @@ TEST_CASE("a chain of two comes to rest where Newton's method puts it") {
         Skeleton bent;
         physics.pose(bent);
 
-        // Energy: k1 (a - a0)^2 / 2 + k2 (b - a - b0 + a0)^2 / 2 + p cos a + q cos b
+        // The energy is k1 (a - a0)^2 / 2 + k2 (b - a - b0 + a0)^2 / 2 + p cos a + q cos b.
         const double p = kGravity * (c.m_1 * c.l_1 / 2.0 + c.m_2 * c.l_1);
         const double q = kGravity * c.m_2 * c.l_2 / 2.0;
         double a = c.lean_1;
@@ -148,7 +148,7 @@ TEST_CASE("a rod in wind comes to rest at the closed form, downwind") {
     CHECK(expected > 0.3);
     CHECK(lean_of(bent.segments[0]) == Approx(expected).margin(2e-6));
 
-    // Blown at for long, in steps: the same.
+    // After a long time in the wind, stepwise simulation gives the same pose.
     for (const float gust : {0.0F, 0.4F}) {
         options.wind.gust = gust;
         PlantPhysics blown(plant, options);
@@ -199,7 +199,7 @@ TEST_CASE("a free rod swings with the period of a compound pendulum") {
 }
 
 TEST_CASE("two rods swing as Lagrange's equations say, and finer steps come nearer") {
-    // Equal rods of mass 1, length 1 at springs; angles from +Y, all in the plane.
+    // Two equal rods of mass 1 and length 1 on springs, in a plane; angles are from +Y.
     constexpr double kSpring = 4.0;
     constexpr double kDamper = 0.05;
     const std::array<double, 2> rest = {1.2, 2.2};
@@ -225,7 +225,7 @@ TEST_CASE("two rods swing as Lagrange's equations say, and finer steps come near
         }
         return out;
     };
-    for (int i = 0; i < 6000; ++i) { // Runge and Kutta, 0.6 s
+    for (int i = 0; i < 6000; ++i) { // 0.6 s by the Runge-Kutta method
         const State k1 = rates(exact);
         const State k2 = rates(ahead(exact, k1, h / 2.0));
         const State k3 = rates(ahead(exact, k2, h / 2.0));
@@ -256,7 +256,7 @@ TEST_CASE("two rods swing as Lagrange's equations say, and finer steps come near
             std::hypot(std::remainder(lean_of(bent.segments[0]) - exact[0], 2.0 * kPi),
                        std::remainder(lean_of(bent.segments[1]) - exact[1], 2.0 * kPi));
         CAPTURE(step, error, last_error);
-        CHECK(error < 0.35 * last_error); // first order: a quarter
+        CHECK(error < 0.35 * last_error); // the method is of first order, and the step is a quarter
         last_error = error;
     }
     CHECK(last_error < 5e-3);
@@ -288,7 +288,8 @@ TEST_CASE("with short steps and nothing that brakes a tree keeps its energy") {
 }
 
 TEST_CASE("a body that turns freely keeps its angular momentum") {
-    // Three points on a joint without spring, set in motion by weight, which then ends.
+    // Three point masses on a joint without a spring. Gravity sets them in motion and is then
+    // switched off.
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(0.3F), rod(1.0F, 0.0F, 0.0F, 0.0F));
     for (const glm::vec3& place :
@@ -416,7 +417,8 @@ TEST_CASE("what a segment carries goes with it") {
 }
 
 TEST_CASE("leaves weigh what their size says") {
-    // A rod without mass and a leaf at its tip, half of its length farther out.
+    // A rod without mass and a leaf at its tip; the leaf's centre of mass is half its length
+    // farther out.
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(1.0F), rod(1.0F, 0.01F, 2.0F, 0.0F));
     PlacedObject leaf;

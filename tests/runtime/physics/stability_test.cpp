@@ -1,4 +1,4 @@
-// Buckling against closed forms, and the advice of standing_factor() by trying it.
+// Compares buckling with closed forms, and tries the factor of standing_factor().
 #include "runtime/physics/stability.h"
 #include "tests/runtime/plants.h"
 
@@ -13,7 +13,7 @@ using namespace lsys::test;
 
 namespace {
 
-/// An upright column of even width in `count` segments, with springs E I / length.
+/// An upright column of constant width in `count` segments, with springs E I / length.
 Skeleton column(std::uint32_t count, double length, double width, double elasticity) {
     const double part = length / count;
     const double stiff = elasticity * std::numbers::pi / 64.0 * std::pow(width, 4) / part;
@@ -43,14 +43,14 @@ TEST_CASE("one segment on a spring buckles where k = m g l / 2") {
 }
 
 TEST_CASE("two segments buckle where the determinant of their energy is 0") {
-    // k1 a^2 / 2 + k2 (b - a)^2 / 2 - f (p a^2 + q b^2) / 2
+    // The energy for small angles is k1 a^2 / 2 + k2 (b - a)^2 / 2 - f (p a^2 + q b^2) / 2.
     Skeleton plant;
     const std::uint32_t first =
         add_segment(plant, kNoSegment, leaning(0.0F), rod(1.0F, 0.02F, 80.0F, 2.0F));
     add_segment(plant, first, leaning(0.0F), rod(0.8F, 0.02F, 20.0F, 1.0F));
     const double p = 9.81 * (2.0 * 0.5 + 1.0 * 1.0);
     const double q = 9.81 * 1.0 * 0.4;
-    // f^2 p q - f (k1 q + k2 q + k2 p) + k1 k2 = 0, the smaller root
+    // The critical f is the smaller root of f^2 p q - f (k1 q + k2 q + k2 p) + k1 k2 = 0.
     const double middle = (80.0 + 20.0) * q + 20.0 * p;
     const double expected =
         (middle - std::sqrt(middle * middle - 4.0 * p * q * 80.0 * 20.0)) / (2.0 * p * q);
@@ -62,7 +62,7 @@ TEST_CASE("a column of many segments buckles at Greenhill's height") {
     for (const std::uint32_t count : {25U, 100U, 400U}) {
         const Stability found = stability_of(column(count, 20.0, 0.1, 9e9), in_calm());
         REQUIRE(found.trunk_factor.has_value());
-        // E I 7.837 / (w l^3)
+        // A column buckles under its weight w per length at E I 7.837 / (w l^3) (Greenhill 1881).
         const double weight = 500.0 * std::numbers::pi / 4.0 * 0.01 * 9.81;
         const double expected = 7.837347 * 9e9 * std::numbers::pi / 64.0 * 1e-4 / (weight * 8000.0);
         CHECK(*found.trunk_factor == Approx(expected).epsilon(1e-4));

@@ -1,4 +1,4 @@
-// A forest between two of its years.
+// Growth of forests: moments between two years.
 #include "runtime/pipeline/forest_growth.h"
 
 #include <catch2/catch.hpp>
@@ -62,7 +62,7 @@ struct GrowingWood {
     }
 };
 
-/// 2 m more with each stage of ten years.
+/// Height of a tree, m: 2 m more with each stage of ten years.
 float stage_height(const Tree& tree) {
     return 1.0F + 2.0F * static_cast<float>(std::min(tree.age / 10, 2));
 }
@@ -78,11 +78,11 @@ TEST_CASE("a whole year of a growing forest is the forest placed with that numbe
     ForestGrowth growth = wood.begin();
     CHECK(growth.last_year() == 30);
     LargeVector<Tree> trees;
-    for (const std::uint32_t year : {0U, 1U, 2U, 9U, 10U, 30U, 4U}) { // the last is earlier
+    for (const std::uint32_t year : {0U, 1U, 2U, 9U, 10U, 30U, 4U}) { // the last one goes back
         INFO("year " << year);
         REQUIRE(growth.trees({year, 0.0}, stage_height, wood.project, trees));
         CHECK(is_same_wood(trees, wood.placed(year)));
-        if (year < 30) { // and seen from the year after it
+        if (year < 30) { // going back from a later moment gives the same trees
             REQUIRE(growth.trees({year, 0.5}, stage_height, wood.project, trees));
             REQUIRE(growth.trees({year, 0.0}, stage_height, wood.project, trees));
             CHECK(is_same_wood(trees, wood.placed(year)));
@@ -171,7 +171,7 @@ TEST_CASE("trees with stages go through them, each from where it starts") {
             REQUIRE(forest.stage_of(trees[i]) == std::min(forest.stage_of(start[i]) + year, 3U));
             REQUIRE(trees[i].scale == start[i].scale);
         }
-        Scene later = wood.loaded.scene; // and so does --years
+        Scene later = wood.loaded.scene; // --years gives the same trees
         later.placement.stages_passed = year;
         REQUIRE(place_forest(later, wood.project, wood.grown));
         CHECK(is_same_wood(trees, wood.grown.forest.trees));

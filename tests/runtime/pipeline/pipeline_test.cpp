@@ -1,4 +1,4 @@
-// The pipeline as a library: files come from memory, results are values.
+// The pipeline as a library: files are read from memory, results are values.
 #include "runtime/forest/tree_heights.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/plant.h"
@@ -16,7 +16,7 @@ using namespace lsys;
 
 namespace {
 
-/// A project whose files are those of `files`.
+/// A project that reads `files` from memory.
 Project project_of(std::map<std::string, std::string> files) {
     Project project;
     project.threads = 1;
@@ -122,7 +122,7 @@ namespace {
 const char* const kShrub = "#n = 4; #w : A; #p : A : ~ 0.6 : F(3) [ +(30) A ] [ &(50) A ] A;"
                            "#q : A : ~ 0.4 : F A;";
 
-/// A forest of a scene of one species with these lines.
+/// The forest of a scene with one species. `species`: lines of its table.
 Outcome<GrownForest> forest_of(const std::string& grammar,
                                const std::string& species,
                                const SceneOverrides& overrides = {}) {
@@ -153,7 +153,7 @@ bool says(const Outcome<GrownForest>& outcome, const std::string& text) {
     });
 }
 
-/// m, of each tree by its number.
+/// Height of each tree, m, by its number.
 std::map<std::uint32_t, double> heights_of(const GrownForest& grown) {
     std::map<std::uint32_t, double> heights;
     const InstanceCache& cache = grown.forest.species[0].stages.back().cache;
@@ -179,9 +179,9 @@ TEST_CASE("a species with heights draws them evenly, and tiles agree") {
         CHECK(height < 9.0 + 1e-5);
         sum += height;
     }
-    // 400 even draws: the deviation of the mean is 5 / sqrt(12 * 400) = 0.07.
+    // 400 uniform draws: the standard deviation of the mean is 5 / sqrt(12 * 400) = 0.07.
     CHECK(sum / 400.0 == Approx(6.5).margin(0.3));
-    // The draw is that of the scale in its place.
+    // A height uses the random number that a scale would use.
     const Outcome<GrownForest> scaled = forest_of(kShrub, "scale = [4, 9]\n");
     REQUIRE(scaled);
     for (const Tree& tree : scaled.value().forest.trees) {
@@ -207,11 +207,11 @@ TEST_CASE("trees have the height of their grammar, times their scale") {
     for (const auto& [number, height] : heights_of(grown.value())) {
         CHECK(height == Approx(10.0).epsilon(1e-5));
     }
-    // What is painted has a scale of its own: about 1 for the height of the grammar.
+    // Painted trees have their own scale; at scale 1 a tree has the height of the grammar.
     const InstanceCache& cache = grown.value().forest.species[0].stages[0].cache;
     const HeightTable table = make_height_table(cache);
     CHECK(TreeMeasure(cache, table, 0).height_of(0).value_or(0.0) == Approx(20.0).epsilon(1e-5));
-    // A height of the scene wins.
+    // The height of the scene overrides that of the grammar.
     const Outcome<GrownForest> other =
         forest_of(std::string("#set height 20;") + kShrub, "height = [3, 3]\n");
     REQUIRE(other);

@@ -1,5 +1,5 @@
-// Growth between generations: whole generations are the ordinary plants, and between them nothing
-// jumps.
+// Growth between generations: whole generations equal the ordinary plants, and motion between them
+// is continuous.
 #include "runtime/pipeline/plant_growth.h"
 
 #include <catch2/catch.hpp>
@@ -103,7 +103,8 @@ bool is_same_mesh(const Mesh& a, const Mesh& b) {
                                                a.positions.size() * sizeof(a.positions[0])) == 0);
 }
 
-/// The longest way of an end of a segment, an object or a corner; both have the same parts.
+/// The largest distance between corresponding ends of segments, objects and corners of two
+/// skeletons with the same parts.
 float longest_move(const Skeleton& a, const Skeleton& b) {
     REQUIRE(a.segments.size() == b.segments.size());
     REQUIRE(a.objects.size() == b.objects.size());
@@ -159,12 +160,13 @@ TEST_CASE("a whole generation of a growth is the ordinary plant") {
         const Skeleton skeleton = grown.at(generation, 0.0);
         CHECK(lines_of(skeleton) == lines_of(plant.skeleton));
         CHECK(is_same_mesh(mesh_of(plant, skeleton), mesh_of(plant, plant.skeleton)));
-        if (generation < sample.generations) { // the same from the other side
+        // Going back from a later moment gives the same plant.
+        if (generation < sample.generations) {
             static_cast<void>(grown.at(generation, 0.5));
             CHECK(lines_of(grown.at(generation, 0.0)) == lines_of(plant.skeleton));
         }
     }
-    // Back to the start.
+    // Going back to the axiom works too.
     CHECK(lines_of(grown.at(0, 0.0)) == lines_of(ordinary_plant(text, 0).skeleton));
 }
 
@@ -186,7 +188,7 @@ TEST_CASE("a growth leaves a generation and arrives at the next without a jump")
             CHECK(glm::distance(stats.bounds.low, soon_stats.bounds.low) < size);
             CHECK(glm::distance(stats.bounds.high, soon_stats.bounds.high) < size);
         }
-        // The segments of the next generation come first.
+        // Segments of the next generation precede segments that vanish.
         const Skeleton late = grown.at(generation, 1.0 - kSoon);
         const Skeleton after = grown.at(generation + 1, 0.0);
         REQUIRE(late.segments.size() >= after.segments.size());
@@ -239,19 +241,20 @@ TEST_CASE("joints of a plant between generations are closed") {
 }
 
 TEST_CASE("segments between generations are pieces of the old ones, or grow from nothing") {
-    // F is 1 long; its successor 1 + 3. At the start the two lie on the old F by their lengths.
+    // F is 1 long; its successor 1 + 3. At the start, both segments lie on the old F, with parts of
+    // its length in proportion.
     GrownSample split("#set width 0.1; #w : F(1); #p : F(l) : * : F(l) [ +(90) F(2) ] F(3*l);", 1,
                       1);
     const Skeleton half = split.at(0, 0.5);
     REQUIRE(half.segments.size() == 3);
     CHECK(half.segments[0].length == Approx(0.5 * 0.25 + 0.5 * 1.0));
-    CHECK(half.segments[1].length == Approx(0.5 * 2.0)); // eased: one half at one half
+    CHECK(half.segments[1].length == Approx(0.5 * 2.0)); // easing is 0.5 at 0.5
     CHECK(half.segments[2].length == Approx(0.5 * 0.75 + 0.5 * 3.0));
     CHECK(half.segments[1].base_radius == Approx(0.5F * split.at(1, 0.0).segments[1].base_radius));
     const Skeleton quarter = split.at(0, 0.25);
-    CHECK(quarter.segments[1].length == Approx(2.0 * 0.15625)); // 3 t^2 - 2 t^3
+    CHECK(quarter.segments[1].length == Approx(2.0 * 0.15625)); // easing is 3 t^2 - 2 t^3
 
-    // One segment for another turns and stretches; what is after it goes with it.
+    // A segment that replaces another turns and stretches; segments after it move with it.
     GrownSample turn(
         "#set width 0.1; #w : A F(1); #p : A : * : +(90) F(2); #q : F(l) : * : F(2*l);", 1, 1);
     const Skeleton turned = turn.at(0, 0.5);
@@ -259,7 +262,7 @@ TEST_CASE("segments between generations are pieces of the old ones, or grow from
     CHECK(turned.segments[1].length == Approx(1.5));
     CHECK(glm::length(turned.segments[1].base) == Approx(1.0));
 
-    // What is no longer drawn shrinks.
+    // Segments that the next generation does not draw shrink.
     GrownSample gone("#set width 0.1; #w : F(1) F(2); #p : F(l) : l > 1 : A;", 1, 1);
     const Skeleton going = gone.at(0, 0.5);
     REQUIRE(going.segments.size() == 2);

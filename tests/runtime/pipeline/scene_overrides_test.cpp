@@ -37,7 +37,7 @@ TEST_CASE("overrides of a species are stronger than those of all species") {
     overrides.heroes = 5;
     overrides.species["birch"].heroes = 9;
     overrides.species["birch"].min_scale = 2.0F;
-    overrides.species["elm"].heroes = 1; // is not in the scene
+    overrides.species["elm"].heroes = 1; // the scene has no elm
     REQUIRE(apply(overrides, scene));
     CHECK(scene.species[0].cache.heroes == 5);
     CHECK(scene.species[1].cache.heroes == 9);
@@ -57,7 +57,7 @@ TEST_CASE("options give every species stages, and years are stages without domin
     CHECK(scene.placement.species[1].start == StageStart::Random);
     CHECK(scene.placement.stages_passed == 1);
     CHECK(last_year(scene) == 2);
-    // Domination shares its years among the stages, unless they are said.
+    // Domination divides its years evenly among the stages, unless years_of_stage is given.
     SceneOverrides wood;
     wood.method = PlacementMethod::Domination;
     wood.years = 60;
@@ -114,7 +114,7 @@ TEST_CASE("a picture of the ground replaces that of the scene, and its normals")
     Scene scene = two_species();
     SceneOverrides overrides;
     overrides.ground_tile = 2.5;
-    CHECK_FALSE(apply(overrides, scene)); // of which picture?
+    CHECK_FALSE(apply(overrides, scene)); // there is no picture to tile
     overrides = {};
     overrides.ground_normals = "n.png";
     CHECK_FALSE(apply(overrides, scene));

@@ -41,7 +41,7 @@ std::string compiled_with(const std::string& text, const std::vector<SettingText
     return grammar ? write_module_file(grammar.value().bytecode) : std::string();
 }
 
-/// A value of each key of the table that differs from the initial one.
+/// For each key of the table, a value that differs from the default.
 std::vector<SettingText> one_of_each() {
     std::vector<SettingText> settings{
         {"tropism", "0.5 -1 0 0.2"}, {"seed", "18446744073709551615"}, {"names", "letters"}};
@@ -69,13 +69,13 @@ TEST_CASE("a setting of an option compiles to the bytes of a file that has it") 
         const Result<std::string> written =
             with_values("a.lsys", plain, {{}, {}, {setting}}, no_files());
         REQUIRE(written);
-        // A comment in place of the statement keeps the places of all others.
+        // Replace the statement by a comment, so that the places of all others stay.
         std::string commented = written.value();
         commented.replace(commented.find("#set"), 2, "//");
         const std::string by_option = compiled_with(commented, {setting});
         REQUIRE_FALSE(by_option.empty());
         CHECK(by_option == compiled_with(written.value(), {}));
-        // Any other value of the file makes no difference.
+        // An option overrides the value of the file.
         const Result<std::string> again =
             with_values("a.lsys", written.value(), {{}, {}, {setting}}, no_files());
         REQUIRE(again);

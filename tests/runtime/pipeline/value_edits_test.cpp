@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// The text with values; of an error its message.
+/// The text with the values written to it, or the message of an error.
 std::string written(const std::string& text, const StatementValues& values) {
     const FileLoader load = [](const std::string& path) -> Result<std::string> {
         return path == "common.lsys"
@@ -49,7 +49,7 @@ TEST_CASE("a setting without a statement follows the last one") {
           "#w : F;\r\n#set step 2;\r\n#set angle 30;\r\n");
     CHECK(with_setting("#w : F;\n#set step 2;", "angle", "30") ==
           "#w : F;\n#set step 2;\n#set angle 30;");
-    // What follows on the line is not split.
+    // Text after the statement on its line is not split.
     CHECK(with_setting("#set step 2; /* a\nb */ #w : F;\n", "angle", "30") ==
           "#set step 2;\n#set angle 30; /* a\nb */ #w : F;\n");
     CHECK(with_setting("#set step 2; #w :\nF;\n", "angle", "30") ==

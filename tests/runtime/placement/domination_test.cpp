@@ -44,7 +44,7 @@ bool meet(const ForestPlant& a, const ForestPlant& b) {
                       static_cast<double>(a.place.y - b.place.y)) < reach;
 }
 
-/// Slope of log(mean mass) against log(density) while a stand goes from half its plants to 300.
+/// Slope of log(mean mass) against log(density) while a stand thins from half its plants to 300.
 /// Mass is the cube of the radius.
 double thinning_slope(const PlacementOptions& options) {
     Domination forest = Domination::begin(options, ground()).value();
@@ -111,7 +111,7 @@ TEST_CASE("plants whose circle a stronger one's meets are dominated, in every ye
                 const bool stronger = there > here || (there == here && j < i);
                 dominated = j != i && stronger && meet(plants[i], plants[j]);
             }
-            // Later, the plant that dominated may have died in the same year.
+            // After the first year, the dominating plant may have died in the same year.
             REQUIRE((plants[i].dominated == dominated || (year > 0 && !dominated)));
         }
         REQUIRE(forest.step());
@@ -130,7 +130,7 @@ TEST_CASE("circles of very different sizes find each other") {
     PlacementOptions options = stand(3'000, 50.0);
     options.species.resize(2);
     options.species[0].growth.rate = 0.01F;
-    options.species[0].growth.tolerance = 1.0F; // stays
+    options.species[0].growth.tolerance = 1.0F; // shade does not kill it
     options.species[1].share = 0.005;
     options.species[1].growth.rate = 3.0F;
     options.species[1].growth.max_radius = 9.0F;
@@ -184,7 +184,7 @@ TEST_CASE("plants keep number, place and species, age by a year, and never shrin
         next_number = newest;
         REQUIRE(forest.step());
     }
-    CHECK(next_number > 2'000); // some have sprouted
+    CHECK(next_number > 2'000); // seedlings have sprouted
 }
 
 TEST_CASE("trees of a year carry age and size of their plants, and look the same every year") {
@@ -219,12 +219,12 @@ TEST_CASE("trees of a year carry age and size of their plants, and look the same
         }
     }
     CHECK(followed > 100);
-    // What was never dominated has the size of its vigour.
+    // The size of a plant that was never dominated depends on its vigour alone.
     const Domination alone = grown(stand(1, 60.0), 25);
     REQUIRE(alone.plants().size() >= 1);
     CHECK(alone.trees()[0].scale < 1.0F);
     CHECK(alone.trees()[0].scale >= 0.7F);
-    // The same through place_trees().
+    // place_trees() gives the same trees.
     options.years = 20;
     CHECK(same_trees(place_trees(options, ground()).value().trees, old));
 }
@@ -263,7 +263,7 @@ TEST_CASE("plants die of age, and seeds keep a forest alive") {
 }
 
 TEST_CASE("seeds fall within their distance, and not where the species cannot live") {
-    // Rising to the east: 0 to 100 m over 100 m.
+    // A slope that rises to the east from 0 to 100 m over 100 m.
     const Terrain slope =
         Terrain::height_map({0.0, 0.0, 100.0, 100.0}, grey_map(2, 2, {0, 65535, 0, 65535}),
                             {0.0, 100.0, HeightFilter::Bilinear})
@@ -277,7 +277,7 @@ TEST_CASE("seeds fall within their distance, and not where the species cannot li
     for (std::uint64_t key = 0; key < 20; ++key) {
         options.key = key;
         Domination forest = Domination::begin(options, slope).value();
-        if (forest.plants().empty()) { // sprouted too high
+        if (forest.plants().empty()) { // the only plant sprouted above its limit of altitude
             CHECK(forest.report().refused == 1);
             continue;
         }
@@ -287,7 +287,7 @@ TEST_CASE("seeds fall within their distance, and not where the species cannot li
         const glm::vec2 parent = forest.plants()[0].place;
         for (const ForestPlant& plant : forest.plants()) {
             REQUIRE(plant.place.x <= 60.01F);
-            if (plant.age <= 2 && forest.year() == 3) { // of the first plant alone
+            if (plant.age <= 2 && forest.year() == 3) { // seedlings of the first plant only
                 REQUIRE(std::hypot(plant.place.x - parent.x, plant.place.y - parent.y) <= 30.01F);
                 ++seedlings;
             }

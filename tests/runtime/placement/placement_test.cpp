@@ -21,10 +21,11 @@ Terrain flat_ground() {
     return Terrain::flat({-100.0, -100.0, 200.0, 200.0}, 3.0).value();
 }
 
-/// The least distance of any two trees, and whether every place has a tree within `spacing`.
+/// The smallest distance of two trees, and the fraction of probed places without a tree within
+/// `spacing`.
 struct Distances {
     double least = 1.0e9;
-    double lonely = 0.0; // part of the probes that have none
+    double lonely = 0.0; // fraction of probes without a tree
 };
 
 Distances distances_of(const LargeVector<Tree>& trees, const Region& region, double spacing) {
@@ -74,7 +75,7 @@ TEST_CASE(
             options.threads = threads;
             CHECK(same_trees(place_trees(options, ground).value().trees, one));
         }
-        options.key += std::uint64_t{1} << 32; // keys are used whole
+        options.key += std::uint64_t{1} << 32; // all 64 bits of a key matter
         CHECK_FALSE(same_trees(place_trees(options, ground).value().trees, one));
     }
 }
@@ -158,10 +159,10 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
         const LargeVector<Tree> trees = place_trees(options, ground).value().trees;
         options.threads = 5;
         CHECK(same_trees(place_trees(options, ground).value().trees, trees));
-        // Nothing but the age is drawn anew.
+        // Only the age is drawn in addition.
         REQUIRE(trees.size() == without.size());
         std::array<std::array<double, kStages>, 2> counts{};
-        double together = 0.0; // pairs of following numbers
+        double together = 0.0; // pairs of consecutive trees in one stage
         for (std::size_t i = 0; i < trees.size(); ++i) {
             CHECK(trees[i].position == without[i].position);
             CHECK(trees[i].scale == without[i].scale);
@@ -178,11 +179,11 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
             for (const double count : of_species) {
                 square += (count - total / kStages) * (count - total / kStages) / (total / kStages);
             }
-            CHECK(square < 18.47); // chi square with 4 degrees of freedom: one key in 1,000
+            CHECK(square < 18.47); // chi-squared with 4 degrees of freedom, significance 0.001
         }
         const auto pairs = static_cast<double>(trees.size() - 1);
         CHECK(std::abs(together / pairs - 0.2) < 4.0 * std::sqrt(0.16 / pairs));
-        // Another key draws others, a start at the first stage none.
+        // With StageStart::First, no stage is drawn.
         options.key = 8;
         options.species[0].start = StageStart::First;
         options.species[1].start = StageStart::First;
@@ -259,7 +260,7 @@ TEST_CASE("uniform places are as many as asked for and evenly spread") {
     for (const double count : counts) {
         chi_squared += (count - 1000.0) * (count - 1000.0) / 1000.0;
     }
-    CHECK(chi_squared > 54.0); // 99 degrees of freedom, 1 in 10,000 on either side
+    CHECK(chi_squared > 54.0); // 99 degrees of freedom, significance 0.0001 on each side
     CHECK(chi_squared < 161.0);
 }
 
@@ -340,14 +341,14 @@ TEST_CASE("Poisson distances hold far from the origin, where coordinates are coa
 }
 
 TEST_CASE("densities of a map are within 2 percent in cells of at least 10,000 expected plants") {
-    // Greys of 0.25 to 1 in 16 cells of 50,000 plants where white; pixels larger and smaller than
-    // the squares of error diffusion.
+    // A map of 16 cells with greys from 0.25 to 1; a white cell has 50,000 plants. Pixels are
+    // larger and smaller than the squares of error diffusion.
     for (const std::uint32_t pixels : {4U, 1200U}) {
         std::vector<std::uint16_t> values;
         for (std::uint32_t row = 0; row < pixels; ++row) {
             for (std::uint32_t column = 0; column < pixels; ++column) {
                 const std::uint32_t cell = row * 4 / pixels * 4 + column * 4 / pixels;
-                // Stripes of pixels, where there are many, whose mean counts.
+                // If a cell has many pixels, they are stripes whose mean is the grey.
                 const double grey = 0.25 + 0.75 * cell / 15.0;
                 const bool bright = (column & 1U) == 0;
                 const double pixel = pixels == 4   ? grey
@@ -369,7 +370,8 @@ TEST_CASE("densities of a map are within 2 percent in cells of at least 10,000 e
                 const auto row = static_cast<std::size_t>((tree.position.z + 100.0F) / 50.0F);
                 counts[4 * row + column] += 1.0;
             }
-            if (method == PlacementMethod::DensityMap) { // owes no more than its last row
+            // Error diffusion loses at most the error of the last row.
+            if (method == PlacementMethod::DensityMap) {
                 CHECK(std::abs(static_cast<double>(trees.size()) - 500'000.0) < 250.0);
             }
             for (std::size_t cell = 0; cell < 16; ++cell) {
@@ -390,7 +392,7 @@ TEST_CASE("nothing grows where a density map is black or ends") {
         const LargeVector<Tree> trees = place_trees(options, flat_ground()).value().trees;
         CHECK(std::abs(static_cast<double>(trees.size()) - 80.0) < 15.0);
         for (const Tree& tree : trees) {
-            // A square of error diffusion may reach over the border.
+            // A square of error diffusion may extend beyond the border.
             REQUIRE(tree.position.x > -1.6F);
             REQUIRE(tree.position.x < 11.6F);
             REQUIRE(std::abs(tree.position.z) < 11.6F);
@@ -434,7 +436,7 @@ TEST_CASE("species keep to their altitudes and slopes, and others take their pla
     CHECK_THAT(placement_note(placement.report),
                Catch::Matchers::EndsWith("of 12000 places have no tree: no species can live there, "
                                          "by its limits of altitude and slope"));
-    // Numbers do not depend on who can live where.
+    // Numbers of trees do not depend on the limits of species.
     options.species = {{}};
     const LargeVector<Tree> all = place_trees(options, ground).value().trees;
     for (const Tree& tree : placement.trees) {

@@ -27,7 +27,7 @@ TEST_CASE("4 by 4 tiles together are the whole, tree by tree") {
     const Terrain ground = Terrain::noise({0.0, 0.0, 100.0, 100.0}, noise).value();
     for (const PlacementMethod method : kTileableMethods) {
         REQUIRE(is_tileable(method));
-        // Sizes that fit no cell, and places of both signs.
+        // Sizes that are no multiple of a cell, and coordinates of both signs.
         for (const double side : {60.0, 97.3}) {
             CAPTURE(static_cast<int>(method), side);
             PlacementOptions options = small_forest(method, map, side);
@@ -60,7 +60,7 @@ TEST_CASE("a tile among many blocks of a Poisson sample is what the whole has th
     const GreyMap none;
     const Terrain ground = Terrain::flat({0.0, 0.0, 1.0, 1.0}).value();
     PlacementOptions options = small_forest(PlacementMethod::PoissonCells, none, 300.0);
-    options.spacing = 1.0; // several blocks in each direction
+    options.spacing = 1.0; // small enough for several blocks in each direction
     const LargeVector<Tree> whole = trees_of(options, ground);
     PlacementOptions tile = options;
     tile.region = {-20.7, 31.1, 33.3, 12.9};

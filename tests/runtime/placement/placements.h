@@ -27,7 +27,8 @@ grey_map(std::uint32_t columns, std::uint32_t rows, const std::vector<std::uint1
     return map;
 }
 
-/// Columns get brighter from black to white, rows from half to whole.
+/// A map whose columns get brighter from black to white, and whose rows from half to full
+/// brightness.
 inline GreyMap sloped_map(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint16_t> values;
     for (std::uint32_t row = 0; row < rows; ++row) {

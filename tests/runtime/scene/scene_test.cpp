@@ -1,5 +1,5 @@
-// Scene files: what each key becomes, its default, and what is said of mistakes. No file that a
-// scene names is opened.
+// Scene files: the value and default of each key, and messages about mistakes. Files named by a
+// scene are not opened.
 #include "grammar/base/source.h"
 #include "runtime/scene/scene.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 struct Parsed {
     std::optional<Scene> scene;
-    std::string messages; // `line:column-column: text [code]`, and what else there is
+    std::string messages; // `line:column-column: text [code]`, then labels and help
 };
 
 Parsed parsed(std::string text) {
@@ -62,7 +62,7 @@ Scene scene_of(std::string text) {
     return std::move(*all.scene);
 }
 
-/// With one species.
+/// Appends a species to a scene.
 std::string with_species(const std::string& text) {
     return text + "\n[[species]]\ngrammar = \"a.lsys\"\n";
 }

@@ -35,7 +35,7 @@ map_of(std::uint32_t columns, std::uint32_t rows, const std::vector<std::uint16_
     return map;
 }
 
-/// Grey is 100 column + 1,000 row: a plane, which either filter must give exactly.
+/// A map with grey = 100 column + 1,000 row: a plane, which each filter must reproduce exactly.
 GreyMap plane(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint16_t> values;
     for (std::uint32_t row = 0; row < rows; ++row) {
@@ -72,7 +72,7 @@ TEST_CASE("noise stays within its heights and is a function of its seed") {
     options.feature = 60.0;
     const Terrain terrain = Terrain::noise(kGround, options).value();
     const Terrain again = Terrain::noise({0.0, 0.0, 10.0, 10.0}, options).value();
-    options.seed = std::uint64_t{1} << 40; // seeds are used whole
+    options.seed = std::uint64_t{1} << 40; // all 64 bits of a seed matter
     const Terrain other = Terrain::noise(kGround, options).value();
     float lowest = 1.0e9F;
     float highest = -1.0e9F;
@@ -129,12 +129,12 @@ TEST_CASE("both filters pass through the pixels and keep a plane") {
     for (const HeightFilter filter : {HeightFilter::Bilinear, HeightFilter::Bicubic}) {
         const Terrain terrain =
             Terrain::height_map(kGround, plane(11, 7), {0.0, 65.535, filter}).value();
-        // 1 mm a grey value; columns are 100 m apart and so are rows
+        // A grey value is 1 mm; columns and rows are 100 m apart.
         CHECK(terrain.height(-500.0F, -300.0F) == Approx(0.0).margin(1e-6));
         CHECK(terrain.height(500.0F, 300.0F) == Approx(1.0 + 6.0));
         CHECK(terrain.height(-150.0F, 25.0F) == Approx(0.35 + 3.25));
         CHECK(terrain.height(-499.0F, 299.0F) == Approx(0.001 + 5.99));
-        CHECK(terrain.height(-900.0F, -300.0F) == Approx(0.0).margin(1e-6)); // level beyond
+        CHECK(terrain.height(-900.0F, -300.0F) == Approx(0.0).margin(1e-6)); // level beyond the map
         for (const float x : {-500.0F, 0.0F, 500.0F}) {
             const glm::vec3 normal = terrain.normal(x, 10.0F);
             CHECK(normal.x == Approx(-0.001).epsilon(1e-3));
@@ -222,7 +222,7 @@ TEST_CASE("pictures of the ground lie as tiles from their origin on") {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3 at = mesh.positions[i];
         const glm::vec2 uv = mesh.texture_coordinates[i];
-        // Tiles from the origin, but for whole ones.
+        // Texture coordinates count tiles from the origin, up to a whole number.
         const float tiles_x = uv.x - (at.x - 3.0F) / 8.0F;
         const float tiles_z = uv.y - (at.z + 1.0F) / 5.0F;
         REQUIRE(tiles_x == Approx(std::round(tiles_x)).margin(1e-4));

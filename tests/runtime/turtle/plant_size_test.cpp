@@ -14,7 +14,7 @@ constexpr double kDensity = 500.0;
 constexpr StemMaterial kWood{kDensity, 9e9};
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-/// A rod whose mass is that of its volume.
+/// A rod of wood, with the mass of its volume.
 Segment wood(float length, float radius) {
     const auto wide = static_cast<double>(radius);
     return test::rod(length, radius, 30.0F,
@@ -45,7 +45,7 @@ double width_of(const Segment& segment) {
     return 2.0 * static_cast<double>(segment.base_radius);
 }
 
-/// The definition, read literally: widths from those of the children, with pow of libm.
+/// Widths directly by the definition, from the widths of the children, with std::pow.
 std::vector<double> widths_by_definition(const Skeleton& plant, double exponent, double tip) {
     std::vector<double> sums(plant.segments.size(), 0.0);
     std::vector<double> widths(plant.segments.size(), 0.0);
@@ -102,7 +102,7 @@ TEST_CASE("widths of any plant satisfy the pipe model") {
         for (std::size_t i = 0; i < expected.size(); ++i) {
             CHECK(width_of(plant.segments[i]) == Approx(expected[i]).epsilon(1e-6));
             CHECK(plant.segments[i].length == before.segments[i].length);
-            CHECK(plant.segments[i].mass == before.segments[i].mass); // the author's
+            CHECK(plant.segments[i].mass == before.segments[i].mass); // given by the author
         }
         for (std::size_t i = 0; i < plant.objects.size(); ++i) {
             CHECK(plant.objects[i].size == before.objects[i].size);
@@ -145,7 +145,7 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
                                         static_cast<double>(segment.base_radius),
                                         static_cast<double>(segment.tip_radius), kWood.elasticity);
     }
-    plant.segments[5].mass = 1.25F; // the author's
+    plant.segments[5].mass = 1.25F; // given by the author
     plant.segments[7].spring = 30.0F;
     const Skeleton before = plant;
     const double old_height = height_of(before);
@@ -163,7 +163,7 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
         check_close(now.tip_radius, then.tip_radius, factor);
         CHECK(now.frame == then.frame);
         const double volumes = i == 5 ? 1.0 : factor * factor * factor;
-        // d^4 / l: as the volume.
+        // A spring scales with d^4 / l, as the volume does.
         CHECK(static_cast<double>(now.spring) ==
               Approx((i == 7 ? 1.0 : factor * factor * factor) * static_cast<double>(then.spring))
                   .epsilon(1e-5));
@@ -183,7 +183,7 @@ TEST_CASE("a flat plant has no height, an empty one needs none") {
     CHECK(height_of(empty) == 0.0);
     Skeleton flat;
     test::add_segment(flat, kNoSegment, test::leaning(1.5707964F), wood(2.0F, 0.1F));
-    CHECK_FALSE(scale_to_height(1.0, kWood, flat)); // though its tip is 1e-7 m off
+    CHECK_FALSE(scale_to_height(1.0, kWood, flat)); // although its tip is 1e-7 m above the base
     CHECK(flat.segments[0].length == 2.0F);
     Skeleton point;
     point.objects.emplace_back();

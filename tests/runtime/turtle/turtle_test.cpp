@@ -26,7 +26,7 @@ struct Drawing {
     }
 };
 
-/// Gives symbols of the usual names their operations of the default profile.
+/// Gives symbols with the names of the default profile their operations.
 void give_operations(Bytecode& bytecode) {
     using enum TurtleOperation;
     const std::vector<std::pair<std::string, TurtleOperation>> known{
@@ -72,7 +72,7 @@ Drawing draw(const std::string& word) {
 } // namespace
 
 TEST_CASE("ten million rotations leave the frame orthonormal and exact") {
-    // Each round of the word turns back to where it began, so the last F lies as the first.
+    // Each repetition of the word restores the frame, so the last F has the direction of the first.
     Bytecode bytecode = BytecodeBuilder().axiom("F+(17)&(23)/(31)\\(31)^(23)-(17)").build();
     give_operations(bytecode);
     DeriveOptions derive;
@@ -130,7 +130,7 @@ TEST_CASE("length, width, spring and mass of a segment are its parameters") {
     CHECK(s[3].base_radius == 0.5F);
     CHECK(s[3].tip_radius == 0.25F);
     CHECK(s[3].spring == Approx(9e9 * 3.14159265 / 64.0 * std::pow(0.75, 4) / 3.0));
-    // Backwards: from where the turtle was, the other way.
+    // A negative length draws backwards from the turtle's position.
     CHECK(s[4].length == 2.0F);
     CHECK(heading(s[4].frame).y == Approx(-1.0F));
     CHECK(s[4].base.y == Approx(9.0F));
@@ -162,7 +162,8 @@ TEST_CASE("polygons have the vertices of their dots, or else the ends of their s
 }
 
 TEST_CASE("polygons open and close along the word, apart from branches") {
-    // Begun before a branch and ended in it; begun in a branch and ended behind it.
+    // A polygon begun before a branch and ended in it, and one begun in a branch and ended after
+    // it.
     const Drawing into = draw("{.f(1).[+(90)f(1).}]f(1).");
     REQUIRE(into.skeleton.polygons.size() == 1);
     CHECK(into.skeleton.polygons[0].corner_count == 3);

@@ -1,5 +1,5 @@
-// Trees that come and go after a forest was made: the same is listed as if they had always, or
-// never, been there.
+// Trees added to or removed from a forest after it was made: draw lists are as if they had always,
+// or never, been there.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/painter.h"
 
@@ -15,7 +15,7 @@ using namespace lsys::view;
 
 namespace {
 
-/// A tree that is drawn, by its place, and as what: branches of a level, or kTreeLevels.
+/// A drawn tree: its place, and the level of its branches, or kTreeLevels for an impostor.
 using DrawnTree = std::array<float, 4>;
 
 std::vector<DrawnTree> drawn_by(ForestLod& lod, const Camera& camera) {
@@ -53,7 +53,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     trees.resize(2000);
     ForestLod changed(part->model);
     ForestLod wanted(whole->model);
-    // Looked at before, so that lists and pool have to follow.
+    // Select once before the change, so that lists and pool must be updated.
     static_cast<void>(drawn_by(changed, over_all()));
     for (std::uint32_t i = 0; i < last.size(); ++i) {
         CHECK(changed.change_tree(2000 + i, last[i], true) == 2000 + i);
@@ -62,7 +62,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     CHECK(drawn_by(changed, over_all()) == drawn_by(wanted, over_all()));
     const Camera inside{{100.0F, 2.0F, 100.0F}, {0.0F, 2.0F, 50.0F}, 50.0F};
     CHECK(drawn_by(changed, inside) == drawn_by(wanted, inside));
-    // Every third goes, placed and added alike.
+    // Remove every third tree, placed ones and added ones.
     for (std::uint32_t i = 0; i < 3000; i += 3) {
         static_cast<void>(changed.change_tree(i, whole->forest.trees[i], false));
     }
@@ -83,7 +83,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     std::vector<std::uint32_t> found;
     changed.find_within(all, found);
     CHECK(found.size() == left.size());
-    // And they come back.
+    // Add the removed trees again.
     for (std::uint32_t i = 0; i < 3000; i += 3) {
         static_cast<void>(changed.change_tree(i, whole->forest.trees[i], true));
         static_cast<void>(changed.change_tree(i, whole->forest.trees[i], true));

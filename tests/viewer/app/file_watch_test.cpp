@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Reports of a watch.
+/// Collects the reports of a watch.
 class Told {
 public:
     void add(const std::vector<std::string>& files) {
@@ -26,7 +26,7 @@ public:
         ++times_;
         changed_.notify_all();
     }
-    /// Whether a change of `file` is told within a long time; forgets it.
+    /// Waits for a report of `file` and removes it; returns false after a long time.
     bool waits_for(const std::string& file) {
         std::unique_lock lock(mutex_);
         const bool told = changed_.wait_for(lock, 10s, [&] {
@@ -59,7 +59,7 @@ struct Watching {
 
 FileWatch::Options with_inotify() {
     FileWatch::Options options;
-    options.poll = 1h; // or it would not be inotify that is tested
+    options.poll = 1h; // so long that only inotify can report in time
     options.missing = 20ms;
     return options;
 }
@@ -72,7 +72,7 @@ FileWatch::Options without_inotify() {
     return options;
 }
 
-/// The thread of the watch has taken up what it is to watch.
+/// Waits until the thread of the watch has begun to watch the requested files.
 void settle() {
     std::this_thread::sleep_for(100ms);
 }

@@ -1,4 +1,4 @@
-// The view of a forest without a window: swap of forests, painting, the scene file.
+// ForestView without a window: swap of forests, painting, the scene file.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -46,7 +46,7 @@ ViewOptions forest_options(const std::string& file) {
     return options;
 }
 
-/// The views of a window that was opened with a scene, and what they say.
+/// The views of a window opened with a scene, and their output.
 class ViewedForest {
 public:
     explicit ViewedForest(const ViewOptions& options)
@@ -57,7 +57,8 @@ public:
 
     ForestView& forest() { return *views.forest(); }
 
-    /// One picture, as a window makes it. `seconds` that it is said to have taken.
+    /// Updates and draws once, as a window does; returns whether it drew. `seconds`: reported draw
+    /// time.
     bool step(double seconds = 0.0) {
         views.current().update();
         const bool drew = views.current().draw(kWidth, kHeight);
@@ -66,7 +67,7 @@ public:
         }
         return drew;
     }
-    /// Steps until `done`, but not for ever.
+    /// Steps until `done`; returns false after a long time.
     template <typename Condition>
     bool until(Condition&& done) {
         for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
@@ -91,7 +92,7 @@ public:
         renderer->read(pixels);
         return pixels;
     }
-    /// Looks straight down on a place.
+    /// Points the camera straight down on a place.
     void look_at(float x, float z) {
         forest().settings.camera = {{x, 60.0F, z + 0.1F}, {x, 0.0F, z}, 40.0F};
     }
@@ -117,7 +118,7 @@ public:
     ViewSwitcher views;
 };
 
-/// A scene and its grammar in a folder of their own.
+/// A scene and its grammar in a temporary folder.
 struct WoodFolder {
     explicit WoodFolder(const std::string& text) : scene(folder / "wood.toml") {
         write_text(folder / "bush.lsys", kBush);
@@ -147,7 +148,7 @@ TEST_CASE("a scene is shown, and one that changes in its place") {
     write_text(files.scene, wood(20));
     REQUIRE(viewed.until_trees(20));
     CHECK(viewed.picture() != before);
-    // A grammar named by the scene.
+    // Change a grammar that the scene names.
     const std::uint64_t swaps = viewed.forest().stats().swaps;
     wait_for_watch();
     write_text(files.folder / "bush.lsys",
@@ -175,7 +176,7 @@ TEST_CASE("a scene or grammar in error leaves the picture as it was") {
     write_text(files.folder / "bush.lsys", "#n = 3;\n#w : F(;\n");
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
     CHECK(viewed.forest().messages().find("bush.lsys:2:") != std::string::npos);
-    // A slider does not hide that the grammar is in error.
+    // Moving a slider does not hide the error in the grammar.
     viewed.forest().settings.edits.key = 9;
     for (int i = 0; i < 50; ++i) {
         viewed.step();
@@ -301,11 +302,11 @@ TEST_CASE("a forest that plays has no jumps between two moments, and pauses at a
     for (const auto& [number, height] : heights()) {
         tallest = std::max(tallest, height);
     }
-    forest.settings.years_per_second = 4.0F; // at most a year in a step
+    forest.settings.years_per_second = 4.0F; // at most a year per step
     forest.play_or_pause();
     std::map<std::uint32_t, double> before;
     double last = -1.0;
-    double largest = 0.0; // m a year
+    double largest = 0.0; // m/year
     std::uint64_t moments = 0;
     const auto compare = [&] {
         if (!forest.grown() || forest.stats().moments == moments) {
@@ -335,7 +336,8 @@ TEST_CASE("a forest that plays has no jumps between two moments, and pauses at a
     INFO(moments << " moments, at most " << largest << " m a year; trees up to " << tallest
                  << " m");
     CHECK(moments > 8);
-    // Seedlings and dying trees are eased, 1.5 times as fast at most; a jump would be a tree at once.
+    // Seedlings and dying trees change their height with easing, at most 1.5 times the mean rate; a
+    // jump would be a whole tree at once.
     CHECK(largest < 1.5 * tallest);
     forest.play_or_pause();
     REQUIRE(viewed.until([&] { return !forest.grown() && !forest.is_busy(); }));
@@ -359,7 +361,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
     CHECK(forest.painting().tree_count() == 59);
     viewed.look_at(30.0F, 30.0F);
     const std::vector<std::uint8_t> painted = viewed.picture();
-    // The eye above a place is where the tree stands.
+    // The camera looks straight down, so the tree stands below the eye.
     const std::uint64_t swaps = forest.stats().swaps;
     CHECK(forest.is_unsaved());
     forest.save();
@@ -369,7 +371,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
         viewed.step();
         std::this_thread::sleep_for(3ms);
     }
-    CHECK(forest.stats().swaps == swaps); // nobody else has changed the file
+    CHECK(forest.stats().swaps == swaps); // the view's own save does not reload the scene
     forest.redo();
     CHECK(forest.painting().tree_count() == 60);
     forest.undo();
@@ -413,7 +415,7 @@ TEST_CASE("what was painted is saved to the scene shown, not to one with errors 
     viewed.press();
     REQUIRE(viewed.forest().painting().tree_count() == 51);
     viewed.views.open(broken);
-    CHECK(viewed.forest().file() == files.scene); // asks first
+    CHECK(viewed.forest().file() == files.scene); // the first call only warns
     viewed.views.open(broken);
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
     CHECK(viewed.forest().file() == broken);
@@ -424,7 +426,7 @@ TEST_CASE("what was painted is saved to the scene shown, not to one with errors 
     const std::string saved = read_text(files.scene);
     CHECK(saved.starts_with(wood(50)));
     CHECK(saved.find("[painted]") != std::string::npos);
-    // The other scene comes without what was painted in the first.
+    // The other scene does not have the trees painted in the first.
     wait_for_watch();
     write_text(broken, wood(70));
     REQUIRE(viewed.until_trees(70));
@@ -469,7 +471,7 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
     CHECK(viewed.picture() == row);
     forest.undo();
     CHECK(forest.painting().tree_count() == 1);
-    // Nothing is painted into the sky.
+    // The tool does nothing where the picture shows the sky.
     forest.settings.camera = {{30.0F, 20.0F, 30.0F}, {30.0F, 40.0F, 0.0F}, 40.0F};
     forest.apply_tool({0.0F, 0.0F}, true, false);
     CHECK(forest.painting().tree_count() == 1);
@@ -492,11 +494,11 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
     forest.undo();
     CHECK(forest.painting().tree_count() == 50);
     forest.redo();
-    // Other trees were placed: what was painted stays.
+    // After other trees were placed, painted trees stay.
     forest.settings.edits.count = 70;
     REQUIRE(viewed.until_trees(71));
     CHECK(forest.is_unsaved());
-    // Somebody else paints into the file.
+    // Another program writes painted trees to the scene file.
     wait_for_watch();
     write_text(files.scene, wood(50) + "\n[painted]\ntrees = [[\"bush\", 1, 1, 0, 1]]\n");
     REQUIRE(viewed.until([&] { return forest.note().find("has changed") != std::string::npos; }));
@@ -546,7 +548,7 @@ TEST_CASE("slow pictures are coarser while something moves, and whole when all r
     const std::vector<std::uint8_t> whole = viewed.picture();
     forest.settings.camera = moved(forest.settings.camera, 1.0F, 0.0F, 0.0F);
     REQUIRE(viewed.step(1.0));
-    CHECK_FALSE(forest.is_coarse()); // nobody knew
+    CHECK_FALSE(forest.is_coarse()); // no earlier picture was slow
     viewed.look_at(30.0F, 30.0F);
     REQUIRE(viewed.step(1.0));
     CHECK(forest.is_coarse());
@@ -584,7 +586,7 @@ TEST_CASE("another scene is opened without options, heroes and painting of the f
     CHECK_FALSE(forest.document()->grown.reused_species[0]);
     CHECK_FALSE(forest.is_unsaved());
     CHECK_FALSE(forest.failed());
-    // Heroes of a scene in another folder are not those of the scene before it.
+    // Heroes of the previous scene are not reused for a scene in another folder.
     forest.open(first.scene);
     REQUIRE(viewed.until_trees(50));
     CHECK_FALSE(forest.document()->grown.reused_species[0]);
@@ -609,7 +611,7 @@ TEST_CASE("dropped files show plants and forests in turn") {
     drop(files.scene);
     REQUIRE(viewed.views.forest() != nullptr);
     REQUIRE(viewed.until_swaps(1));
-    // Not before what was painted was saved, unless asked twice.
+    // With unsaved painting, the first drop or request to close only warns.
     viewed.look_at(30.0F, 30.0F);
     viewed.forest().settings.tool = PaintTool::OneTree;
     viewed.press();
@@ -648,7 +650,7 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
     press(Key::O);
     CHECK(settings.tool == PaintTool::OneTree);
     WindowInput input;
-    // The middle of a picture that begins 100 pixels from the left.
+    // The middle of the picture, which begins 100 pixels from the left.
     input.pointer_events = {{{148.0F, 32.0F}, PointerEvent::Kind::Press, false},
                             {{149.0F, 32.0F}, PointerEvent::Kind::Move, false},
                             {{149.0F, 32.0F}, PointerEvent::Kind::Release, false}};

@@ -21,7 +21,7 @@ ViewOptions options_of(const std::string& file) {
     return options;
 }
 
-/// Next outcome, or none after a long time.
+/// The next outcome; an empty one after a long time.
 LoadOutcome wait_for(PlantLoader& loader) {
     for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
         if (std::optional<LoadOutcome> outcome = loader.take()) {
@@ -33,7 +33,7 @@ LoadOutcome wait_for(PlantLoader& loader) {
     return {};
 }
 
-// Doubles for ever, with a condition that takes time.
+// The word doubles in each generation, with a condition that takes time.
 constexpr const char* kEndless = "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n"
                                  "#q : A(x) : x < 0 : F;\n";
 
@@ -74,7 +74,7 @@ TEST_CASE("the newest request wins, and what takes long is given up") {
     endless.run.limits.max_modules = std::uint64_t{1} << 42;
     PlantLoader loader([] {});
     loader.request(endless, SteadyClock::now());
-    std::this_thread::sleep_for(50ms); // it is being made
+    std::this_thread::sleep_for(50ms); // wait until the request runs
     ViewOptions newer = options_of(sample("teach-param"));
     for (std::uint32_t n = 1; n <= 4; ++n) {
         newer.grammar.generations = n;

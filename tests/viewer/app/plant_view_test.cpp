@@ -1,4 +1,4 @@
-// The view of a plant without a window: swap of plants, pictures.
+// PlantView without a window: swap of plants, pictures.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
@@ -27,7 +27,7 @@ ViewOptions plant_options(const std::string& file) {
     return options;
 }
 
-/// A view of `file` and what it says.
+/// A view of `file` and its output.
 class ViewedPlant {
 public:
     explicit ViewedPlant(const ViewOptions& options)
@@ -36,14 +36,14 @@ public:
           renderer(std::move(Renderer::make(built_in_shader).value())),
           view(options, console_, *renderer, [] {}) {}
 
-    /// One picture, as a window makes it.
+    /// Updates and draws once, as a window does.
     void step() {
         view.update();
         if (view.draw(64, 48)) {
             view.picture_shown(0.0);
         }
     }
-    /// Steps until `done`, but not for ever.
+    /// Steps until `done`; returns false after a long time.
     template <typename Condition>
     bool until(Condition&& done) {
         for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 30s;) {
@@ -117,7 +117,7 @@ TEST_CASE("a file that changes is shown, and one in error leaves the picture as 
     REQUIRE(viewed.until_swaps(1));
     CHECK(viewed.err.str().find("loaded " + file + ": 2 modules, 2 segments") != std::string::npos);
     const std::vector<std::uint8_t> before = viewed.picture();
-    // The watch has to have begun.
+    // Wait until the watch has begun.
     std::this_thread::sleep_for(100ms);
     write_text(file, plant(9));
     REQUIRE(viewed.until([&] { return viewed.view.document()->plant.modules == 9; }));
@@ -139,7 +139,7 @@ TEST_CASE("a plant that draws nothing is reported, and one that draws is not") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     const std::string text = "lsview: the plant has nothing to draw after 1 generation\n";
-    // Neither a bud nor a segment without length is visible.
+    // A declared module is not drawn, and a segment without length is invisible.
     for (const char* const axiom : {"A", "f(1) F(0)"}) {
         write_text(file, std::string("#n = 1;\n#module A;\n#w : ") + axiom + ";\n");
         const LscRun run = run_lsview({file, "--screenshot", folder / "a.png", "--size", "8x8"});
@@ -199,7 +199,7 @@ TEST_CASE("settings make the plant anew, and constants that vanish are let go") 
     REQUIRE(viewed.until(
         [&] { return viewed.view.document()->plant.skeleton.segments[0].length == 4.0F; }));
     CHECK(viewed.view.default_generations() == 3);
-    // Outside of its bounds: an error, and back.
+    // A value outside of the bounds is an error; a value within them ends it.
     viewed.view.settings.definitions[0].value = 9.0F;
     REQUIRE(viewed.until([&] { return viewed.view.failed(); }));
     viewed.view.settings.definitions[0].value = 3.0F;
@@ -269,7 +269,7 @@ TEST_CASE("a setting turned and written back is one line of the file, with the s
     REQUIRE(again.until_swaps(1));
     CHECK(vertices_of(again.view) == turned);
 
-    // The number of the statement alone.
+    // Only the number of the statement changes.
     viewed.view.settings.set_values = {{"step", "0.5"}};
     REQUIRE(viewed.until(
         [&] { return viewed.view.document()->grammar.bytecode.settings.step == 0.5F; }));
@@ -347,7 +347,7 @@ TEST_CASE("growth plays from the axiom to the end, with moments between generati
     }));
     CHECK(was_between);
     CHECK(viewed.view.stats().moments >= 2);
-    // At the end it is the plant itself.
+    // At the end of the growth, the plant itself is shown.
     REQUIRE(viewed.until_swaps(2));
     viewed.step();
     CHECK(viewed.view.grown() == nullptr);
@@ -357,7 +357,7 @@ TEST_CASE("growth plays from the axiom to the end, with moments between generati
 
 TEST_CASE("growth that is paused stays, goes on, and makes way for a whole generation") {
     ViewOptions options = plant_options(sample("teach-param"));
-    options.grow = true; // plays at once
+    options.grow = true; // growth starts to play
     ViewedPlant viewed(options);
     REQUIRE(viewed.until([&] {
         const FilmMoment* const grown = viewed.view.grown();
@@ -491,7 +491,7 @@ TEST_CASE("the mouse orbits, pans and zooms") {
     CHECK_FALSE(camera.eye == before.eye);
     camera = before;
     input = {};
-    input.right_drag = {60.0F, 0.0F}; // the picture follows the mouse to the right
+    input.right_drag = {60.0F, 0.0F}; // the picture moves to the right with the mouse
     apply(input);
     CHECK(glm::dot(camera.target - before.target, right_of(before)) < 0.0F);
     camera = before;
@@ -513,7 +513,7 @@ TEST_CASE("shaders that change are compiled, and those with mistakes leave the p
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
     const std::vector<std::uint8_t> before = viewed.picture();
-    std::this_thread::sleep_for(100ms); // the watch has begun
+    std::this_thread::sleep_for(100ms); // wait until the watch has begun
     const std::string sky = read_text(folder / "sky.frag.glsl");
     write_text(folder / "sky.frag.glsl", "out vec4 colour;\nvoid main() { colour = x; }\n");
     REQUIRE(viewed.until([&] { return !viewed.view.shader_message().empty(); }));

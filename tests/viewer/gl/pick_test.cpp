@@ -1,4 +1,4 @@
-// What a pixel shows, compared with rays through all triangles of a forest; colours of branches.
+// Compares picks with rays through all triangles of a forest; tests colours of branches.
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"
@@ -99,7 +99,7 @@ nearest(const std::vector<Triangle>& triangles, const glm::vec3& eye, const glm:
     return {first, second};
 }
 
-/// One bush that fills a picture, near enough for the finest level, and others behind it.
+/// A wood of three bushes; the first fills the picture and is near enough for the finest level.
 struct PickedWood {
     std::unique_ptr<HeadlessContext> context = std::move(HeadlessContext::make().value());
     std::unique_ptr<Renderer> renderer = std::move(Renderer::make(built_in_shader).value());
@@ -141,14 +141,15 @@ struct PickedWood {
 
 TEST_CASE("a picked branch is the one that a ray through the middle of the pixel meets first") {
     PickedWood wood;
-    // Heights of trees in pixels decide on levels: a large picture of which a part is picked.
+    // Levels depend on the heights of trees in pixels, so a larger picture is needed for the finest
+    // level.
     wood.show();
     std::size_t branches = 0;
     std::size_t wrong = 0;
     std::set<std::uint32_t> instances;
     for (std::uint32_t y = 1; y < kHeight; y += 3) {
         for (std::uint32_t x = 1; x < kWidth; x += 3) {
-            // The same view in a picture 16 times as large shows the finest level.
+            // The same view in a picture 16 times as large has the finest level.
             Frame large = wood.frame;
             large.width *= 16;
             large.height *= 16;
@@ -167,7 +168,8 @@ TEST_CASE("a picked branch is the one that a ray through the middle of the pixel
             const bool is_branch = picked.value().kind == PickedKind::Branch &&
                                    picked.value().tree.number == first.tree;
             if (!is_hit || second.distance - first.distance < 0.02F) {
-                continue; // a tree farther off, of a coarser level, or two surfaces in one place
+                // Skip farther trees, which have a coarser level, and places with two surfaces.
+                continue;
             }
             ++branches;
             const bool is_right = is_branch && picked.value().instance == first.instance &&
@@ -180,7 +182,7 @@ TEST_CASE("a picked branch is the one that a ray through the middle of the pixel
     INFO(branches << " pixels with branches, " << instances.size() << " of them different");
     CHECK(branches > 15);
     CHECK(instances.size() > 3);
-    CHECK(wrong <= branches / 50); // at edges: vertices are rounded on the device
+    CHECK(wrong <= branches / 50); // at edges, since vertices are rounded on the device
     CHECK(wood.renderer->errors().empty());
 }
 
@@ -198,7 +200,7 @@ TEST_CASE("a pick tells sky, ground and impostors apart, and leaves the picture 
     wood.renderer->read(after);
     CHECK(before == after);
     CHECK(wood.renderer->trees_of(0) == std::vector<std::uint32_t>{0, 1, 2});
-    // From afar trees are impostors.
+    // From far away, trees are impostors.
     const Tree& tree = wood.wood->forest.trees[0];
     const float height = tree.scale * wood.wood->model.forms[0].height();
     wood.frame.camera.eye =
@@ -221,7 +223,7 @@ TEST_CASE("a pixel of a branch has the colour of its id, age or hero") {
     const ForestModel& model = wood.wood->model;
     const InstanceCache& cache = *model.forms[0].cache;
     wood.show();
-    // Large enough for branches.
+    // A picture large enough for branches.
     constexpr std::uint32_t kTimes = 8;
     wood.frame.width = kTimes * kWidth;
     wood.frame.height = kTimes * kHeight;
@@ -283,7 +285,7 @@ TEST_CASE("colours of branches are distinct and the same everywhere") {
             }
         }
     }
-    // Ages become lighter.
+    // Colours of ages get lighter.
     const auto luma = [](std::uint32_t age) {
         const glm::vec3 colour = branch_colour(BranchColours::Age, age, 20);
         return 0.2126F * colour.r + 0.7152F * colour.g + 0.0722F * colour.b;

@@ -1,4 +1,4 @@
-// Patches and heights of the ground that is drawn, beside the terrain itself.
+// Compares patches and heights of the drawn ground with the terrain itself.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless_context.h"
@@ -65,7 +65,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
         for (const TerrainPatch& patch : lod.patches()) {
             const HeightGrid& grid = lod.grid(patch.level);
             REQUIRE(grid.is_valid);
-            // A cell more on each side, for normals.
+            // The grid has one more cell on each side, for normals.
             constexpr auto kCells = static_cast<std::int32_t>(kPatchCells);
             REQUIRE(patch.x - 1 >= grid.origin.x);
             REQUIRE(patch.z - 1 >= grid.origin.y);
@@ -120,8 +120,8 @@ TEST_CASE("nothing in view is left out") {
     }
 }
 
-// The surface between corners: a cell of 0.5 m near the eye leaves millimetres, and what is left
-// farther away stays within 0.25 % of the distance, a pixel or two.
+// Between corners, the surface differs from the terrain by millimetres near the eye, with cells of
+// 0.5 m, and by at most 0.25 % of the distance farther away: a pixel or two.
 TEST_CASE("the surface that is drawn is near the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
@@ -161,7 +161,7 @@ TEST_CASE("the ground is the same wherever the camera was before") {
             CHECK(used.grid(level).heights == fresh.grid(level).heights);
         }
     }
-    // A step of the camera leaves the heights as they are.
+    // Selecting again for the same camera updates no heights.
     used.select(frustum);
     CHECK(used.changed().empty());
 }

@@ -46,7 +46,7 @@ TEST_CASE("parts of a camera may be left out") {
     const Camera narrow = with_parts("fov 20", first);
     CHECK(narrow.eye == first.eye);
     CHECK(narrow.field_of_view == 20.0F);
-    CHECK(with_parts("target 1,2,30", first) == first); // eye and target at one place
+    CHECK(with_parts("target 1,2,30", first) == first); // refused: eye and target are equal
 }
 
 TEST_CASE("what is no camera is refused in words") {

@@ -1,4 +1,4 @@
-// LOD bands against a search tree by tree.
+// Compares LOD bands with a search tree by tree.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/impostor_plan.h"
 
@@ -33,13 +33,13 @@ std::vector<Camera> cameras() {
             looking({-3000, 50, 100}, {100, 0, 100}, 20.0F)};
 }
 
-/// Trees with branches in lod.
+/// Count of trees drawn as branches.
 std::uint64_t branch_trees(const DrawLists& lists) {
     return std::accumulate(lists.trees_of_level.begin(), lists.trees_of_level.end(),
                            std::uint64_t{0});
 }
 
-/// Draw list of branches: tree, instance, level.
+/// The draw list of branches as (tree, instance, level).
 std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const DrawLists& lists) {
     std::vector<std::array<std::uint32_t, 3>> branches;
     for (const BranchRun& run : lists.runs) {
@@ -62,7 +62,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
     for (const Camera& camera : cameras()) {
         const Frustum frustum = make_frustum(camera, 640, 480);
         const DrawLists& lists = lod.select(frustum, wood_lod());
-        std::map<std::uint32_t, float> near; // weight of its branches
+        std::map<std::uint32_t, float> near; // by tree: weight of its branches
         std::map<std::uint32_t, std::set<std::uint32_t>> levels;
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
@@ -101,12 +101,12 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
         for (const std::vector<BlendRange>& of_tree : ranges) {
             drawn += of_tree.empty() ? 0U : 1U;
         }
-        // Trees of a cell that blends may be out of view themselves.
+        // A blended cell may have trees out of view.
         CHECK(drawn >= branch_trees(lists) + lists.far_trees + lists.clustered_trees);
         CHECK(drawn <=
               branch_trees(lists) + lists.far_trees + lists.clustered_trees + lists.blended);
         blended += lists.blended;
-        // One by one: nothing that is in view is left out, and nothing is drawn twice.
+        // Check tree by tree: no tree in view is missing, and none is drawn twice.
         const glm::mat4 matrix =
             projection_matrix(camera, 640.0F / 480.0F, 0.1F) * view_matrix(camera);
         for (std::uint32_t t = 0; t < lod.trees().size(); ++t) {
@@ -123,7 +123,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
             CAPTURE(t, to_text(camera));
             REQUIRE(ranges[t].size() <= 2);
             if (ranges[t].size() == 2) {
-                // Each pixel number is in one of them.
+                // The two ranges cover all dither thresholds.
                 CHECK(ranges[t][0].low == 0.0F);
                 CHECK(ranges[t][1].high == 1.0F);
                 REQUIRE(ranges[t][0].high == ranges[t][1].low);
@@ -148,7 +148,7 @@ TEST_CASE("what comes nearer blends from one LOD band to the next") {
     for (float away = 2000.0F; away > 20.0F; away /= kStep) {
         const DrawLists& lists = lod.select(
             make_frustum(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
-        // How much of each tree are branches, and how much of the forest are cells.
+        // Weight of the branches of each tree, and fraction of the forest drawn as clusters.
         std::map<std::uint32_t, float> branches;
         for (const BranchEntry branch : lists.branches) {
             branches[lod.pool().branches()[branch.slot()].tree] =
@@ -185,7 +185,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
     for (const Camera& camera : cameras()) {
         const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), wood_lod());
         std::map<std::uint32_t, std::uint32_t> levels;
-        std::set<std::array<float, 4>> drawn; // places of branches and their trees
+        std::set<std::array<float, 4>> drawn; // places of drawn branches with their trees
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
                 const PoolBranch& branch = lod.pool().branches()[lists.branches[i].slot()];
@@ -225,7 +225,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
             });
         }
     }
-    CHECK(left_out > 100); // or there is nothing to find
+    CHECK(left_out > 100); // else the test would check nothing
 }
 
 TEST_CASE("what wind moves into the view is drawn") {
@@ -268,7 +268,7 @@ TEST_CASE("all corners of a tree lie within its sphere") {
         const InstanceCache& cache = *form.cache;
         const std::uint32_t root = expander.root_instance(wood->forest.trees[tree.tree]);
         CHECK(cache.instances[root].slot == 0);
-        // The tree that stands for it is of the same hero, if there is one for each.
+        // Its impostor shows a tree of the same hero, if each hero has an impostor.
         const std::uint32_t other = expander.root_instance(form.impostor_trees[tree.impostor]);
         if (cache.slots[0].variant_count <= kMaxImpostors) {
             CHECK(other == root);
@@ -309,7 +309,7 @@ TEST_CASE("places of trees never overlap, and are used again") {
             make_frustum(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
-        std::map<std::uint32_t, std::uint32_t> ordered; // by first place
+        std::map<std::uint32_t, std::uint32_t> ordered; // counts of spans by first slot
         for (const auto& [tree, span] : lod.pool().spans()) {
             CHECK(ordered.emplace(span.first, span.count).second);
         }
@@ -337,7 +337,7 @@ TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
     CHECK(pool.add(3, four).count == 0);
     pool.begin_frame(5);
     CHECK(pool.find(2).count == 4);
-    CHECK(pool.add(3, four) == PoolSpan{0, 4}); // in place of 1
+    CHECK(pool.add(3, four) == PoolSpan{0, 4}); // evicts tree 1
     CHECK(pool.find(1).count == 0);
     CHECK(pool.take_written() == std::vector<PoolSpan>{{0, 8}, {0, 4}});
     pool.begin_frame(0);
@@ -356,7 +356,8 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     REQUIRE(all > 2000);
     options.max_triangles = all / 4;
     const DrawLists bounded = lod.select(frustum, options);
-    CHECK(bounded.triangles <= all / 4 + all / 40); // trees are not like the mean of the impostors
+    // Tolerance, since the budget uses the mean triangles of the impostor trees.
+    CHECK(bounded.triangles <= all / 4 + all / 40);
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);
     options.max_triangles = 0;

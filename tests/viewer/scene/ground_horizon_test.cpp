@@ -1,4 +1,4 @@
-// Occlusion by the ground against lines of sight followed step by step.
+// Compares occlusion by the ground with lines of sight sampled in steps.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/ground_horizon.h"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr float kReach = 1500.0F; // m
 
-/// Whether the ground lies above the line between two points somewhere.
+/// Whether the ground is above the line between two points at any step.
 bool is_blocked(const TerrainLod& ground, const glm::vec3& eye, const glm::vec3& at) {
     const float length = glm::distance(eye, at);
     for (float way = 1.0F; way < length; way += 0.2F + 0.002F * way) {

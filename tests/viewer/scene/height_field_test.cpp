@@ -1,4 +1,4 @@
-// Picking on a height field beside a test of every triangle (Moeller and Trumbore 1997).
+// Compares picking on a height field with a test of every triangle (Moeller and Trumbore 1997).
 #include "runtime/base/random.h"
 #include "viewer/scene/height_field.h"
 
@@ -80,14 +80,14 @@ TEST_CASE("a ray picks what a test of every triangle finds") {
         };
         Ray ray;
         ray.origin = {draw(a[0], -60.0, 60.0), draw(a[1], 16.0, 40.0), draw(a[2], -30.0, 90.0)};
-        // Grazing rays too: many ridges lie in their way.
+        // Include grazing rays, which pass many ridges.
         const glm::dvec3 target{draw(b[0], -30.0, 34.0), draw(b[1], 0.0, 16.0),
                                 draw(b[2], 10.0, 58.0)};
         ray.direction = (target - ray.origin) * draw(b[3], 0.1, 3.0);
         CAPTURE(i);
         const auto fast = field.pick(ray);
         const auto slow = slow_pick(field, region, ray);
-        // A ray may come in from the side, below the surface at the border.
+        // Skip rays that enter from the side, below the surface at the border.
         const bool at_border = fast && (std::abs(fast->x - region.x) < 1e-6 ||
                                         std::abs(fast->x - region.x - region.width) < 1e-6 ||
                                         std::abs(fast->z - region.z) < 1e-6 ||

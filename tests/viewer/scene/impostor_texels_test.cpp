@@ -1,4 +1,4 @@
-// Opaque boxes of tiles against a search texel by texel.
+// Compares opaque boxes of tiles with a search texel by texel.
 #include "viewer/scene/impostor_texels.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ TEST_CASE("the box of a tile holds what is opaque there, with a margin, and noth
         const auto put = [&](std::uint32_t x, std::uint32_t y, std::uint8_t opacity) {
             picture[(std::size_t{y} * kWidth + x) * 4 + 3] = opacity;
         };
-        // The tile in the middle; those beside it are full.
+        // The middle tile is tested; the tiles beside it are fully opaque.
         for (std::uint32_t y = 0; y < kSide; ++y) {
             for (std::uint32_t x = 0; x < kSide; ++x) {
                 put(x, y, 255);

@@ -7,7 +7,7 @@ using namespace lsys::view;
 
 namespace {
 
-/// A stem of two segments and a branch at the first one's end.
+/// A stem of two segments, and a branch at the end of the first.
 Skeleton forked() {
     Skeleton skeleton;
     Segment segment;
@@ -44,7 +44,7 @@ TEST_CASE("lines of a skeleton are its segments and outlines") {
 
 TEST_CASE("the path of the turtle shows where it jumped") {
     const std::vector<LineVertex> path = make_lines(forked(), LineKind::TurtlePath);
-    // back to the fork; above it stem, stem, branch
+    // First the jump back to the fork, then the lines of stem, stem and branch over it.
     REQUIRE(path.size() == 8);
     CHECK(path[0].position == glm::vec3(0.0F, 2.0F, 0.0F));
     CHECK(path[1].position == glm::vec3(0.0F, 1.0F, 0.0F));

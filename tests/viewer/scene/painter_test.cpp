@@ -159,7 +159,7 @@ TEST_CASE("a painting goes on where it was saved") {
     const Painter again(trees, painting, kRegion, terrain, 1);
     CHECK(again.alive_count() == painter.alive_count());
     CHECK(again.painting() == painting);
-    // Trees look the same whatever else is painted.
+    // The look of a painted tree, by its number, does not depend on other trees.
     for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
         if (i >= placed.size()) {
             CHECK(painter.tree(i).number ==
@@ -172,7 +172,7 @@ TEST_CASE("erased trees may still be among those that were placed") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     const LargeVector<Tree> placed = forest(1000, terrain);
     Painting painting;
-    painting.erased = {3, 500, 100'000}; // the last is of another placement
+    painting.erased = {3, 500, 100'000}; // the last number belongs to another placement
     Painter painter(placed, painting, kRegion, terrain, 1);
     CHECK(painter.alive_count() == 998);
     for (std::uint32_t i = 0; i < placed.size(); ++i) {
@@ -215,7 +215,7 @@ TEST_CASE("a painter goes on with the same trees elsewhere, and not with others"
 }
 
 TEST_CASE("painting looks at as many trees in a small forest as in a large one") {
-    // Around the brush both are alike: what differs is how many there are elsewhere.
+    // Both forests are equal around the brush, and differ in the number of trees elsewhere.
     const Terrain terrain = Terrain::flat(kRegion).value();
     const auto strokes = [&](std::uint64_t count) {
         const LargeVector<Tree> placed = forest(count, terrain);

@@ -29,8 +29,8 @@ public:
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }
     void report(std::string message);
 
-    /// Call between passes. A software renderer keeps all triangles in memory until it draws; this
-    /// makes it start, and waits until it is at most one pass behind.
+    /// Call between passes. A software renderer keeps the triangles of a pass in memory until it
+    /// draws them. end_pass() makes it draw, and waits until it is at most one pass behind.
     void end_pass();
 
     [[nodiscard]] std::string renderer() const; // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"

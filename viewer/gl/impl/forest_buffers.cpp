@@ -338,7 +338,7 @@ void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& p
 
 void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
     colour_digests_.assign(model.forms.size(), 0);
-    // Clusters have forms of their own, but no branches.
+    // Clusters have forms of their own, which have no branches.
     std::vector<std::uint32_t> words(model.forms.size(), 0);
     const std::vector<LegendEntry> legend = legend_of(model, by);
     for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {
@@ -372,7 +372,8 @@ void ForestBuffers::upload_trees(const ForestLod& lod) {
     records.clear();
     for (const ForestCell& cell : lod.cells()) {
         const auto number = static_cast<std::uint32_t>(records.size());
-        // Quarter turns keep cells aligned.
+        // Clusters are rotated by quarter turns at random, which keep their squares aligned with
+        // the cells.
         const std::uint32_t drawn = golden_multiple(number);
         const std::uint32_t yaw = drawn >> 30U << 14U;
         const std::uint32_t phase = drawn & 0xFFFF0000U;

@@ -51,9 +51,9 @@ public:
 
     /// Uploads meshes, forms, materials and pictures; releases the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
-    /// Uploads forms anew, for other trees of the same meshes. After upload().
+    /// Uploads forms anew, for other trees of the same meshes. Precondition: upload() was called.
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
-    /// Sets the colours of the branches. After upload().
+    /// Sets the colours of the branches. Precondition: upload() was called.
     void set_colours(const ForestModel& model, BranchColours by);
     /// Uploads all trees, and clusters as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
@@ -76,7 +76,8 @@ public:
     /// relief; returns the count of draw calls.
     std::uint64_t draw_pictures(GLuint solid, GLuint cut_out, bool blends) const;
     void bind_storage() const;
-    /// After bind_storage(): tree indices are those of clusters from now on.
+    /// Rebinds storage so that tree indices of later draws mean clusters. Call after
+    /// bind_storage().
     void bind_clusters() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
@@ -104,7 +105,7 @@ private:
     struct BranchPicture {
         std::shared_ptr<const Texture> colour_file;
         std::shared_ptr<const Texture> relief_file;
-        TextureObject colour; // none: the material has a relief alone
+        TextureObject colour; // empty: the material has only a relief
         TextureObject relief;
         bool has_holes = false;
     };

@@ -33,10 +33,10 @@ constexpr float kMinShadowRange = 45.0F;
 constexpr float kMaxShadowRange = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
-/// Box of the casters between two heights that can shade the map. `shadow_from_world`: see
-/// shadow_matrix().
+/// Bounding box of the casters between heights `low` and `high` (m) that can cast a shadow into the
+/// map. `shadow_from_world`: matrix of shadow_matrix().
 Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
-    constexpr float kMinDepth = -3.0F; // in map depths, for a low sun
+    constexpr float kMinDepth = -3.0F; // in depths of the map: limits the box for a low sun
     const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
     Bounds casters;
     for (const float x : {-1.0F, 1.0F}) {

@@ -33,7 +33,8 @@ public:
     /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
     /// must outlive the pass or the next call.
     void show(ForestModel model, const MaterialTextures& textures);
-    /// Shows the trees of the forest anew. Clusters wait until their impostors are baked.
+    /// Updates the trees of the forest after a change. Clusters are drawn once their new impostors
+    /// are baked.
     void show_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
@@ -54,9 +55,10 @@ public:
 
     /// Compiles the programs of draw_picked() at the first call. Error: a shader does not compile.
     [[nodiscard]] Result<void> make_pickable(const ShaderSource& shaders);
-    /// Draws what each pixel shows into the bound framebuffer. After prepare().
+    /// Draws the kind and index of the part that each pixel shows into the bound framebuffer. Call
+    /// after prepare().
     void draw_picked(MaterialTextures& textures);
-    /// Names what draw_picked() has written.
+    /// The part for a kind and an index that draw_picked() has written.
     [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t item) const;
     /// Numbers of the living trees of a form.
     [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
@@ -90,8 +92,9 @@ private:
     Frustum frustum_;
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
-    bool has_clusters_ = false;     // the atlas has cluster impostors
-    bool has_old_clusters_ = false; // they show the previous trees until all are baked
+    bool has_clusters_ = false; // the atlas has cluster impostors
+    // The cluster impostors show the previous trees until all are baked anew.
+    bool has_old_clusters_ = false;
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

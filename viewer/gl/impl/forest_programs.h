@@ -24,7 +24,7 @@ struct ForestPrograms {
     ProgramObject impostor_shadow;
 };
 
-/// Programs that write what a pixel shows: shaders/pick.frag.glsl.
+/// Programs that write kind and index of the part that a pixel shows: shaders/pick.frag.glsl.
 struct ForestPickPrograms {
     ProgramObject branch; // all classes but cut-out leaves
     ProgramObject cut_out;
@@ -34,7 +34,7 @@ struct ForestPickPrograms {
     ProgramObject blending_impostor;
 };
 
-/// As make_forest_programs().
+/// `windy` and errors: as for make_forest_programs().
 [[nodiscard]] Result<ForestPickPrograms>
 make_pick_programs(Device& device, const ShaderSource& shaders, bool windy);
 

@@ -17,7 +17,7 @@ public:
     [[nodiscard]] GLuint bark_normals();
     /// Texture of a picture file; mip levels keep coverage if it has holes.
     [[nodiscard]] TextureObject make(const Texture& picture) const;
-    /// Texture of a picture file that is opaque wherever it is transparent.
+    /// Texture of a picture file without its opacity: all texels are opaque.
     [[nodiscard]] TextureObject make_opaque(const Texture& picture) const;
     /// Texture of a picture file of normals.
     [[nodiscard]] TextureObject make_normals(const Texture& picture) const;

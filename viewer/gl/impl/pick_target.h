@@ -1,4 +1,5 @@
-// PickTarget: offscreen framebuffer of one pixel, which holds what it shows instead of a colour.
+// PickTarget: offscreen framebuffer of one pixel, which holds kind and index of the part that the
+// pixel shows, instead of a colour.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -9,7 +10,7 @@ namespace lsys::view {
 
 class PickTarget {
 public:
-    /// Values of shaders/pick.frag.glsl. Nothing drawn: all are 0.
+    /// Values written by shaders/pick.frag.glsl; all 0 if nothing was drawn.
     struct Content {
         std::uint32_t kind = 0; // PickedKind
         std::uint32_t item = 0;

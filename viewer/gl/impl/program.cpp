@@ -16,7 +16,7 @@ namespace {
 
 struct Assembly {
     std::string text;
-    std::vector<std::string> files; // by number in `#line`
+    std::vector<std::string> files; // index: the number in `#line`
 };
 
 /// Appends a file and its includes, each once, to `assembly`.

@@ -11,7 +11,8 @@
 
 namespace lsys::view {
 
-/// `defines`: lines of `#define`, put before the text.
+/// Makes a program of a vertex and a fragment shader. `defines`: lines of `#define`, inserted
+/// before their texts.
 [[nodiscard]] Result<ProgramObject> make_program(Device& device,
                                                  const ShaderSource& source,
                                                  std::string_view vertex,

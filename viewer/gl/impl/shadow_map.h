@@ -16,7 +16,7 @@ public:
     [[nodiscard]] std::uint32_t texels() const { return texels_; }
     [[nodiscard]] GLuint texture() const { return depth_.name(); }
 
-    /// Whether it must be redrawn for `matrix`.
+    /// Whether the map must be redrawn for `matrix`.
     [[nodiscard]] bool is_stale(const glm::mat4& matrix) const {
         return stale_ || matrix != matrix_;
     }

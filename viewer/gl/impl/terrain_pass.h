@@ -29,7 +29,7 @@ public:
     void prepare(const Frustum& frustum);
     /// Draws the selected patches.
     FrameStats draw();
-    /// The same with another program of terrain.vert.glsl.
+    /// Draws the selected patches with `program`, whose vertex shader is terrain.vert.glsl.
     FrameStats draw_with(const ProgramObject& program);
 
     [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
@@ -45,7 +45,7 @@ private:
     GroundPictures pictures_;
     TextureObject colour_;
     TextureObject normals_;
-    glm::vec3 mean_{0.0F}; // linear, of the colours
+    glm::vec3 mean_{0.0F}; // linear RGB, mean of the colour picture
     TextureObject heights_;
     TextureObject noise_;
     VertexArray array_;

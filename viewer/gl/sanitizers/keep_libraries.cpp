@@ -1,5 +1,5 @@
-// Keeps libraries loaded in programs with sanitizers. Reports cannot name functions of an unloaded
-// driver, and memory that its variables point to would count as leaked.
+// Replaces dlclose(), so that programs with sanitizers keep all libraries loaded. Sanitizers cannot
+// name functions of an unloaded driver, and count memory that its variables point to as leaked.
 
 extern "C" __attribute__((visibility("default"))) int dlclose(void* /*library*/) noexcept {
     return 0;

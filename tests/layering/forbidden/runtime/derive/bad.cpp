@@ -1,4 +1,4 @@
-// A case for the test of the rules: these includes must be found.
+// Includes that check_includes.cmake must report; the test checks that it does.
 #include "compiler/bytecode/bytecode.h"
 #include "compiler/compile.h"
 #include "runtime/turtle/turtle.h"
