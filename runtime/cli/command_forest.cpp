@@ -12,6 +12,7 @@
 #include "runtime/placement/domination.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/scene/painting.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
@@ -468,6 +469,8 @@ ExitStatus write_years(Run& run) {
             sized != ExitStatus::Ok) {
             return sized;
         }
+        apply_painting(run.scene.painting, options.region, *run.grown.terrain,
+                       run.grown.forest.trees);
         const std::string path = numbered_path(run.command.output, frame);
         const ExitStatus status = write_forest(run, path);
         if (status != ExitStatus::Ok) {

@@ -203,3 +203,17 @@ TEST_CASE("forests are compressed as plants are, instanced or baked") {
         CHECK_FALSE(std::filesystem::exists(folder / name));
     }
 }
+
+TEST_CASE("the last frame of a forest that grows is the forest, painted trees included") {
+    const ScratchFolder folder;
+    write_text(folder / "bush.lsys", kBush);
+    write_text(folder / "wood.toml", "key = 1\n[terrain]\nsize = 20\n"
+                                     "[placement]\nmethod = \"domination\"\ncount = 30\nyears = 4\n"
+                                     "[[species]]\ngrammar = \"bush.lsys\"\nname = \"bush\"\n"
+                                     "[painted]\ntrees = [[\"bush\", 5, 5, 0, 1]]\nerased = [0]\n");
+    const std::string scene = folder / "wood.toml";
+    REQUIRE(run_lsc({"forest", scene, "-o", folder / "whole.json"}, "").status == 0);
+    REQUIRE(run_lsc({"forest", scene, "--frames", "2", "-o", folder / "grown.json"}, "").status ==
+            0);
+    CHECK(read_text(folder / "grown.0002.json") == read_text(folder / "whole.json"));
+}
