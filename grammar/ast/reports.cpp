@@ -87,7 +87,10 @@ void report_literal_range(Diagnostics& diagnostics,
     }
 }
 
-void report_stray_comment(Diagnostics& diagnostics, std::string_view line, SourceSpan slashes) {
+void report_stray_comment(Diagnostics& diagnostics,
+                          std::string_view line,
+                          SourceSpan slashes,
+                          bool may_be_rolls) {
     if (!diagnostics.admits(DiagnosticCode::StrayComment)) {
         return;
     }
@@ -106,7 +109,7 @@ void report_stray_comment(Diagnostics& diagnostics, std::string_view line, Sourc
     diagnostic.fixes.push_back({"write `/* ... */`",
                                 {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
                                  {{slashes.file, end, end}, " */"}},
-                                semicolon == std::string_view::npos});
+                                semicolon == std::string_view::npos && !may_be_rolls});
 }
 
 bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {

@@ -27,8 +27,11 @@ void report_literal_range(Diagnostics& diagnostics,
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what);
 
 /// Reports `slashes`, a `//` among modules that is meant as a comment. `line`: from there to the
-/// end of its line.
-void report_stray_comment(Diagnostics& diagnostics, std::string_view line, SourceSpan slashes);
+/// end of its line. `may_be_rolls`: `//` may be two modules after all, so the repair is only offered.
+void report_stray_comment(Diagnostics& diagnostics,
+                          std::string_view line,
+                          SourceSpan slashes,
+                          bool may_be_rolls);
 /// Reports a file that is no UTF-8 text; returns whether it is text.
 [[nodiscard]] bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 

@@ -110,6 +110,16 @@ public:
         return found;
     }
 
+    /// Whether the text behind a `//` may be modules with a mistake among them: it has a name of
+    /// several letters that the file has elsewhere.
+    [[nodiscard]] bool may_be_modules(std::string_view comment, FileId file) {
+        bool found = false;
+        for_each_word(without_arguments(comment), [&](std::string_view word) {
+            found = found || (word.size() > 1 && (is_known(word) || words_of(file).has(word)));
+        });
+        return found;
+    }
+
 private:
     [[nodiscard]] bool is_letters(FileId file) const {
         return std::ranges::find(resolution_.letter_files, file) != resolution_.letter_files.end();
@@ -162,7 +172,8 @@ void check_stray_comments(Resolution& resolution,
         }
         const std::string_view line = line_at(text, slashes.begin);
         if (line.size() > 2 && search.is_comment(line.substr(2), slashes.file)) {
-            report_stray_comment(resolution.diagnostics, line, slashes);
+            report_stray_comment(resolution.diagnostics, line, slashes,
+                                 search.may_be_modules(line.substr(2), slashes.file));
         }
     }
 }

@@ -153,7 +153,7 @@ bool is_behind_comment(ParseSession& session) {
         std::string_view line = all.substr(*slashes, all.find('\n', *slashes) - *slashes);
         line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
         report_stray_comment(session.context.diagnostics, line,
-                             session.scanned.span(*slashes, *slashes + 2));
+                             session.scanned.span(*slashes, *slashes + 2), false);
     }
     return slashes.has_value();
 }

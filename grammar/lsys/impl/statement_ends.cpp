@@ -256,14 +256,15 @@ void report_comment_in_statement(ParseSession& session) {
     Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, slashes,
                                             "a comment with `//` stands between statements only");
     const std::size_t end = line_end(text, scan.begin);
-    if (text.substr(scan.begin, end - scan.begin).find("*/") != std::string_view::npos) {
+    const std::string_view comment = text.substr(scan.begin, end - scan.begin);
+    if (comment.find("*/") != std::string_view::npos) {
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
         return;
     }
     diagnostic.fixes.push_back(
         {"write `/* ... */`",
          {{slashes, "/*"}, {session.scanned.after(static_cast<std::uint32_t>(end)), " */"}},
-         true});
+         comment.find(';') == std::string_view::npos}); // a `;` may end the statement
 }
 
 } // namespace lsys::lsys_grammar
