@@ -4,32 +4,13 @@
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
-
 namespace lsys {
 
 namespace {
 
-/// Tolerance of the length: 0.0005, a tenth of that of the glTF validator.
-bool is_unit(const glm::vec3& v) {
-    return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
-}
-bool is_valid(const glm::vec3& normal) {
-    return is_unit(normal);
-}
-bool is_valid(const glm::vec4& tangent) {
-    return is_unit(glm::vec3(tangent)) && (tangent.w == 1.0F || tangent.w == -1.0F);
-}
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
     const glm::vec3 u = v / glm::length(v);
     return is_unit(u) ? u : otherwise;
-}
-glm::vec3 corrected(const glm::vec3& normal) {
-    return unit(normal, glm::vec3(0.0F, 1.0F, 0.0F));
-}
-glm::vec4 corrected(const glm::vec4& tangent) {
-    const glm::vec3 along = unit(glm::vec3(tangent), glm::vec3(1.0F, 0.0F, 0.0F));
-    return glm::vec4(along, tangent.w < 0.0F ? -1.0F : 1.0F);
 }
 
 } // namespace
@@ -53,12 +34,13 @@ bool has_vertex_colours(const Mesh& mesh, const MeshPart& part) {
     return false;
 }
 
-glm::vec3 valid_normal(const glm::vec3& normal) {
-    return is_valid(normal) ? normal : corrected(normal);
+glm::vec3 unit_normal(const glm::vec3& normal) {
+    return unit(normal, glm::vec3(0.0F, 1.0F, 0.0F));
 }
 
-glm::vec4 valid_tangent(const glm::vec4& tangent) {
-    return is_valid(tangent) ? tangent : corrected(tangent);
+glm::vec4 unit_tangent(const glm::vec4& tangent) {
+    const glm::vec3 along = unit(glm::vec3(tangent), glm::vec3(1.0F, 0.0F, 0.0F));
+    return glm::vec4(along, tangent.w < 0.0F ? -1.0F : 1.0F);
 }
 
 } // namespace lsys

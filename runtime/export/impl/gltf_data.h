@@ -3,6 +3,9 @@
 
 #include "runtime/meshing/mesh.h"
 
+#include <glm/geometric.hpp>
+
+#include <cmath>
 #include <cstdint>
 
 namespace lsys {
@@ -31,9 +34,23 @@ enum class GltfArray : std::uint8_t {
 
 /// Whether vertices of a part have palette colours that differ from the material's.
 [[nodiscard]] bool has_vertex_colours(const Mesh& mesh, const MeshPart& part);
-/// The direction itself if it is of unit length, else its unit vector; an axis if it has no length.
-[[nodiscard]] glm::vec3 valid_normal(const glm::vec3& normal);
+/// Whether a vector has length 1, up to 0.0005: a tenth of what the glTF validator tolerates.
+[[nodiscard]] inline bool is_unit(const glm::vec3& v) {
+    return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
+}
+/// The unit vector of a direction; an axis if it has no length.
+[[nodiscard]] glm::vec3 unit_normal(const glm::vec3& normal);
+/// As unit_normal(); w is 1 or -1.
+[[nodiscard]] glm::vec4 unit_tangent(const glm::vec4& tangent);
+
+/// The direction itself if it is of unit length, else as unit_normal(). Inline, as nearly all are.
+[[nodiscard]] inline glm::vec3 valid_normal(const glm::vec3& normal) {
+    return is_unit(normal) ? normal : unit_normal(normal);
+}
 /// As valid_normal(); w is 1 or -1.
-[[nodiscard]] glm::vec4 valid_tangent(const glm::vec4& tangent);
+[[nodiscard]] inline glm::vec4 valid_tangent(const glm::vec4& tangent) {
+    const bool valid = is_unit(glm::vec3(tangent)) && std::abs(tangent.w) == 1.0F;
+    return valid ? tangent : unit_tangent(tangent);
+}
 
 } // namespace lsys

@@ -72,22 +72,35 @@ private:
     glm::dvec3 most_;
 };
 
-Item<std::uint16_t, 2> texture_item(const GltfTextureForm& form, const glm::vec2& coordinates) {
-    if (form.bits == 0) {
-        return {0, 0};
-    }
-    const float most = max_value(form.bits);
-    const auto item = [&](int axis) {
-        const float part = (coordinates[axis] - form.low[axis]) / form.extent[axis];
-        const std::uint16_t steps = rounded(most * part, most);
-        if (form.transform) {
-            return steps;
+/// Quantises texture coordinates.
+class TextureSteps {
+public:
+    explicit TextureSteps(const GltfTextureForm& form)
+        : low_(form.low), most_(form.bits == 0 ? 0.0F : max_value(form.bits)),
+          steps_(most_ / form.extent), unit_(form.transform ? 1.0F : 65535.0F / most_),
+          is_scaled_(!form.transform) {}
+
+    [[nodiscard]] Item<std::uint16_t, 2> operator()(const glm::vec2& coordinates) const {
+        if (most_ == 0.0F) {
+            return {0, 0};
         }
+        const glm::vec2 steps = (coordinates - low_) * steps_;
+        return {item(steps.x), item(steps.y)};
+    }
+
+private:
+    [[nodiscard]] std::uint16_t item(float steps) const {
+        const std::uint16_t whole = rounded(steps, most_);
         // Without a transform the steps are scaled to 16 bits, so that the highest one reads as 1.
-        return rounded(static_cast<float>(steps) * 65535.0F / most, 65535.0F);
-    };
-    return {item(0), item(1)};
-}
+        return is_scaled_ ? rounded(static_cast<float>(whole) * unit_, 65535.0F) : whole;
+    }
+
+    glm::vec2 low_;
+    float most_; // the highest step; 0: no texture is read
+    glm::vec2 steps_;
+    float unit_; // 16-bit value of a step
+    bool is_scaled_;
+};
 
 void write_colours(const Mesh& mesh,
                    std::span<const std::uint32_t> vertices,
@@ -129,9 +142,10 @@ void write_quantized(const Mesh& mesh,
             return Item<std::int8_t, 4>{signed_byte(n.x), signed_byte(n.y), signed_byte(n.z), 0};
         });
     } else if (array == GltfArray::TextureCoordinates) {
-        write_each(vertices, write, [&](std::uint32_t vertex) {
-            return texture_item(form.texture, mesh.texture_coordinates[vertex]);
-        });
+        write_each(vertices, write,
+                   [&mesh, steps = TextureSteps(form.texture)](std::uint32_t vertex) {
+                       return steps(mesh.texture_coordinates[vertex]);
+                   });
     } else {
         write_each(vertices, write, [&](std::uint32_t vertex) {
             const glm::vec4 t = valid_tangent(mesh.tangents[vertex]);
