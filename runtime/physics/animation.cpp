@@ -67,6 +67,139 @@ empty_animation(const PlantPhysics& physics, std::uint32_t frames, float frames_
     return animation;
 }
 
+glm::dquat frame_of(const SegmentPlace& place) {
+    return glm::normalize(glm::dquat(place.frame));
+}
+
+/// Keeps objects and polygons, which move rigidly with their segments, out of the ground: a segment
+/// whose object would be below y = 0, but is above it at rest, turns up about its base, and what it
+/// carries goes up with it. Where turning is not enough the segment moves up.
+class GroundGuard {
+public:
+    /// `rest`: the plant at rest. `bound`: the pose whose objects the frames move.
+    GroundGuard(const Skeleton& rest, const Skeleton& bound) {
+        std::vector<std::pair<std::uint32_t, glm::dvec3>> found;
+        const auto add = [&](std::uint32_t parent, float height, const glm::vec3& point) {
+            if (parent < bound.segments.size() && height >= 0.0F) {
+                const Segment& segment = bound.segments[parent];
+                const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(segment.frame)));
+                found.emplace_back(parent, back * glm::dvec3(point - segment.base));
+            }
+        };
+        for (std::size_t i = 0; i < rest.objects.size(); ++i) {
+            const PlacedObject& still = rest.objects[i];
+            const PlacedObject& object = bound.objects[i];
+            const glm::vec3 end = end_of(object);
+            add(object.parent, still.position.y, object.position);
+            add(object.parent, std::min(still.position.y, end_of(still).y), end);
+        }
+        for (const Polygon& polygon : bound.polygons) {
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                const std::uint32_t corner = polygon.first_corner + c;
+                add(polygon.parent, rest.corners[corner].y, bound.corners[corner]);
+            }
+        }
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        ends_.assign(bound.segments.size(), 0);
+        for (const auto& [segment, arm] : found) {
+            arms_.push_back(arm);
+            ends_[segment] = arms_.size();
+        }
+        for (std::size_t i = 1; i < ends_.size(); ++i) {
+            ends_[i] = std::max(ends_[i], ends_[i - 1]);
+        }
+    }
+
+    /// Corrects a frame.
+    void raise(const Skeleton& plant, std::span<SegmentPlace> places) const {
+        if (arms_.empty()) {
+            return;
+        }
+        std::vector<Change> changes(places.size());
+        for (std::uint32_t i = 0; i < places.size(); ++i) {
+            const std::uint32_t parent = plant.segments[i].parent;
+            SegmentPlace& place = places[i];
+            Change& change = changes[i];
+            change.before = glm::dvec3(place.base);
+            if (parent < i && changes[parent].is_made) {
+                const Change& from = changes[parent];
+                const glm::dvec3 base =
+                    glm::dvec3(places[parent].base) + from.turn * (change.before - from.before);
+                place.base = glm::vec3(base);
+                change.is_made = true;
+            }
+            const std::size_t first = i == 0 ? 0 : ends_[i - 1];
+            if (first < ends_[i]) {
+                lift(std::span(arms_).subspan(first, ends_[i] - first), place, change);
+            }
+        }
+    }
+
+private:
+    struct Change {
+        bool is_made = false;
+        glm::dvec3 before{0.0};              // base
+        glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
+    };
+
+    static glm::vec3 end_of(const PlacedObject& object) {
+        return object.position + std::abs(object.size) * heading(object.frame);
+    }
+
+    static void lift(std::span<const glm::dvec3> arms, SegmentPlace& place, Change& change) {
+        constexpr int kPasses = 4; // turning up one point may sink another
+        constexpr double kRounding = 1e-6;
+        const glm::dquat frame = frame_of(place);
+        const auto base = static_cast<double>(place.base.y);
+        double deepest = 0.0;
+        for (int pass = 0; pass <= kPasses; ++pass) {
+            glm::dvec3 ahead(0.0); // sum of the arms of points in the ground
+            deepest = 0.0;
+            double reach = 0.0;
+            for (const glm::dvec3& own : arms) {
+                const glm::dvec3 arm = change.turn * (frame * own);
+                reach = std::max(reach, glm::length(arm));
+                deepest = std::min(deepest, base + arm.y);
+                ahead += base + arm.y < 0.0 ? arm : glm::dvec3(0.0);
+            }
+            if (!(deepest < -kRounding * reach)) {
+                return;
+            }
+            const double level = std::hypot(ahead.x, ahead.z);
+            if (pass == kPasses) {
+                break;
+            }
+            const glm::dvec3 way =
+                level > 0.0 ? glm::dvec3(ahead.x, 0.0, ahead.z) / level : glm::dvec3(1.0, 0.0, 0.0);
+            double angle = 0.0;
+            for (const glm::dvec3& own : arms) {
+                const glm::dvec3 arm = change.turn * (frame * own);
+                const double along = glm::dot(arm, way);
+                if (base + arm.y < 0.0 && along >= 0.0) {
+                    const double length = std::hypot(along, arm.y);
+                    angle = std::max(angle, std::asin(std::clamp(-base / length, -1.0, 1.0)) -
+                                                std::atan2(arm.y, along));
+                }
+            }
+            if (!(angle > 0.0)) {
+                break;
+            }
+            // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
+            const glm::dvec3 axis(-way.z, 0.0, way.x);
+            const glm::dquat up(std::cos(0.5 * angle), std::sin(0.5 * angle) * axis);
+            change.turn = glm::normalize(up * change.turn);
+            change.is_made = true;
+            place.frame = glm::quat(glm::normalize(change.turn * frame));
+        }
+        place.base.y -= static_cast<float>(deepest);
+        change.is_made = true;
+    }
+
+    std::vector<glm::dvec3> arms_;  // of points, in the axes of their segments
+    std::vector<std::size_t> ends_; // of each segment, the index after its last arm
+};
+
 /// Records all frames; the plant is at the first one already.
 void record_frames(PlantPhysics& physics, FrameSteps& steps, PlantAnimation& animation) {
     Skeleton pose;
@@ -110,10 +243,6 @@ double max_distance(const Skeleton& plant,
     return most;
 }
 
-glm::dquat frame_of(const SegmentPlace& place) {
-    return glm::normalize(glm::dquat(place.frame));
-}
-
 /// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are
 /// interpolated, so that segments stay joined.
 void blend(const Skeleton& plant,
@@ -149,7 +278,15 @@ PlantAnimation record(PlantPhysics& physics, std::uint32_t frames, float frames_
     PlantAnimation animation = empty_animation(physics, frames, usable_rate(frames_per_second));
     if (frames > 1) {
         FrameSteps steps(physics, animation.frames_per_second, physics.options().gust_period);
+        Skeleton first;
+        physics.pose(first);
         record_frames(physics, steps, animation);
+        if (physics.options().ground) {
+            const GroundGuard guard(physics.rest(), first);
+            for (std::uint32_t frame = 1; frame < frames; ++frame) {
+                guard.raise(physics.rest(), animation.frame(frame));
+            }
+        }
     } else if (frames == 1) {
         Skeleton pose;
         physics.pose(pose);
@@ -193,7 +330,13 @@ PlantLoop record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_
         blend(plant, before.frame(frame), part * part * (3.0 - 2.0 * part),
               places.subspan(std::size_t{frame} * plant.segments.size(), plant.segments.size()));
     }
-    const std::span<const SegmentPlace> first = loop.animation.frame(0);
+    if (physics.options().ground) {
+        const GroundGuard guard(plant, plant);
+        for (std::uint32_t frame = 0; frame + 1 < frames; ++frame) {
+            guard.raise(plant, loop.animation.frame(frame));
+        }
+    }
+    const std::span<const SegmentPlace> first = std::as_const(loop.animation).frame(0);
     std::copy(first.begin(), first.end(), places.end() - static_cast<std::ptrdiff_t>(first.size()));
     return loop;
 }

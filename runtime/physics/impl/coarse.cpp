@@ -1,5 +1,6 @@
 // A twig that is limp loads its branch as a mass at its base does, and a run falls with the weight
-// of its bodies, so a coarse plant falls as the whole one: Body::moment and the contacts with the ground are those of the whole plant.
+// of its bodies, so a coarse plant falls as the whole one: Body::moment and the contacts with the
+// ground are those of the whole plant.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
