@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace lsys {
@@ -79,24 +80,23 @@ public:
     /// `rest`: the plant at rest. `bound`: the pose whose objects the frames move.
     GroundGuard(const Skeleton& rest, const Skeleton& bound) {
         std::vector<std::pair<std::uint32_t, glm::dvec3>> found;
-        const auto add = [&](std::uint32_t parent, float height, const glm::vec3& point) {
-            if (parent < bound.segments.size() && height >= 0.0F) {
+        const auto add = [&](std::uint32_t parent, const glm::vec3& still, const glm::vec3& point) {
+            if (parent < bound.segments.size() && still.y >= 0.0F && point.y >= -kRounding) {
                 const Segment& segment = bound.segments[parent];
                 const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(segment.frame)));
                 found.emplace_back(parent, back * glm::dvec3(point - segment.base));
             }
         };
         for (std::size_t i = 0; i < rest.objects.size(); ++i) {
-            const PlacedObject& still = rest.objects[i];
             const PlacedObject& object = bound.objects[i];
-            const glm::vec3 end = end_of(object);
-            add(object.parent, still.position.y, object.position);
-            add(object.parent, std::min(still.position.y, end_of(still).y), end);
+            for (const glm::vec3& point : outline_of(object.kind)) {
+                add(object.parent, placed(rest.objects[i], point), placed(object, point));
+            }
         }
         for (const Polygon& polygon : bound.polygons) {
             for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
                 const std::uint32_t corner = polygon.first_corner + c;
-                add(polygon.parent, rest.corners[corner].y, bound.corners[corner]);
+                add(polygon.parent, rest.corners[corner], bound.corners[corner]);
             }
         }
         std::stable_sort(found.begin(), found.end(),
@@ -143,13 +143,55 @@ private:
         glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
     };
 
-    static glm::vec3 end_of(const PlacedObject& object) {
-        return object.position + std::abs(object.size) * heading(object.frame);
+    static constexpr float kRounding = 1e-5F; // m, in the ground, of points that are laid on it
+
+    static glm::vec3 placed(const PlacedObject& object, const glm::vec3& point) {
+        return object.position + object.size * (object.frame * point);
+    }
+
+    /// Outermost points of an object of size 1 (docs/language.md section 7.4): its ends first.
+    static std::vector<glm::vec3> outline_of(TurtleOperation kind) {
+        std::vector<glm::vec3> out{glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F)};
+        const auto add_ring = [&](float radius, float along) {
+            constexpr int kPoints = 8;
+            for (int i = 0; i < kPoints; ++i) {
+                const float angle = static_cast<float>(i) * 2.0F * std::numbers::pi_v<float> /
+                                    static_cast<float>(kPoints);
+                out.emplace_back(radius * std::cos(angle), along, radius * std::sin(angle));
+            }
+        };
+        switch (kind) {
+        case TurtleOperation::Leaf:
+            out.emplace_back(-0.25F, 0.5F, 0.0F);
+            out.emplace_back(0.25F, 0.5F, 0.0F);
+            break;
+        case TurtleOperation::Flower:
+            add_ring(0.68F, 1.0F); // the tips of its petals
+            break;
+        case TurtleOperation::Sphere:
+        case TurtleOperation::Heterocyst:
+            add_ring(0.5F, 0.5F);
+            break;
+        case TurtleOperation::Cylinder:
+        case TurtleOperation::Cube:
+            add_ring(0.5F, 1.0F);
+            [[fallthrough]];
+        case TurtleOperation::Cone:
+            add_ring(0.5F, 0.0F);
+            break;
+        case TurtleOperation::Disk:
+            out.pop_back();
+            add_ring(0.5F, 0.0F);
+            break;
+        default:
+            break;
+        }
+        return out;
     }
 
     static void lift(std::span<const glm::dvec3> arms, SegmentPlace& place, Change& change) {
-        constexpr int kPasses = 4; // turning up one point may sink another
-        constexpr double kRounding = 1e-6;
+        constexpr int kPasses = 4;     // turning up one point may sink another
+        constexpr double kNear = 1e-6; // of the distance of the farthest point
         const glm::dquat frame = frame_of(place);
         const auto base = static_cast<double>(place.base.y);
         double deepest = 0.0;
@@ -163,7 +205,7 @@ private:
                 deepest = std::min(deepest, base + arm.y);
                 ahead += base + arm.y < 0.0 ? arm : glm::dvec3(0.0);
             }
-            if (!(deepest < -kRounding * reach)) {
+            if (!(deepest < -kNear * reach)) {
                 return;
             }
             const double level = std::hypot(ahead.x, ahead.z);
