@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace lsys {
@@ -67,6 +68,180 @@ empty_animation(const PlantPhysics& physics, std::uint32_t frames, float frames_
     return animation;
 }
 
+glm::dquat frame_of(const SegmentPlace& place) {
+    return glm::normalize(glm::dquat(place.frame));
+}
+
+/// Keeps objects and polygons, which move rigidly with their segments, out of the ground: a segment
+/// whose object would be below y = 0, but is above it at rest, turns up about its base, and what it
+/// carries goes up with it. Where turning is not enough the segment moves up.
+class GroundGuard {
+public:
+    /// `rest`: the plant at rest. `bound`: the pose whose objects the frames move.
+    GroundGuard(const Skeleton& rest, const Skeleton& bound) {
+        std::vector<std::pair<std::uint32_t, glm::dvec3>> found;
+        const auto add = [&](std::uint32_t parent, const glm::vec3& still, const glm::vec3& point) {
+            if (parent < bound.segments.size() && still.y >= 0.0F && point.y >= -kRounding) {
+                const Segment& segment = bound.segments[parent];
+                const glm::dquat back = glm::conjugate(glm::normalize(glm::dquat(segment.frame)));
+                found.emplace_back(parent, back * glm::dvec3(point - segment.base));
+            }
+        };
+        for (std::size_t i = 0; i < rest.objects.size(); ++i) {
+            const PlacedObject& object = bound.objects[i];
+            for (const glm::vec3& point : outline_of(object.kind)) {
+                add(object.parent, placed(rest.objects[i], point), placed(object, point));
+            }
+        }
+        for (const Polygon& polygon : bound.polygons) {
+            for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+                const std::uint32_t corner = polygon.first_corner + c;
+                add(polygon.parent, rest.corners[corner], bound.corners[corner]);
+            }
+        }
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        ends_.assign(bound.segments.size(), 0);
+        for (const auto& [segment, arm] : found) {
+            arms_.push_back(arm);
+            ends_[segment] = arms_.size();
+        }
+        for (std::size_t i = 1; i < ends_.size(); ++i) {
+            ends_[i] = std::max(ends_[i], ends_[i - 1]);
+        }
+    }
+
+    /// Corrects a frame.
+    void raise(const Skeleton& plant, std::span<SegmentPlace> places) const {
+        if (arms_.empty()) {
+            return;
+        }
+        std::vector<Change> changes(places.size());
+        for (std::uint32_t i = 0; i < places.size(); ++i) {
+            const std::uint32_t parent = plant.segments[i].parent;
+            SegmentPlace& place = places[i];
+            Change& change = changes[i];
+            change.before = glm::dvec3(place.base);
+            if (parent < i && changes[parent].is_made) {
+                const Change& from = changes[parent];
+                const glm::dvec3 base =
+                    glm::dvec3(places[parent].base) + from.turn * (change.before - from.before);
+                place.base = glm::vec3(base);
+                change.is_made = true;
+            }
+            const std::size_t first = i == 0 ? 0 : ends_[i - 1];
+            if (first < ends_[i]) {
+                lift(std::span(arms_).subspan(first, ends_[i] - first), place, change);
+            }
+        }
+    }
+
+private:
+    struct Change {
+        bool is_made = false;
+        glm::dvec3 before{0.0};              // base
+        glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
+    };
+
+    static constexpr float kRounding = 1e-5F; // m, in the ground, of points that are laid on it
+
+    static glm::vec3 placed(const PlacedObject& object, const glm::vec3& point) {
+        return object.position + object.size * (object.frame * point);
+    }
+
+    /// Outermost points of an object of size 1 (docs/language.md section 7.4): its ends first.
+    static std::vector<glm::vec3> outline_of(TurtleOperation kind) {
+        std::vector<glm::vec3> out{glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F)};
+        const auto add_ring = [&](float radius, float along) {
+            constexpr int kPoints = 8;
+            for (int i = 0; i < kPoints; ++i) {
+                const float angle = static_cast<float>(i) * 2.0F * std::numbers::pi_v<float> /
+                                    static_cast<float>(kPoints);
+                out.emplace_back(radius * std::cos(angle), along, radius * std::sin(angle));
+            }
+        };
+        switch (kind) {
+        case TurtleOperation::Leaf:
+            out.emplace_back(-0.25F, 0.5F, 0.0F);
+            out.emplace_back(0.25F, 0.5F, 0.0F);
+            break;
+        case TurtleOperation::Flower:
+            add_ring(0.68F, 1.0F); // the tips of its petals
+            break;
+        case TurtleOperation::Sphere:
+        case TurtleOperation::Heterocyst:
+            add_ring(0.5F, 0.5F);
+            break;
+        case TurtleOperation::Cylinder:
+        case TurtleOperation::Cube:
+            add_ring(0.5F, 1.0F);
+            [[fallthrough]];
+        case TurtleOperation::Cone:
+            add_ring(0.5F, 0.0F);
+            break;
+        case TurtleOperation::Disk:
+            out.pop_back();
+            add_ring(0.5F, 0.0F);
+            break;
+        default:
+            break;
+        }
+        return out;
+    }
+
+    static void lift(std::span<const glm::dvec3> arms, SegmentPlace& place, Change& change) {
+        constexpr int kPasses = 4;     // turning up one point may sink another
+        constexpr double kNear = 1e-6; // of the distance of the farthest point
+        const glm::dquat frame = frame_of(place);
+        const auto base = static_cast<double>(place.base.y);
+        double deepest = 0.0;
+        for (int pass = 0; pass <= kPasses; ++pass) {
+            glm::dvec3 ahead(0.0); // sum of the arms of points in the ground
+            deepest = 0.0;
+            double reach = 0.0;
+            for (const glm::dvec3& own : arms) {
+                const glm::dvec3 arm = change.turn * (frame * own);
+                reach = std::max(reach, glm::length(arm));
+                deepest = std::min(deepest, base + arm.y);
+                ahead += base + arm.y < 0.0 ? arm : glm::dvec3(0.0);
+            }
+            if (!(deepest < -kNear * reach)) {
+                return;
+            }
+            const double level = std::hypot(ahead.x, ahead.z);
+            if (pass == kPasses) {
+                break;
+            }
+            const glm::dvec3 way =
+                level > 0.0 ? glm::dvec3(ahead.x, 0.0, ahead.z) / level : glm::dvec3(1.0, 0.0, 0.0);
+            double angle = 0.0;
+            for (const glm::dvec3& own : arms) {
+                const glm::dvec3 arm = change.turn * (frame * own);
+                const double along = glm::dot(arm, way);
+                if (base + arm.y < 0.0 && along >= 0.0) {
+                    const double length = std::hypot(along, arm.y);
+                    angle = std::max(angle, std::asin(std::clamp(-base / length, -1.0, 1.0)) -
+                                                std::atan2(arm.y, along));
+                }
+            }
+            if (!(angle > 0.0)) {
+                break;
+            }
+            // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
+            const glm::dvec3 axis(-way.z, 0.0, way.x);
+            const glm::dquat up(std::cos(0.5 * angle), std::sin(0.5 * angle) * axis);
+            change.turn = glm::normalize(up * change.turn);
+            change.is_made = true;
+            place.frame = glm::quat(glm::normalize(change.turn * frame));
+        }
+        place.base.y -= static_cast<float>(deepest);
+        change.is_made = true;
+    }
+
+    std::vector<glm::dvec3> arms_;  // of points, in the axes of their segments
+    std::vector<std::size_t> ends_; // of each segment, the index after its last arm
+};
+
 /// Records all frames; the plant is at the first one already.
 void record_frames(PlantPhysics& physics, FrameSteps& steps, PlantAnimation& animation) {
     Skeleton pose;
@@ -110,10 +285,6 @@ double max_distance(const Skeleton& plant,
     return most;
 }
 
-glm::dquat frame_of(const SegmentPlace& place) {
-    return glm::normalize(glm::dquat(place.frame));
-}
-
 /// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are
 /// interpolated, so that segments stay joined.
 void blend(const Skeleton& plant,
@@ -149,7 +320,15 @@ PlantAnimation record(PlantPhysics& physics, std::uint32_t frames, float frames_
     PlantAnimation animation = empty_animation(physics, frames, usable_rate(frames_per_second));
     if (frames > 1) {
         FrameSteps steps(physics, animation.frames_per_second, physics.options().gust_period);
+        Skeleton first;
+        physics.pose(first);
         record_frames(physics, steps, animation);
+        if (physics.options().ground) {
+            const GroundGuard guard(physics.rest(), first);
+            for (std::uint32_t frame = 1; frame < frames; ++frame) {
+                guard.raise(physics.rest(), animation.frame(frame));
+            }
+        }
     } else if (frames == 1) {
         Skeleton pose;
         physics.pose(pose);
@@ -193,7 +372,13 @@ PlantLoop record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_
         blend(plant, before.frame(frame), part * part * (3.0 - 2.0 * part),
               places.subspan(std::size_t{frame} * plant.segments.size(), plant.segments.size()));
     }
-    const std::span<const SegmentPlace> first = loop.animation.frame(0);
+    if (physics.options().ground) {
+        const GroundGuard guard(plant, plant);
+        for (std::uint32_t frame = 0; frame + 1 < frames; ++frame) {
+            guard.raise(plant, loop.animation.frame(frame));
+        }
+    }
+    const std::span<const SegmentPlace> first = std::as_const(loop.animation).frame(0);
     std::copy(first.begin(), first.end(), places.end() - static_cast<std::ptrdiff_t>(first.size()));
     return loop;
 }

@@ -1,6 +1,7 @@
-// PlantAnimation: poses of a moving plant, for exporters of skins. Made by record() and
-// record_loop(). Objects and polygons move rigidly with their parent segment; without a parent they
-// stand still.
+// PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
+// polygons move rigidly with their parent segment; without a parent they stand still. With the
+// ground, no end of an object and no corner that is above y = 0 at rest is below it in a frame: the
+// segment that carries it turns up.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -26,6 +27,9 @@ struct PlantAnimation {
     LargeVector<SegmentPlace> places; // frame by frame; in each frame by segment
 
     [[nodiscard]] std::span<const SegmentPlace> frame(std::uint32_t number) const {
+        return std::span(places).subspan(std::size_t{number} * segment_count, segment_count);
+    }
+    [[nodiscard]] std::span<SegmentPlace> frame(std::uint32_t number) {
         return std::span(places).subspan(std::size_t{number} * segment_count, segment_count);
     }
 };

@@ -36,12 +36,12 @@
 // out, and stops where friction would hold the plant.
 //
 // A large plant that falls settles in stages (nested iteration; Trottenberg et al. 2001, section
-// 2.6): its main branches first, which bear their twigs as loads (impl/coarse.h), then more and
-// more of it, each from where the stage before lies. So the rounds that find where the branches go
-// cost little, and few are left for all bodies. The pose that the last stage begins with may have
-// more energy than the plant had, as its twigs have not moved yet. If the plant still has more
-// energy when it comes to rest, it goes back to its first pose and settles without stages. So the
-// energy does not grow.
+// 2.6): first its main branches, which bear their twigs as loads, or a long curve as a chain of
+// rigid pieces (impl/coarse.h), then more and more of it, each from where the stage before lies. So
+// the rounds that find where the branches go cost little, and few are left for all bodies. The pose
+// that the last stage begins with may have more energy than the plant had, as its twigs have not
+// moved yet; if so much is left when the plant rests, it goes back and settles without stages. So
+// the energy does not grow.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/coarse.h"
@@ -50,10 +50,12 @@
 #include "runtime/physics/impl/rotation.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace lsys {
@@ -72,18 +74,20 @@ constexpr double kRestStep = 1e6;    // s, step of settle(), so long that inerti
 // kRememberedShare is the weight of older rounds, per round.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
-// The same values for a stage of settle() with many bodies, whose main branches are already at
-// rest: a fifth of kFriction, and about the last three rounds.
+// The same for a stage of settle() with many bodies, whose main branches lie already: a fifth of
+// kFriction, half of it for the last stage, and the last three rounds. A heap that a long curve falls
+// to goes on rolling and sliding a little, which friction holds.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;
-constexpr double kStageRememberedShare = 0.7;
-// A plant counts as falling, so that stages pay off, if one of its first kFallingRounds rounds
-// turns a body by more than kFallingTurn, or if it is not at rest after these rounds.
+constexpr double kLastStageFriction = 0.25;
+constexpr std::size_t kStageRounds = 3;
+// A plant falls, so that stages pay, if a round of the first ones turns a body so far, or if it
+// does not rest after so many.
 constexpr double kFallingTurn = 0.3; // rad
 constexpr std::uint32_t kFallingRounds = 12;
-// Max rounds of a stage other than the last: kStageWork over its number of bodies, at most
-// kMaxStageRounds.
-constexpr std::size_t kStageWork = 1'000'000;
+// Max rounds of a stage but the last: as many as move each body of the plant so often, within
+// limits.
+constexpr std::size_t kStageWork = 8;
 constexpr std::size_t kMaxStageRounds = 200;
 
 /// 1 - Forces::exactness for the rounds of settle(). Falls after steps that were taken whole, and
@@ -117,6 +121,47 @@ private:
     int in_a_row_ = 0;  // steps taken whole since the value changed
     int patience_ = 1;  // steps taken whole before the value falls
     bool sank_ = false; // whether the value fell in the last round
+};
+
+/// Energy lost in the last rounds of settle() against the friction of the ground.
+class RecentRounds {
+public:
+    /// `in_many`: a stage with many bodies; `is_last`: the last one.
+    RecentRounds(bool in_many, bool is_last)
+        : in_many_(in_many), stage_friction_(is_last ? kLastStageFriction : kStageFriction) {}
+
+    void add(double share, double fall, double slide) {
+        if (!in_many_) {
+            fall_ = kRememberedShare * fall_ + fall;
+            slide_ = kRememberedShare * slide_ + slide;
+        } else if (share > 0.0) {
+            falls_[count_ % kStageRounds] = fall;
+            slides_[count_ % kStageRounds] = slide;
+            ++count_;
+        }
+    }
+
+    /// Whether friction would hold the plant.
+    [[nodiscard]] bool is_held() const {
+        return in_many_
+                   ? count_ >= kStageRounds && sum_of(falls_) < stage_friction_ * sum_of(slides_)
+                   : fall_ < kRestFriction * slide_;
+    }
+
+private:
+    using Last = std::array<double, kStageRounds>;
+
+    static double sum_of(const Last& last) {
+        return std::accumulate(last.begin(), last.end(), 0.0);
+    }
+
+    bool in_many_;
+    double stage_friction_;
+    double fall_ = 0.0;  // J, of all rounds, older ones weighing less
+    double slide_ = 0.0; // J, see Energies; in the same way
+    Last falls_{};       // J, of the last rounds that moved the plant
+    Last slides_{};
+    std::size_t count_ = 0;
 };
 
 float finite_or(float value, float other) {
@@ -209,11 +254,11 @@ void lay_on_ground(const PlacedObject& rest, PlacedObject& object) {
     if (!(sink > 0.0F) || rest.position.y + length * heading(rest.frame).y < 0.0F) {
         return;
     }
-    Body body;
-    body.tip = static_cast<double>(length) * glm::dvec3(axis);
-    body.clearance = -static_cast<double>(sink);
+    Contact end;
+    end.tip = static_cast<double>(length) * glm::dvec3(axis);
+    end.clearance = -static_cast<double>(sink);
     object.frame = glm::quat(glm::normalize(
-        raised(body, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0)) * glm::dquat(object.frame)));
+        raised(end, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0)) * glm::dquat(object.frame)));
 }
 
 PlantBodies plant_of(Bodies bodies) {
@@ -281,7 +326,7 @@ struct PlantPhysics::State {
                 }
                 at.turn = bent_by_itself(body, at.turn, forces);
                 if (forces.ground) {
-                    at.turn = raised(body, at.turn, at.shift);
+                    at.turn = raised(body.contact, at.turn, at.shift);
                 }
                 plant.poses[b] = at;
             }
@@ -325,26 +370,22 @@ struct PlantPhysics::State {
     struct Rounds {
         std::uint32_t most = 0;    // max rounds that are left
         bool in_stage = false;     // the first pose comes from another stage
+        bool is_last = false;      // no stage follows
         bool stop_falling = false; // ends when the plant turns out to fall
     };
     /// Makes rounds of settle() and subtracts them from `rounds.most`.
     End make_rounds(Forces now, double tolerance, Rounds& rounds) {
         Doubt doubt;
         now.exactness = 0.0;
-        const bool in_many = rounds.in_stage && plant.poses.size() >= kManyBodies;
-        const double remembered = in_many ? kStageRememberedShare : kRememberedShare;
-        const double friction = in_many ? kStageFriction : kRestFriction;
-        double fall = 0.0;  // J, energy lost in the last rounds, older ones weighing less
-        double slide = 0.0; // J, Energies::slide of the last rounds, weighed in the same way
+        RecentRounds recent(rounds.in_stage && plant.poses.size() >= kManyBodies, rounds.is_last);
         for (std::uint32_t round = 0; rounds.most > 0; ++round) {
             const Step made = advance(now, false);
             --rounds.most;
             // In the first round of a stage twigs fall that the stages before did not have.
             if (!(rounds.in_stage && round == 0)) {
-                fall = remembered * fall + made.fall;
-                slide = remembered * slide + made.slide;
+                recent.add(made.share, made.fall, made.slide);
             }
-            if (made.turn <= tolerance || (made.share == 1.0 && fall < friction * slide)) {
+            if (made.turn <= tolerance || (made.share == 1.0 && recent.is_held())) {
                 return End::Rest;
             }
             if (rounds.stop_falling && (made.turn > kFallingTurn || round >= kFallingRounds)) {
@@ -367,17 +408,15 @@ struct PlantPhysics::State {
         for (const CoarsePlant& stage : stages) {
             complete_poses(whole.rest, known, whole.poses, forces.ground, poses);
             plant = plant_of(stage.bodies);
-            for (std::size_t b = 0; b < stage.whole.size(); ++b) {
-                plant.poses[b] = poses[stage.whole[b]];
-            }
+            plant.poses = coarse_poses(stage, poses);
             update_energy();
-            const std::size_t most = kStageWork / stage.whole.size();
+            const std::size_t most = kStageWork * whole.poses.size() / plant.poses.size();
             Rounds rounds{.most = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
                           .in_stage = &stage != &stages.front()};
             make_rounds(now, tolerance, rounds);
-            for (std::size_t b = 0; b < stage.whole.size(); ++b) {
-                poses[stage.whole[b]] = plant.poses[b];
-                known[stage.whole[b]] = 1;
+            spread_poses(stage, plant.poses, poses);
+            for (const std::uint32_t b : stage.whole) {
+                known[b] = 1;
             }
         }
         complete_poses(whole.rest, known, whole.poses, forces.ground, poses);
@@ -402,6 +441,7 @@ struct PlantPhysics::State {
             plant.poses = settled_in_stages(stages, now, tolerance);
             update_energy();
             rounds.in_stage = true;
+            rounds.is_last = true;
             end = make_rounds(now, tolerance, rounds);
             if (now.windy || energy <= energy_before) {
                 return end == End::Rest;

@@ -62,7 +62,7 @@ public:
     /// Returns whether it came to rest within `max_rounds`: no segment had more than `tolerance`
     /// (radians) to turn, or friction on the ground would hold the plant. A plant of 2,000 segments
     /// or more that falls settles in stages, which `max_rounds` does not count: its main branches
-    /// first.
+    /// or, of a long curve, large pieces first.
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Returns the plant to rest, at time 0.
     void reset();

@@ -21,8 +21,12 @@ namespace lsys {
 namespace {
 
 constexpr double kExposedShare = 0.5; // part of a sheet's area that faces the wind
-// 1/s^2: under its own load a tip sinks by 0.005 of the height of the plant; pose() raises it.
+// 1/s^2: under its load nearby a tip sinks by 0.005 of the height of the plant; pose() raises it.
 constexpr double kGroundSpring = 2e3;
+// A tip bears what is near. Of its load each body farther out counts by this share less, and at
+// most so many times that sum counts: all of some 25 bodies in a row, 50 of a long chain.
+constexpr double kNearShare = 0.97;
+constexpr double kNearFactor = 1.5;
 constexpr double kRounding = 1e-6; // rounding error of positions, relative to the plant's height
 
 double magnitude(float value) {
@@ -120,7 +124,7 @@ void add_segment(const Segment& segment, Body& body, BodySums& load) {
     body.inertia.add_diagonal(body.mass * cone.axial);
     load.first_moment = body.mass * cone.centre * axis;
     body.centre = cone.centre * axis;
-    body.tip = length * axis;
+    body.contact.tip = length * axis;
     const auto area = [](double value) {
         return static_cast<float>(
             std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
@@ -142,13 +146,27 @@ void add_sheet(
     load.sail += kExposedShare * area;
 }
 
+/// The part of `carried`, mass of each body and its descendants, that its tip bears on the ground.
+std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<double> carried) {
+    std::vector<double> sums(bodies.size(), 0.0);
+    for (std::size_t b = bodies.size(); b-- > 0;) {
+        sums[b] += bodies[b].mass;
+        if (bodies[b].parent != kNoSegment) {
+            sums[bodies[b].parent] += kNearShare * sums[b];
+        }
+        carried[b] = std::min(carried[b], kNearFactor * sums[b]);
+    }
+    return carried;
+}
+
 /// Sets the contact of each body with the ground. A tip above the ground at rest may sink until its
 /// radius touches the ground; a tip below the ground with a descendant above the ground is held at
 /// its depth; other tips are free. `carried`: mass of each body and its descendants, kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();
+    const std::vector<double> near_load = near_loads(out.bodies, carried);
     const auto tip_height = [&](std::size_t b) {
-        return place_of(rest.segments[out.segments[b]].base).y + out.bodies[b].tip.y;
+        return place_of(rest.segments[out.segments[b]].base).y + out.bodies[b].contact.tip.y;
     };
     double height = 0.0;
     for (std::size_t b = 0; b < count; ++b) {
@@ -166,8 +184,8 @@ void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies
             continue;
         }
         const double radius = magnitude(rest.segments[out.segments[b]].tip_radius);
-        body.clearance = std::max(tip - radius, 0.0);
-        body.ground_spring = std::min(carried[b] * kGroundSpring / height, 1e30);
+        body.contact.clearance = std::max(tip - radius, 0.0);
+        body.contact.spring = std::min(near_load[b] * kGroundSpring / height, 1e30);
         if (body.parent != kNoSegment) {
             holds[body.parent] = 1;
         }

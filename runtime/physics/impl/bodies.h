@@ -16,6 +16,13 @@ namespace lsys {
 /// Clearance of a body that the ground does not hold.
 inline constexpr double kNoGround = std::numeric_limits<double>::infinity();
 
+/// A point of a body that the ground holds: its tip. Relative to the base at rest.
+struct Contact {
+    glm::dvec3 tip{0.0};
+    double clearance = kNoGround; // m, height of the tip above the lowest place that it may take
+    double spring = 0.0;          // N/m
+};
+
 /// A rigid body. Vectors are relative to its base at rest, in the axes of the world.
 struct Body {
     std::uint32_t parent = kNoSegment; // index of a body before this one
@@ -33,12 +40,12 @@ struct Body {
     // wind and heading.
     glm::vec3 heading{0.0F, 1.0F, 0.0F};
     float side = 0.0F; // m^2
-    float end = 0.0F;  // m^2
-    float sail = 0.0F; // m^2
-    // Contact with the ground, at the tip.
-    glm::dvec3 tip{0.0};
-    double clearance = kNoGround; // m, height of the tip above the lowest place that it may take
-    double ground_spring = 0.0;   // N/m
+    float end = 0.0F;
+    float sail = 0.0F;
+    Contact contact;
+    // More contacts, of bodies of coarse plants: a part of Bodies::contacts.
+    std::uint32_t first_contact = 0;
+    std::uint32_t contact_count = 0;
 };
 
 /// Bodies by depth, and within a depth by their parents, so that siblings are neighbours.
@@ -47,7 +54,19 @@ struct Bodies {
     std::vector<std::uint32_t> segments;   // index of the segment of each body
     std::vector<std::uint32_t> places;     // index of the body of each segment
     std::vector<std::uint32_t> level_ends; // for each depth, the index after its last body
+    std::vector<Contact> contacts;         // see Body::first_contact
 };
+
+/// Calls `use` for all contacts of a body that the ground holds.
+template <typename Use>
+void for_each_contact(const Bodies& plant, const Body& body, const Use& use) {
+    if (body.contact.spring > 0.0) {
+        use(body.contact);
+    }
+    for (std::uint32_t c = 0; c < body.contact_count; ++c) {
+        use(plant.contacts[body.first_contact + c]);
+    }
+}
 
 /// `surface_mass`: kg per square metre of objects and polygons.
 [[nodiscard]] Bodies make_bodies(const Skeleton& rest, double surface_mass);

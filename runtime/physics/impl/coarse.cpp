@@ -1,5 +1,6 @@
-// A limp twig loads its branch as a point mass at its base does, so a coarse plant falls as the
-// whole plant does: Body::moment, clearance and ground_spring are those of the whole plant.
+// A twig that is limp loads its branch as a mass at its base does, and a run falls with the weight
+// of its bodies, so a coarse plant falls as the whole one: Body::moment and the contacts with the
+// ground are those of the whole plant.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -7,8 +8,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numbers>
+#include <span>
 
 namespace lsys {
 
@@ -17,6 +20,16 @@ namespace {
 constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest plant
 constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
 constexpr double kMinGrowth = 3.0;       // min ratio
+// A plant with larger twigs is nearly a chain: most of its weight would be at the end of the kept
+// bodies, so it is cut into runs instead. See Coarsening::relative_twig_size().
+constexpr double kMaxRelativeTwig = 32.0;
+
+/// m^2, area of the segment in the wind, mean over all directions.
+float mean_area(const Body& body) {
+    constexpr float kMeanSine = std::numbers::pi_v<float> / 4.0F;
+    constexpr float kMeanCosine = 0.5F;
+    return kMeanSine * body.side + kMeanCosine * body.end;
+}
 
 /// Sums over each body and its descendants, by body.
 struct Twigs {
@@ -26,15 +39,13 @@ struct Twigs {
 };
 
 Twigs twigs_of(const std::vector<Body>& bodies) {
-    constexpr float kMeanSine = std::numbers::pi_v<float> / 4.0F;
-    constexpr float kMeanCosine = 0.5F;
     const std::size_t count = bodies.size();
     Twigs out{std::vector<std::uint32_t>(count, 1), std::vector<double>(count, 0.0),
               std::vector<float>(count, 0.0F)};
     for (std::size_t b = count; b-- > 0;) {
         const Body& body = bodies[b];
         out.masses[b] += body.mass;
-        out.sails[b] += kMeanSine * body.side + kMeanCosine * body.end + body.sail;
+        out.sails[b] += mean_area(body) + body.sail;
         if (body.parent != kNoSegment) {
             out.sizes[body.parent] += out.sizes[b];
             out.masses[body.parent] += out.masses[b];
@@ -44,51 +55,259 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
     return out;
 }
 
-/// The part of `plant` whose bodies have at least `min_size` bodies in their subtree, themselves
-/// included.
-CoarsePlant coarse_plant(const Bodies& plant, const Twigs& twigs, std::uint32_t min_size) {
-    CoarsePlant out;
-    std::vector<std::uint32_t> places(plant.bodies.size(), kNoSegment);
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : plant.level_ends) {
-        for (std::uint32_t b = begin; b < end; ++b) {
-            if (twigs.sizes[b] < min_size) {
-                continue;
+/// Place of body number `i` of a run: 0 at its base, 1 at its tip.
+double place_in_run(std::size_t i, std::size_t length) {
+    return (static_cast<double>(i) + 0.5) / static_cast<double>(length);
+}
+/// Part of the way from the rotation of the parent's run to that of the own run, which a body at
+/// `place` has turned. `joined`: the own run goes on from the parent's, whose bodies turn too.
+double turned_part(double place, bool joined) {
+    return std::min(joined ? 0.5 + place : 2.0 * place, 1.0);
+}
+/// The same for a body of the parent's run, if the own run goes on from it.
+double turned_ahead(double place) {
+    return std::max(place - 0.5, 0.0);
+}
+
+std::span<const std::uint32_t> run_of(const CoarsePlant& plant, std::uint32_t run) {
+    const std::uint32_t begin = run == 0 ? 0 : plant.run_ends[run - 1];
+    return std::span(plant.whole).subspan(begin, plant.run_ends[run] - begin);
+}
+/// Whether a run goes on from its parent, alone.
+bool is_joined(const CoarsePlant& plant, std::uint32_t run) {
+    const std::uint32_t parent = plant.bodies.bodies[run].parent;
+    return parent != kNoSegment && plant.bodies.bodies[parent].child_count == 1;
+}
+
+/// Leaves the contacts that are farthest in some direction, if there are many.
+void leave_outer(std::vector<Contact>& contacts) {
+    constexpr std::array<glm::dvec3, 7> kDirections = {
+        glm::dvec3(1.0, 0.0, 0.0),  glm::dvec3(0.0, 1.0, 0.0),  glm::dvec3(0.0, 0.0, 1.0),
+        glm::dvec3(1.0, 1.0, 1.0),  glm::dvec3(1.0, 1.0, -1.0), glm::dvec3(1.0, -1.0, 1.0),
+        glm::dvec3(1.0, -1.0, -1.0)};
+    if (contacts.size() <= 2 * kDirections.size()) {
+        return;
+    }
+    std::vector<std::size_t> outer;
+    for (const glm::dvec3& direction : kDirections) {
+        const auto [low, high] = std::minmax_element(
+            contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) {
+                return glm::dot(direction, a.tip) < glm::dot(direction, b.tip);
+            });
+        outer.push_back(static_cast<std::size_t>(low - contacts.begin()));
+        outer.push_back(static_cast<std::size_t>(high - contacts.begin()));
+    }
+    std::sort(outer.begin(), outer.end());
+    outer.erase(std::unique(outer.begin(), outer.end()), outer.end());
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+        contacts[i] = contacts[outer[i]];
+    }
+    contacts.resize(outer.size());
+}
+
+/// Makes the coarse plant of the bodies with at least `min_size` bodies from there on, in runs of
+/// at most `longest`.
+class Coarsening {
+public:
+    Coarsening(const Bodies& plant,
+               const Twigs& twigs,
+               std::uint32_t min_size,
+               std::uint32_t longest)
+        : plant_(&plant), twigs_(&twigs), min_size_(min_size), longest_(longest) {}
+
+    /// Mean size of the twig of a body that is left out, as a multiple of the number of bodies per
+    /// kept body.
+    [[nodiscard]] double relative_twig_size() const {
+        double kept = 0.0;
+        double squares = 0.0;
+        for (std::uint32_t b = 0; b < plant_->bodies.size(); ++b) {
+            const std::uint32_t parent = plant_->bodies[b].parent;
+            if (is_kept(b)) {
+                kept += 1.0;
+            } else if (parent == kNoSegment || is_kept(parent)) {
+                const auto size = static_cast<double>(twigs_->sizes[b]);
+                squares += size * size;
             }
-            const auto place = static_cast<std::uint32_t>(out.whole.size());
-            places[b] = place;
-            out.whole.push_back(b);
-            Body body = plant.bodies[b];
-            glm::dvec3 first_moment = body.mass * body.centre;
-            for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
-                if (twigs.sizes[c] < min_size) {
-                    const glm::dvec3& offset = plant.bodies[c].offset;
-                    body.mass += twigs.masses[c];
-                    first_moment += twigs.masses[c] * offset;
-                    body.inertia += point_inertia(twigs.masses[c], offset);
-                    body.sail = std::min(body.sail + twigs.sails[c], 1e30F);
+        }
+        const auto all = static_cast<double>(plant_->bodies.size());
+        return kept < all ? squares / (all - kept) * kept / all : 0.0;
+    }
+
+    [[nodiscard]] std::uint32_t count_runs() const {
+        std::uint32_t count = 0;
+        std::vector<std::uint32_t> lengths(plant_->bodies.size(), 0); // of the run up to each body
+        for (std::uint32_t b = 0; b < plant_->bodies.size(); ++b) {
+            if (is_kept(b)) {
+                lengths[b] = lengths[b] % longest_ + 1;
+                count += lengths[b] == 1 ? 1U : 0U;
+                if (const std::uint32_t next = only_kept_child(b); next != kNoSegment) {
+                    lengths[next] = lengths[b];
                 }
             }
-            if (body.mass > 0.0) {
-                body.centre = first_moment / body.mass;
-            }
-            body.first_child = 0;
-            body.child_count = 0;
-            if (body.parent != kNoSegment) {
-                body.parent = places[body.parent];
-                Body& parent = out.bodies.bodies[body.parent];
-                parent.first_child = parent.child_count == 0 ? place : parent.first_child;
-                ++parent.child_count;
-            }
-            out.bodies.bodies.push_back(body);
         }
-        const auto count = static_cast<std::uint32_t>(out.whole.size());
-        if (out.bodies.level_ends.empty() || out.bodies.level_ends.back() < count) {
-            out.bodies.level_ends.push_back(count);
-        }
-        begin = end;
+        return count;
     }
-    return out;
+
+    [[nodiscard]] CoarsePlant make() const {
+        CoarsePlant out;
+        std::vector<std::uint32_t> firsts; // first body of each run
+        for (std::uint32_t b = 0;
+             b < plant_->bodies.size() && plant_->bodies[b].parent == kNoSegment; ++b) {
+            if (is_kept(b)) {
+                firsts.push_back(b);
+                out.bodies.bodies.push_back({});
+            }
+        }
+        std::uint32_t begin = 0;
+        while (begin < firsts.size()) {
+            const auto end = static_cast<std::uint32_t>(firsts.size());
+            out.bodies.level_ends.push_back(end);
+            for (std::uint32_t run = begin; run < end; ++run) {
+                add_run(run, firsts, out);
+            }
+            begin = end;
+        }
+        set_springs(out);
+        return out;
+    }
+
+private:
+    [[nodiscard]] bool is_kept(std::uint32_t body) const {
+        return twigs_->sizes[body] >= min_size_;
+    }
+
+    /// kNoSegment if none or several children are kept.
+    [[nodiscard]] std::uint32_t only_kept_child(std::uint32_t b) const {
+        const Body& body = plant_->bodies[b];
+        std::uint32_t only = kNoSegment;
+        for (std::uint32_t c = body.first_child; c < body.first_child + body.child_count; ++c) {
+            if (is_kept(c)) {
+                if (only != kNoSegment) {
+                    return kNoSegment;
+                }
+                only = c;
+            }
+        }
+        return only;
+    }
+
+    /// Adds the masses of `member`, whose base is at `base`, and of its twigs that are left out.
+    void add_masses(const Body& member,
+                    const glm::dvec3& base,
+                    Body& body,
+                    glm::dvec3& first_moment) const {
+        body.mass += member.mass;
+        first_moment += member.mass * (base + member.centre);
+        body.inertia += member.inertia;
+        body.inertia += point_inertia(-member.mass, member.centre);
+        body.inertia += point_inertia(member.mass, base + member.centre);
+        for (std::uint32_t c = member.first_child; c < member.first_child + member.child_count;
+             ++c) {
+            if (!is_kept(c)) {
+                const glm::dvec3 place = base + plant_->bodies[c].offset;
+                body.mass += twigs_->masses[c];
+                first_moment += twigs_->masses[c] * place;
+                body.inertia += point_inertia(twigs_->masses[c], place);
+                body.sail = std::min(body.sail + twigs_->sails[c], 1e30F);
+            }
+        }
+    }
+
+    /// Makes the body of a run, and adds the runs that begin at its end.
+    void add_run(std::uint32_t run, std::vector<std::uint32_t>& firsts, CoarsePlant& out) const {
+        Body body = out.bodies.bodies[run]; // its parent and offset are known
+        std::vector<Contact> contacts;
+        glm::dvec3 first_moment(0.0);
+        glm::dvec3 base(0.0); // of `last`
+        float areas = 0.0F;   // m^2, of segments in the wind
+        std::uint32_t last = firsts[run];
+        std::uint32_t length = 1;
+        for (;; ++length) {
+            const Body& member = plant_->bodies[last];
+            out.whole.push_back(last);
+            add_masses(member, base, body, first_moment);
+            body.sail = std::min(body.sail + member.sail, 1e30F);
+            areas += mean_area(member);
+            if (member.contact.spring > 0.0) {
+                contacts.push_back(member.contact);
+                contacts.back().tip += base;
+            }
+            const std::uint32_t next = only_kept_child(last);
+            if (next == kNoSegment || length == longest_) {
+                break;
+            }
+            last = next;
+            base += plant_->bodies[last].offset;
+        }
+        out.run_ends.push_back(static_cast<std::uint32_t>(out.whole.size()));
+        if (body.mass > 0.0) {
+            body.centre = first_moment / body.mass;
+        }
+        const Body& end = plant_->bodies[last];
+        if (length == 1) {
+            body.heading = end.heading;
+            body.side = end.side;
+            body.end = end.end;
+            body.contact = end.contact;
+        } else {
+            body.sail = std::min(body.sail + areas, 1e30F);
+            leave_outer(contacts);
+            body.first_contact = static_cast<std::uint32_t>(out.bodies.contacts.size());
+            body.contact_count = static_cast<std::uint32_t>(contacts.size());
+            out.bodies.contacts.insert(out.bodies.contacts.end(), contacts.begin(), contacts.end());
+        }
+        body.moment = first_moment;
+        body.first_child = static_cast<std::uint32_t>(firsts.size());
+        for (std::uint32_t c = end.first_child; c < end.first_child + end.child_count; ++c) {
+            if (is_kept(c)) {
+                Body child;
+                child.parent = run;
+                child.offset = base + plant_->bodies[c].offset;
+                body.moment += twigs_->masses[c] * child.offset;
+                firsts.push_back(c);
+                out.bodies.bodies.push_back(child);
+            }
+        }
+        body.child_count = static_cast<std::uint32_t>(firsts.size()) - body.first_child;
+        out.bodies.bodies[run] = body;
+    }
+
+    /// The spring of each run has the energy of those in it when spread_poses() bends them.
+    void set_springs(CoarsePlant& out) const {
+        for (std::uint32_t run = 0; run < out.bodies.bodies.size(); ++run) {
+            Body& body = out.bodies.bodies[run];
+            const bool joined = is_joined(out, run);
+            double before = 0.0;
+            if (joined) {
+                double ahead = 0.0;
+                const std::span<const std::uint32_t> members = run_of(out, body.parent);
+                for (std::size_t i = 0; i < members.size(); ++i) {
+                    before = turned_ahead(place_in_run(i, members.size()));
+                    body.spring +=
+                        plant_->bodies[members[i]].spring * (before - ahead) * (before - ahead);
+                    ahead = before;
+                }
+            }
+            const std::span<const std::uint32_t> members = run_of(out, run);
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                const double part = turned_part(place_in_run(i, members.size()), joined);
+                body.spring +=
+                    plant_->bodies[members[i]].spring * (part - before) * (part - before);
+                before = part;
+            }
+        }
+    }
+
+private:
+    const Bodies* plant_;
+    const Twigs* twigs_;
+    std::uint32_t min_size_;
+    std::uint32_t longest_;
+};
+
+glm::dquat mixed(const glm::dquat& from, glm::dquat to, double share) {
+    to = glm::dot(from, to) < 0.0 ? -to : to;
+    return share >= 1.0 ? to : glm::normalize((1.0 - share) * from + share * to);
 }
 
 } // namespace
@@ -103,19 +322,61 @@ std::vector<CoarsePlant> coarse_plants(const Bodies& plant) {
     std::vector<std::uint32_t> sorted = twigs.sizes;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
     for (std::size_t most = kCoarsest; most < count; most *= kGrowth) {
-        // At most `most` bodies have larger subtrees than item `most` of `sorted`.
-        const std::uint32_t min_size = sorted[most] + 1;
-        const auto kept = static_cast<double>(
-            std::partition_point(sorted.begin(), sorted.end(),
-                                 [&](std::uint32_t size) { return size >= min_size; }) -
-            sorted.begin());
+        // Bodies with more descendants than those of body number `most`: at most so many.
+        Coarsening coarsening(plant, twigs, sorted[most] + 1, 1);
+        if (coarsening.relative_twig_size() > kMaxRelativeTwig) {
+            std::uint32_t longest = 1;
+            do {
+                longest *= 2;
+                coarsening = Coarsening(plant, twigs, longest, longest);
+            } while (coarsening.count_runs() > most);
+        }
+        const auto kept = static_cast<double>(coarsening.count_runs());
         const bool is_less = kMinGrowth * kept <= static_cast<double>(count);
-        const double before = out.empty() ? 0.0 : static_cast<double>(out.back().whole.size());
+        const double before =
+            out.empty() ? 0.0 : static_cast<double>(out.back().bodies.bodies.size());
         if (kept > 0.0 && is_less && kept >= kMinGrowth * before) {
-            out.push_back(coarse_plant(plant, twigs, min_size));
+            out.push_back(coarsening.make());
         }
     }
     return out;
+}
+
+std::vector<BodyPose> coarse_poses(const CoarsePlant& coarse, const std::vector<BodyPose>& poses) {
+    std::vector<BodyPose> out(coarse.run_ends.size());
+    for (std::uint32_t run = 0; run < out.size(); ++run) {
+        const std::span<const std::uint32_t> members = run_of(coarse, run);
+        const glm::dquat middle = poses[members[members.size() / 2]].turn;
+        if (members.size() == 1) {
+            out[run].turn = middle;
+            continue;
+        }
+        glm::dquat sum(0.0, 0.0, 0.0, 0.0);
+        for (const std::uint32_t b : members) {
+            sum += glm::dot(middle, poses[b].turn) < 0.0 ? -poses[b].turn : poses[b].turn;
+        }
+        out[run].turn = glm::normalize(sum);
+    }
+    return out;
+}
+
+void spread_poses(const CoarsePlant& coarse,
+                  const std::vector<BodyPose>& runs,
+                  std::vector<BodyPose>& poses) {
+    for (std::uint32_t run = 0; run < runs.size(); ++run) {
+        const Body& body = coarse.bodies.bodies[run];
+        const bool joined = is_joined(coarse, run);
+        const glm::dquat before =
+            body.parent == kNoSegment ? glm::dquat(1.0, 0.0, 0.0, 0.0) : runs[body.parent].turn;
+        const glm::dquat& own = runs[run].turn;
+        const std::span<const std::uint32_t> members = run_of(coarse, run);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            const double place = place_in_run(i, members.size());
+            const double ahead = body.child_count == 1 ? turned_ahead(place) : 0.0;
+            poses[members[i]].turn = ahead > 0.0 ? mixed(own, runs[body.first_child].turn, ahead)
+                                                 : mixed(before, own, turned_part(place, joined));
+        }
+    }
 }
 
 void complete_poses(const Bodies& plant,
@@ -136,7 +397,7 @@ void complete_poses(const Bodies& plant,
         if (known[b] == 0) {
             pose.turn = glm::normalize(parent.turn *
                                        (glm::conjugate(before[body.parent].turn) * before[b].turn));
-            pose.turn = ground ? raised(body, pose.turn, pose.shift) : pose.turn;
+            pose.turn = ground ? raised(body.contact, pose.turn, pose.shift) : pose.turn;
         }
     }
 }

@@ -8,12 +8,12 @@
 
 namespace lsys {
 
-glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& shift) {
-    const double depth = ground_depth(body, {turn, shift});
+glm::dquat raised(const Contact& contact, const glm::dquat& turn, const glm::dvec3& shift) {
+    const double depth = ground_depth(contact, {turn, shift});
     if (!(depth > 0.0)) {
         return turn;
     }
-    const glm::dvec3 arm = turn * body.tip;
+    const glm::dvec3 arm = turn * contact.tip;
     const double length = glm::length(arm);
     const double level = std::hypot(arm.x, arm.z);
     if (!(length > 0.0)) {
@@ -39,11 +39,11 @@ void rest_on_ground(const Bodies& plant, const Skeleton& rest, std::vector<BodyP
             const BodyPose& parent = poses[body.parent];
             pose.shift = parent.shift + (parent.turn * body.offset - body.offset);
             const auto base = static_cast<double>(segment.base.y);
-            if (!segment.linked && (base >= 0.0 || body.clearance < kNoGround)) {
+            if (!segment.linked && (base >= 0.0 || body.contact.clearance < kNoGround)) {
                 pose.shift.y = std::max(pose.shift.y, -std::max(base, 0.0));
             }
         }
-        pose.turn = raised(body, pose.turn, pose.shift);
+        pose.turn = raised(body.contact, pose.turn, pose.shift);
     }
 }
 

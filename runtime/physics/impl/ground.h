@@ -8,7 +8,8 @@ namespace lsys {
 
 /// The rotation `turn` of a body whose base is displaced by `shift`, turned upwards about a level
 /// axis until the tip is out of the ground, or until the body stands upright.
-[[nodiscard]] glm::dquat raised(const Body& body, const glm::dquat& turn, const glm::dvec3& shift);
+[[nodiscard]] glm::dquat
+raised(const Contact& contact, const glm::dquat& turn, const glm::dvec3& shift);
 
 /// Raises bodies out of the ground, from root to tip. Other bodies keep their rotation; a body that
 /// is not displaced is unchanged bit by bit. Linear time.

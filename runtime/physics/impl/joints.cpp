@@ -72,24 +72,21 @@ void add_stiffness(const glm::dvec3& arm,
 
 /// Adds the contact of the tip, if it is in the ground or reaches it within the step: a spring
 /// along Y with its force at the end of the step, and friction along the ground.
-void add_contact(const Body& body,
+void add_contact(const Contact& contact,
                  const BodyMotion& motion,
                  const BodyPose& pose,
                  const glm::dmat3& axes,
                  const Forces& forces,
                  BodyForms& own) {
-    if (!forces.ground || !(body.ground_spring > 0.0)) {
-        return;
-    }
     const double h = forces.step;
-    const glm::dvec3 arm = axes * body.tip;
-    const double depth = ground_depth(body, pose);
+    const glm::dvec3 arm = axes * contact.tip;
+    const double depth = ground_depth(contact, pose);
     const glm::dvec3 velocity = motion.velocity + glm::cross(motion.spin, arm);
     if (!(depth - h * std::min(velocity.y, 0.0) > 0.0)) {
         return;
     }
-    const glm::dvec3 push(0.0, body.ground_spring * depth, 0.0);
-    const double hold = h * h * body.ground_spring;
+    const glm::dvec3 push(0.0, contact.spring * depth, 0.0);
+    const double hold = h * h * contact.spring;
     const double speed = std::max(std::hypot(velocity.x, velocity.z), kStickingSpeed);
     const double rub = h * forces.friction * std::max(push.y, 0.0) / speed;
     own.spin += h * glm::cross(arm, push);
@@ -294,7 +291,11 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
             BodyForms own = forces.own_load
                                 ? own_load_forms(body, plant.motion[b], turn, axes, forces)
                                 : own_forms(body, plant.motion[b], turn, axes, forces);
-            add_contact(body, plant.motion[b], plant.poses[b], axes, forces, own);
+            if (forces.ground) {
+                for_each_contact(plant.rest, body, [&](const Contact& contact) {
+                    add_contact(contact, plant.motion[b], plant.poses[b], axes, forces, own);
+                });
+            }
             const std::uint32_t felt = forces.own_load ? 0 : body.child_count;
             for (std::uint32_t c = body.first_child; c < body.first_child + felt; ++c) {
                 add_child(plant.reduced[c & plant.reduced_mask], axes * bodies[c].offset, forces,

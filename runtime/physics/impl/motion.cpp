@@ -65,14 +65,17 @@ void move_body(PlantBodies& plant,
     }
     sum.kinetic += 0.5 * kinetic_term;
     double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
-    if (forces.ground && body.ground_spring > 0.0) {
-        const double depth = std::max(ground_depth(body, plant.next_poses[b]), 0.0);
-        stretched += 0.5 * body.ground_spring * depth * depth;
-        if (depth > 0.0) {
-            const BodyPose& before = plant.poses[b];
-            const glm::dvec3 way = shift - before.shift + turn * body.tip - before.turn * body.tip;
-            sum.slide += body.ground_spring * depth * std::hypot(way.x, way.z);
-        }
+    if (forces.ground) {
+        for_each_contact(plant.rest, body, [&](const Contact& contact) {
+            const double depth = ground_depth(contact, plant.next_poses[b]);
+            if (depth > 0.0) {
+                const BodyPose& before = plant.poses[b];
+                const glm::dvec3 way =
+                    shift - before.shift + turn * contact.tip - before.turn * contact.tip;
+                stretched += 0.5 * contact.spring * depth * depth;
+                sum.slide += contact.spring * depth * std::hypot(way.x, way.z);
+            }
+        });
     }
     const double lifted = -body.mass * glm::dot(forces.gravity, displacement);
     sum.potential += stretched + lifted;

@@ -81,10 +81,9 @@ struct PlantBodies {
                                const glm::dvec3& velocity,
                                const Forces& forces);
 
-/// Depth in m of the tip of a body below the lowest place that it may take; negative above that
-/// place.
-[[nodiscard]] inline double ground_depth(const Body& body, const BodyPose& pose) {
-    return -(body.clearance + pose.shift.y + (pose.turn * body.tip - body.tip).y);
+/// Depth of the tip below the lowest place that it may take, negative above it.
+[[nodiscard]] inline double ground_depth(const Contact& contact, const BodyPose& pose) {
+    return -(contact.clearance + pose.shift.y + (pose.turn * contact.tip - contact.tip).y);
 }
 
 /// Computes JointSolution::spin of all bodies: the angular velocities at the end of an implicit

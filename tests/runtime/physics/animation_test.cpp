@@ -58,6 +58,84 @@ TEST_CASE("between frames no step is longer than the plant's, which stays as it 
     CHECK(record(nothing, 3, 24.0F).places.empty());
 }
 
+TEST_CASE("in all frames objects and corners stay out of the ground") {
+    // A limp stalk with large leaves all around, tips of which reach the ground first.
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        last = add_segment(plant, last, leaning(0.05F * static_cast<float>(i)),
+                           rod(0.2F, 0.005F, 0.02F, 0.02F));
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            PlacedObject leaf;
+            leaf.kind = TurtleOperation::Leaf;
+            leaf.position = tip(plant.segments[last]);
+            leaf.frame = glm::angleAxis(2.1F * static_cast<float>(side) + static_cast<float>(i),
+                                        glm::vec3(0.0F, 1.0F, 0.0F)) *
+                         leaning(1.2F);
+            leaf.size = 0.3F;
+            leaf.parent = last;
+            plant.objects.push_back(leaf);
+        }
+        Polygon polygon;
+        polygon.parent = last;
+        polygon.first_corner = static_cast<std::uint32_t>(plant.corners.size());
+        polygon.corner_count = 3;
+        for (const glm::vec3& corner :
+             {glm::vec3(0.0F), glm::vec3(0.1F, 0.0F, -0.25F), glm::vec3(0.1F, 0.0F, 0.25F)}) {
+            plant.corners.push_back(tip(plant.segments[last]) + corner);
+        }
+        plant.polygons.push_back(polygon);
+    }
+    const auto lowest_in = [](const Skeleton& pose) {
+        float lowest = 0.0F;
+        for (const PlacedObject& object : pose.objects) {
+            const float end = object.position.y + object.size * heading(object.frame).y;
+            lowest = std::min({lowest, object.position.y, end});
+        }
+        for (const glm::vec3& corner : pose.corners) {
+            lowest = std::min(lowest, corner.y);
+        }
+        return lowest;
+    };
+    for (const bool settled : {false, true}) {
+        for (const bool ground : {true, false}) {
+            PhysicsOptions options;
+            options.threads = 1;
+            options.damping = 0.01F;
+            options.ground = ground;
+            options.wind = {{3.0F, 0.0F, 0.0F}, 0.8F};
+            PlantPhysics physics(plant, options);
+            if (settled) {
+                static_cast<void>(physics.settle(1e-6, 300));
+            }
+            Skeleton first; // is exported, and moves with the frames
+            physics.pose(first);
+            const PlantAnimation animation = record(physics, 60, 24.0F);
+            Skeleton pose;
+            float lowest = 0.0F;
+            for (std::uint32_t frame = 0; frame < 60; ++frame) {
+                pose_at(first, animation.frame(frame), pose);
+                lowest = std::min(lowest, lowest_in(pose));
+                for (std::size_t i = 1; i < pose.segments.size(); ++i) { // joined
+                    REQUIRE(glm::length(pose.segments[i].base - tip(pose.segments[i - 1])) < 1e-4F);
+                }
+            }
+            CAPTURE(settled, ground, lowest);
+            CHECK((ground ? lowest >= -1e-5F : lowest < -0.1F));
+        }
+    }
+    PhysicsOptions options;
+    options.threads = 1;
+    options.wind = {{3.0F, 0.0F, 0.0F}, 0.8F};
+    PlantPhysics physics(plant, options);
+    const PlantLoop loop = record_loop(physics, 49, 24.0F);
+    Skeleton pose;
+    for (std::uint32_t frame = 0; frame < 49; ++frame) {
+        pose_at(plant, loop.animation.frame(frame), pose);
+        REQUIRE(lowest_in(pose) >= -1e-5F);
+    }
+}
+
 TEST_CASE("a loop ends where it begins, and goes on as it begins") {
     const Skeleton plant = tree(1, 3);
     PhysicsOptions options;

@@ -40,6 +40,29 @@ Skeleton limp_plant() {
     return plant;
 }
 
+/// A dragon curve in the plane z = 0 from 1 m above the ground: 2^order limp segments of 1 m, each
+/// at a right angle to the one before it, and no branch.
+Skeleton limp_curve(std::uint32_t order) {
+    Skeleton plant;
+    std::uint32_t last = kNoSegment;
+    float turn = 0.0F;
+    for (std::uint32_t i = 0; i < (1U << order); ++i) {
+        last = add_segment(plant, last, leaning(turn), rod(1.0F, 0.05F, 2e4F, 5.0F));
+        const std::uint32_t corner = i + 1;
+        const std::uint32_t lowest_bit = corner & (~corner + 1);
+        const bool left = (corner & (lowest_bit << 1U)) != 0;
+        turn += left ? 1.5707963F : -1.5707963F;
+    }
+    float lowest = 0.0F;
+    for (const Segment& segment : plant.segments) {
+        lowest = std::min(lowest, tip(segment).y);
+    }
+    for (Segment& segment : plant.segments) {
+        segment.base.y += 1.0F - lowest;
+    }
+    return plant;
+}
+
 /// Sum of mass times height of the centres of mass of segments: kg m.
 double lifted_mass(const Skeleton& plant) {
     double sum = 0.0;
@@ -62,7 +85,8 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
     }
     for (const CoarsePlant& stage : stages) {
         const std::vector<Body>& bodies = stage.bodies.bodies;
-        REQUIRE(bodies.size() == stage.whole.size());
+        REQUIRE(bodies.size() == stage.whole.size()); // each run is one body
+        REQUIRE(bodies.size() == stage.run_ends.size());
         REQUIRE(bodies.size() >= 100);
         CHECK(bodies.size() * 3 <= whole.bodies.size());
         CHECK(stage.bodies.level_ends.back() == bodies.size());
@@ -89,6 +113,89 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
         CHECK(stage_mass == Approx(mass));
     }
     CHECK(coarse_plants(make_bodies(Skeleton{}, 0.2)).empty());
+}
+
+TEST_CASE("the runs of a curve have its masses, its contacts and the energy of its joints") {
+    const Bodies whole = make_bodies(limp_curve(13), 0.2);
+    const std::vector<CoarsePlant> stages = coarse_plants(whole);
+    REQUIRE(stages.size() == 2);
+    double mass = 0.0;
+    for (const Body& body : whole.bodies) {
+        mass += body.mass;
+    }
+    std::uint32_t members = 0;
+    for (const CoarsePlant& stage : stages) {
+        const std::vector<Body>& bodies = stage.bodies.bodies;
+        REQUIRE(bodies.size() == stage.run_ends.size());
+        REQUIRE(stage.run_ends.back() == stage.whole.size());
+        CHECK(bodies.size() * 3 <= whole.bodies.size());
+        CHECK(stage.whole.size() * 10 >= whole.bodies.size() * 9);
+        members = stage.run_ends.front();
+        double stage_mass = 0.0;
+        double energy = 0.0; // of the stage bent by 0.01 at each joint
+        std::vector<BodyPose> runs(bodies.size());
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            stage_mass += bodies[b].mass;
+            energy += 0.5e-4 * bodies[b].spring;
+            runs[b].turn =
+                glm::angleAxis(0.01 * static_cast<double>(b + 1), glm::dvec3(0.0, 0.0, 1.0));
+            REQUIRE(bodies[b].parent == (b == 0 ? kNoSegment : b - 1));
+            REQUIRE(bodies[b].contact_count <= std::min(members, 14U));
+            REQUIRE((bodies[b].contact_count > 0 || bodies[b].contact.spring > 0.0));
+        }
+        CHECK(stage_mass == Approx(mass));
+        // The moment of the root: that of the run, and the load of the others at its end.
+        const Body& root = bodies.front();
+        const glm::dvec3 moment =
+            root.mass * root.centre + (stage_mass - root.mass) * bodies[1].offset;
+        CHECK(glm::length(moment - root.moment) <= 1e-9 * mass);
+        // Given to the members, the bend has the same energy, and the runs get their poses back.
+        std::vector<BodyPose> poses(whole.bodies.size());
+        spread_poses(stage, runs, poses);
+        double spread = 0.0;
+        glm::dquat before(1.0, 0.0, 0.0, 0.0);
+        for (const std::uint32_t b : stage.whole) {
+            const double half = std::acos(std::min(std::abs(glm::dot(before, poses[b].turn)), 1.0));
+            spread += 0.5 * whole.bodies[b].spring * 4.0 * half * half;
+            before = poses[b].turn;
+        }
+        CHECK(spread == Approx(energy).epsilon(0.08)); // a joint in the middle bends with both
+        const std::vector<BodyPose> back = coarse_poses(stage, poses);
+        for (std::size_t b = 2; b + 2 < bodies.size(); ++b) {
+            REQUIRE(std::abs(glm::dot(back[b].turn, runs[b].turn)) >= 1.0 - 1e-7);
+        }
+    }
+}
+
+TEST_CASE("long curves without branches settle in few rounds") {
+    // Of all segments alone they took 300 and 200 rounds.
+    struct Curve {
+        std::uint32_t order, rounds;
+    };
+    for (const auto& [order, rounds] : {Curve{12, 80}, Curve{14, 20}}) {
+        const Skeleton plant = limp_curve(order);
+        std::string expected;
+        for (const std::uint32_t threads : {1U, 3U}) {
+            PhysicsOptions options;
+            options.threads = threads;
+            PlantPhysics physics(plant, options);
+            CAPTURE(order, threads);
+            REQUIRE(physics.settle(1e-6, rounds));
+            CHECK(physics.energy() < 0.0);
+            Skeleton bent;
+            physics.pose(bent);
+            const std::string seen = place_bytes(bent) + std::to_string(physics.energy());
+            expected = threads == 1 ? seen : expected;
+            CHECK((seen == expected));
+            for (const Segment& segment : bent.segments) {
+                REQUIRE(tip(segment).y >= -1e-3F);
+            }
+            CHECK(lifted_mass(bent) < 0.1 * lifted_mass(plant));
+            const double settled = physics.energy();
+            CHECK(physics.settle(1e-6, rounds));
+            CHECK(physics.energy() <= settled);
+        }
+    }
 }
 
 TEST_CASE("twigs keep their bend when poses are completed") {
