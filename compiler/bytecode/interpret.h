@@ -17,7 +17,8 @@
 //   bool take(x, at)                Emit or Test took x: whether to go on
 //   kKnowsChoices, and then         whether it knows each condition of a choice:
 //     bool holds(x)                 it does, and only one side is run
-//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z
+//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z,
+//     first_side(x), second_side(x) after they were announced
 // `at` points to the instruction.
 #pragma once
 
@@ -51,6 +52,8 @@ struct UnknownDomain {
     static Value curve(std::uint32_t /*index*/, const Value& /*x*/) { return {}; }
     static Value mix(const Value& /*x*/, const Value& /*y*/, const Value& /*t*/) { return {}; }
     static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
+    static void first_side(const Value& /*x*/) {}
+    static void second_side(const Value& /*x*/) {}
     static bool draw(Opcode /*opcode*/,
                      Value& x,
                      const Value& /*y*/,
@@ -145,11 +148,15 @@ template <typename Domain>
         case Opcode::If:
             if constexpr (Domain::kKnowsChoices) {
                 at += domain.holds(*--top) ? 0 : operand;
+            } else {
+                domain.first_side(top[-1]);
             }
             break;
         case Opcode::Else:
             if constexpr (Domain::kKnowsChoices) {
                 at += operand;
+            } else {
+                domain.second_side(top[-2]);
             }
             break;
         case Opcode::EndIf:

@@ -24,6 +24,8 @@ enum class TermInputs : std::uint8_t {
     Any,
 };
 
+constexpr std::size_t kMaxWideBytes = 32;
+
 bool all_finite(const float* values, std::size_t count) {
     constexpr std::uint32_t kExponent = 0x7F800000;
     std::uint32_t found = 0;
@@ -44,14 +46,19 @@ public:
            const R* records)
         : plan_(plan), keys_(keys), matcher_(matcher), word_(word), request_(request),
           rows_(plan.rows().data()), entries_(plan.entries().data()),
-          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records), place_(request.begin),
-          codes_(request.codes), parameters_(request.parameters) {}
+          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records),
+          batches_(plan.bytecode(),
+                   plan.batch_programs(),
+                   {plan.inputs().globals, plan.inputs().steps, keys.seed, keys.generation,
+                    keys.first_draw}),
+          place_(request.begin), codes_(request.codes), parameters_(request.parameters) {}
 
     bool run() {
         bool ok = true;
         if (plan_.predecessor_count() > 1) {
             ok = run_exactly(request_.end);
-        } else if (!plan_.has_parameters() || !request_.writes_parameters) {
+        } else if (!plan_.has_parameters() ||
+                   !(request_.writes_parameters || plan_.checks_unstored())) {
             ok = run_with<TermInputs::None>();
         } else if (!plan_.mixes_inputs()) {
             ok = run_with<TermInputs::First>();
@@ -61,7 +68,8 @@ public:
         const float* const written = std::exchange(request_.parameters, parameters_);
         request_.begin = place_;
         request_.codes = codes_;
-        return ok && all_finite(written, static_cast<std::size_t>(parameters_ - written));
+        return ok && batches_.finish() &&
+               all_finite(written, static_cast<std::size_t>(parameters_ - written));
     }
 
 private:
@@ -72,6 +80,9 @@ private:
 
     template <TermInputs kInputs>
     bool run_wide() {
+        if (kInputs != TermInputs::None && plan_.has_batched()) {
+            return run_wide<kInputs, true, kMaxWideBytes, true>();
+        }
         if (plan_.all_fixed()) {
             return plan_.wide_bytes() == 16 ? run_wide<kInputs, false, 16>()
                                             : run_wide<kInputs, false, 32>();
@@ -82,7 +93,7 @@ private:
 
     /// Writes in batches that are short enough to need no check of the limits per module. A module
     /// near a limit, or with a special entry, is written by run_exactly().
-    template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
+    template <TermInputs kInputs, bool kRecords, std::size_t kBytes, bool kMixed = false>
     bool run_wide() {
         while (place_.index < request_.end) {
             const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
@@ -91,9 +102,14 @@ private:
             std::uint64_t batch =
                 std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
             if constexpr (kInputs != TermInputs::None) {
-                batch = std::min(batch, parameter_room / kEntryTerms);
+                batch = std::min(batch,
+                                 parameter_room / (kMixed ? plan_.wide_parameters() : kEntryTerms));
             }
-            if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
+            if constexpr (kMixed) {
+                if (batch != 0 && run_mixed_batch(batch) == batch) {
+                    continue;
+                }
+            } else if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
                 continue;
             }
             if (!run_exactly(place_.index + 1)) {
@@ -161,6 +177,51 @@ private:
                 parameters += entry->parameter_count;
                 own += row->stored;
             }
+        }
+        const auto done = static_cast<std::uint64_t>(in - begin);
+        records_ = records;
+        codes_ = codes;
+        parameters_ = parameters;
+        place_.index += done;
+        place_.parameter += static_cast<std::uint64_t>(own - first_own);
+        return done;
+    }
+
+    /// run_batch() for plans with batched entries. A function of its own, because calls in the loop
+    /// of run_batch() would take registers from it.
+    [[gnu::noinline]] std::uint64_t run_mixed_batch(std::uint64_t batch) {
+        const C* in = word_.codes + place_.index;
+        const C* const begin = in;
+        const C* const end = in + batch;
+        const float* own = word_.parameters + place_.parameter;
+        const float* const first_own = own;
+        const std::uint64_t position = word_.first_position + place_.index;
+        const float* const constants = plan_.bytecode().constants.data();
+        const R* records = records_;
+        C* codes = codes_;
+        float* parameters = parameters_;
+        for (; in != end; ++in) {
+            const C code = *in;
+            const Row& row = rows_[code];
+            const Entry* entry = entries_ + code;
+            if (row.kind != RowKind::Fixed) {
+                const std::uint32_t record = *records;
+                entry = record == 0 ? entry : entries_ + row.base + record;
+            }
+            if (entry->batched) {
+                batches_.add(entry->terms_or_program,
+                             {row.constants == kNone ? own : constants + row.constants,
+                              position + static_cast<std::uint64_t>(in - begin), parameters});
+            } else if (entry->special || row.slow) {
+                break;
+            } else {
+                store_terms<TermInputs::Any>(*entry, own, parameters);
+            }
+            records += row.kind != RowKind::Fixed ? 1 : 0;
+            std::memcpy(codes, pool_ + entry->first_code, kMaxWideBytes);
+            codes += entry->code_count;
+            parameters += entry->parameter_count;
+            own += row.stored;
         }
         const auto done = static_cast<std::uint64_t>(in - begin);
         records_ = records;
@@ -251,7 +312,7 @@ private:
     /// Writes the active module at place_.
     template <TermInputs kInputs>
     bool write_active(C code) {
-        constexpr std::size_t kWide = 32 / sizeof(C);
+        constexpr std::size_t kWide = kMaxWideBytes / sizeof(C);
         const Row& row = rows_[code];
         const Entry* entry = entries_ + code;
         if (row.kind != RowKind::Fixed) {
@@ -311,13 +372,24 @@ private:
             return true;
         }
         if (entry.general) {
+            const Candidate& candidate = plan_.candidate(entry.candidate);
+            if (entry.terms_or_program != kNone) {
+                const BatchItem item{matcher_.formals_after_search(candidate, place_),
+                                     word_.first_position + place_.index, parameters_};
+                if (candidate.gathers) {
+                    batches_.add_copy(entry.terms_or_program, item);
+                } else {
+                    batches_.add(entry.terms_or_program, item);
+                }
+                return true;
+            }
             EvalFault fault;
             return evaluate_entry(plan_, keys_, matcher_, word_.first_position + place_.index,
                                   place_, entry, parameters_, fault);
         }
         const float* const own = matcher_.own_parameters(place_);
         if (entry.parameter_count > kEntryTerms) {
-            const AffineTerm* const terms = plan_.terms().data() + entry.first_term;
+            const AffineTerm* const terms = plan_.terms().data() + entry.terms_or_program;
             for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
                 parameters_[i] = value_of(terms[i], own);
             }
@@ -338,6 +410,7 @@ private:
     const Entry* entries_;
     const C* pool_;
     const R* records_;
+    Batches batches_;
     ModulePlace place_;
     C* codes_;
     float* parameters_;
