@@ -109,16 +109,16 @@ std::vector<Workload> workloads() {
                    13, 2'391'481, all[4].limit});
     const auto random = [](bool shared) {
         return [=](Pages a, Pages b, Pages c, Pages d) {
-            return derive_w7(22, shared, a.as<std::uint8_t>(), b.as<std::uint8_t>(), c.as<float>(),
+            return derive_w7(20, shared, a.as<std::uint8_t>(), b.as<std::uint8_t>(), c.as<float>(),
                              d.as<float>());
         };
     };
-    all.push_back({"W7-let/n=22",
-                   "#n = 22; #w : A(1); #p : A(x) : * : let r = {0.5, 1} : A(x * r) A(x * r);", 22,
-                   std::size_t{1} << 22, random(true)});
-    all.push_back({"W7/n=22",
-                   "#n = 22; #w : A(1); #p : A(x) : * : A(x * {0.5, 1}) A(x * {0.5, 1});", 22,
-                   std::size_t{1} << 22, random(false)});
+    all.push_back({"W7-let/n=20",
+                   "#n = 20; #w : A(1); #p : A(x) : * : let r = {0.5, 1} : A(x * r) A(x * r);", 20,
+                   std::size_t{1} << 20, random(true)});
+    all.push_back({"W7/n=20",
+                   "#n = 20; #w : A(1); #p : A(x) : * : A(x * {0.5, 1}) A(x * {0.5, 1});", 20,
+                   std::size_t{1} << 20, random(false)});
     return all;
 }
 

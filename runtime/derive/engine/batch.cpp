@@ -17,8 +17,8 @@ namespace {
 
 /// Programs that need more rows, 64 KiB per thread, are evaluated for each module.
 constexpr std::size_t kMaxRows = 256;
-/// Modules of the smallest batch that is run at once.
-constexpr std::size_t kMinBatch = 12;
+/// Modules of the smallest batch that is run at once. It is filled up with copies of its last module.
+constexpr std::size_t kMinBatch = 24;
 constexpr std::uint64_t kDrawsPerBlock = 4;
 
 std::size_t rows_of(const BatchProgram& program) {
@@ -37,20 +37,28 @@ struct BatchRun {
     const Bytecode& bytecode;
     const BatchInputs& inputs;
     const BatchProgram& program;
-    std::span<const BatchItem> items;
+    const BatchModules& modules;
     Lanes* rows = nullptr; // formals are set
 };
+
+/// Calls visit(i) for every lane. For loops that have no vector form, in steps of eight, so that
+/// the compiler unrolls them.
+template <typename Visit>
+[[gnu::always_inline]] inline void for_each_lane(Visit visit) {
+    constexpr std::size_t kStep = 8;
+    for (std::size_t first = 0; first < kLanes; first += kStep) {
+        for (std::size_t i = 0; i < kStep; ++i) {
+            visit(first + i);
+        }
+    }
+}
 
 /// The domain of rows of numbers. Both sides of a choice are computed; a mask says which modules
 /// take the side, so that draws and functions without a vector form are computed for these only.
 class RowsOfNumbers : public UnknownDomain<Lanes> {
 public:
     // NOLINTNEXTLINE: units_ is set with block_
-    explicit RowsOfNumbers(const BatchRun& batch) : batch_(batch) {
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            mask_[i] = mask_of(i < batch.items.size());
-        }
-    }
+    explicit RowsOfNumbers(const BatchRun& batch) : batch_(batch) { mask_.fill(mask_of(true)); }
 
     /// Whether some draw of a module is at fault.
     [[nodiscard]] bool is_faulty() const {
@@ -178,9 +186,7 @@ public:
         return true;
     }
     bool take(const Lanes& x, const std::uint32_t* /*at*/) {
-        for (std::size_t i = 0; i < batch_.items.size(); ++i) {
-            batch_.items[i].out[taken_] = x.values[i];
-        }
+        for_each_lane([&](std::size_t i) { batch_.modules.out[i][taken_] = x.values[i]; });
         ++taken_;
         return true;
     }
@@ -216,13 +222,9 @@ private:
         const std::uint64_t block = number / kDrawsPerBlock;
         if (block != block_) {
             block_ = block;
-            std::array<std::uint64_t, kLanes> positions; // NOLINT: of the modules of the batch
-            for (std::size_t i = 0; i < batch_.items.size(); ++i) {
-                positions[i] = batch_.items[i].position;
-            }
             const DrawKey key{batch_.inputs.seed, batch_.inputs.generation,
                               static_cast<std::uint32_t>(block), 0};
-            draw_all_units(key, positions.data(), batch_.items.size(), units_[0].values.data(),
+            draw_all_units(key, batch_.modules.positions.data(), kLanes, units_[0].values.data(),
                            kLanes);
         }
         return units_[number % kDrawsPerBlock];
@@ -264,11 +266,11 @@ private:
 
     const BatchRun& batch_;
     std::size_t taken_ = 0; // parameters written
-    Mask mask_{};
+    Mask mask_;
     Mask faults_{};
     std::vector<Mask> outer_; // masks around the choices that are being computed
     std::uint64_t block_ = ~std::uint64_t{0};
-    std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_, up to the last module
+    std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_
 };
 
 /// Runs a batch; returns whether a draw is at fault.
@@ -336,34 +338,36 @@ batch_program(const Bytecode& bytecode, std::uint32_t production, bool gathers) 
     return program;
 }
 
-void Batches::add_copy(std::uint32_t index, const BatchItem& item) {
-    const std::uint32_t count = programs_[index].formal_rows;
+void Batches::add_copy(std::uint32_t index,
+                       const float* formals,
+                       std::uint64_t position,
+                       float* out) {
+    const std::size_t size = programs_[index].formal_rows;
     Queue& queue = queues_[index];
-    if (queue.next == queue.end) {
+    queue.copies.resize(size * kLanes);
+    // A full batch is run before its first copy is overwritten.
+    if (queue.count == kLanes) {
         make_room(index);
-        queue.copies.resize(std::size_t{count} * kLanes);
     }
-    const auto lane = static_cast<std::size_t>(queue.next - queue.items->data());
-    float* const copy = queue.copies.data() + lane * count;
-    std::copy_n(item.formals, count, copy);
-    *queue.next++ = {copy, item.position, item.out};
+    float* const copy = queue.copies.data() + queue.count * size;
+    std::copy_n(formals, size, copy);
+    add(index, copy, position, out);
 }
 
-/// Makes the items of a program, or runs its full batch.
+/// Makes room for the modules of a program, or runs its full batch.
 void Batches::make_room(std::uint32_t index) {
     Queue& queue = queues_[index];
-    if (queue.items != nullptr) {
+    if (queue.modules != nullptr) {
         run(index);
-        return;
+    } else {
+        queue.modules = std::make_unique<BatchModules>();
+        queue.count = 0;
     }
-    queue.items = std::make_unique<std::array<BatchItem, kLanes>>();
-    queue.next = queue.items->data();
-    queue.end = queue.next + kLanes;
 }
 
 bool Batches::finish() {
     for (std::uint32_t i = 0; i < queues_.size(); ++i) {
-        if (queues_[i].items != nullptr) {
+        if (queues_[i].modules != nullptr) {
             run(i);
         }
     }
@@ -372,32 +376,38 @@ bool Batches::finish() {
 
 void Batches::run(std::uint32_t index) {
     const BatchProgram& program = programs_[index];
-    Queue& queue = queues_[index];
-    const std::span<const BatchItem> items(queue.items->data(), queue.next);
-    queue.next = queue.items->data();
-    if (items.size() < kMinBatch) {
-        run_each(program, items);
+    BatchModules& modules = *queues_[index].modules;
+    const std::size_t count = std::exchange(queues_[index].count, 0);
+    if (count < kMinBatch) {
+        run_each(program, modules, count);
         return;
+    }
+    for (std::size_t i = count; i < kLanes; ++i) {
+        modules.formals[i] = modules.formals[count - 1];
+        modules.positions[i] = modules.positions[count - 1];
+        modules.out[i] = modules.out[count - 1];
     }
     rows_.resize(std::max(rows_.size(), rows_of(program)));
     for (const std::uint32_t formal : program.formals) {
-        for (std::size_t lane = 0; lane < items.size(); ++lane) {
-            rows_[formal].values[lane] = items[lane].formals[formal];
-        }
+        Lanes& row = rows_[formal];
+        for_each_lane([&](std::size_t i) { row.values[i] = modules.formals[i][formal]; });
     }
-    faulty_ = run_batch({bytecode_, inputs_, program, items, rows_.data()}) || faulty_;
+    faulty_ = run_batch({bytecode_, inputs_, program, modules, rows_.data()}) || faulty_;
 }
 
 /// Evaluates the modules of a small batch one after the other.
-void Batches::run_each(const BatchProgram& program, std::span<const BatchItem> items) {
-    for (const BatchItem& item : items) {
-        const EvalFrame frame{item.formals, inputs_.globals, static_cast<float>(inputs_.generation),
-                              inputs_.steps};
-        RangeDraws draws = RangeDraws::of_module(inputs_.seed, inputs_.generation, item.position,
-                                                 inputs_.first_draw + program.choice_draws);
+void Batches::run_each(const BatchProgram& program,
+                       const BatchModules& modules,
+                       std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const EvalFrame frame{modules.formals[i], inputs_.globals,
+                              static_cast<float>(inputs_.generation), inputs_.steps};
+        RangeDraws draws =
+            RangeDraws::of_module(inputs_.seed, inputs_.generation, modules.positions[i],
+                                  inputs_.first_draw + program.choice_draws);
         EvalFault fault;
         faulty_ = !evaluate(bytecode_, bytecode_.productions[program.production].successor, frame,
-                            &draws, item.out, fault) ||
+                            &draws, modules.out[i], fault) ||
                   faulty_;
     }
 }

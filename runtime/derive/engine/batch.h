@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace lsys {
@@ -50,11 +49,11 @@ struct BatchInputs {
     std::uint64_t first_draw = 0;
 };
 
-/// A module of a batch.
-struct BatchItem {
-    const float* formals = nullptr;
-    std::uint64_t position = 0;
-    float* out = nullptr; // its parameters
+/// The modules of a batch.
+struct BatchModules {
+    std::array<const float*, kLanes> formals;
+    std::array<std::uint64_t, kLanes> positions;
+    std::array<float*, kLanes> out; // parameters to write
 };
 
 /// Holds references; each thread has its own.
@@ -65,32 +64,35 @@ public:
             const BatchInputs& inputs)
         : bytecode_(bytecode), programs_(programs), inputs_(inputs), queues_(programs.size()) {}
 
-    /// Adds a module to the batch of program `index`. Its parameters are written at the latest by
-    /// finish(); until then its formals stay, unless the program gathers them.
-    [[gnu::always_inline]] void add(std::uint32_t index, const BatchItem& item) {
+    /// Adds a module to the batch of program `index`. Its parameters are written to `out` at the
+    /// latest by finish(); until then its formals stay, unless the program gathers them.
+    [[gnu::always_inline]] void
+    add(std::uint32_t index, const float* formals, std::uint64_t position, float* out) {
         Queue& queue = queues_[index];
-        if (queue.next == queue.end) {
+        if (queue.count == kLanes) {
             make_room(index);
         }
-        *queue.next++ = item;
+        const std::size_t lane = queue.count++;
+        queue.modules->formals[lane] = formals;
+        queue.modules->positions[lane] = position;
+        queue.modules->out[lane] = out;
     }
     /// add() for a program that gathers.
-    void add_copy(std::uint32_t index, const BatchItem& item);
+    void add_copy(std::uint32_t index, const float* formals, std::uint64_t position, float* out);
     /// Runs all batches that wait. Returns false if some random range or distribution of any added
     /// module is at fault. Parameters may still be infinite or not a number.
     [[nodiscard]] bool finish();
 
 private:
     struct Queue {
-        BatchItem* next = nullptr;
-        BatchItem* end = nullptr;
-        std::unique_ptr<std::array<BatchItem, kLanes>> items; // null until one is added
-        std::vector<float> copies;                            // formals of programs that gather
+        std::size_t count = kLanes;            // full until there is room for modules
+        std::unique_ptr<BatchModules> modules; // null until one is added
+        std::vector<float> copies;             // formals of programs that gather
     };
 
     void make_room(std::uint32_t index);
     void run(std::uint32_t index);
-    void run_each(const BatchProgram& program, std::span<const BatchItem> items);
+    void run_each(const BatchProgram& program, const BatchModules& modules, std::size_t count);
 
     const Bytecode& bytecode_;
     const std::vector<BatchProgram>& programs_;
