@@ -51,7 +51,7 @@ namespace lsys::arithmetic {
 }
 /// `from + (to - from) * t` in binary64, rounded once.
 [[nodiscard]] inline float mix(float from, float to, float t) {
-    const double start = from;
+    const auto start = static_cast<double>(from);
     return static_cast<float>(start + (static_cast<double>(to) - start) * static_cast<double>(t));
 }
 [[nodiscard]] inline float remainder(float x, float y) {

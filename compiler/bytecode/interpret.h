@@ -12,13 +12,14 @@
 //   Value binary(opcode, x, y)      every one that takes two
 //   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
-//   bool draw(opcode, x, y, i, at)  replaces x by draw i of the range [x, y) or of a distribution
-//                                   with arguments x and y; false stops the run
-//   bool take(x, at)                receives the operand x of Emit or Test; false stops the run
-//   kKnowsChoices                   a constant: whether the condition of every choice is known
-//     bool holds(x)                 if true: whether condition x holds; only that side is run
-//     Value choice(x, y, z)         if false: both sides are run; y if x is not 0, else z
-// `at` points to the instruction being run.
+//   bool draw(opcode, x, y, i, at)  replace x by draw i of a range [x, y) or a distribution with
+//                                   these arguments: whether to go on
+//   bool take(x, at)                Emit or Test took x: whether to go on
+//   kKnowsChoices, and then         whether it knows each condition of a choice:
+//     bool holds(x)                 it does, and only one side is run
+//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z,
+//     first_side(x), second_side(x) after they were announced
+// `at` points to the instruction.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
@@ -51,6 +52,8 @@ struct UnknownDomain {
     static Value curve(std::uint32_t /*index*/, const Value& /*x*/) { return {}; }
     static Value mix(const Value& /*x*/, const Value& /*y*/, const Value& /*t*/) { return {}; }
     static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
+    static void first_side(const Value& /*x*/) {}
+    static void second_side(const Value& /*x*/) {}
     static bool draw(Opcode /*opcode*/,
                      Value& x,
                      const Value& /*y*/,
@@ -146,11 +149,15 @@ template <typename Domain>
         case Opcode::If:
             if constexpr (Domain::kKnowsChoices) {
                 at += domain.holds(*--top) ? 0 : operand;
+            } else {
+                domain.first_side(top[-1]);
             }
             break;
         case Opcode::Else:
             if constexpr (Domain::kKnowsChoices) {
                 at += operand;
+            } else {
+                domain.second_side(top[-2]);
             }
             break;
         case Opcode::EndIf:

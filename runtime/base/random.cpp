@@ -78,17 +78,26 @@ philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(words), low_halves(first.x0, second.x0));
 }
 
+/// The words of the block at four positions, before the first round.
+[[gnu::target("avx2"), gnu::always_inline]] inline Lanes
+counters_of(const DrawKey& key, const std::uint64_t* positions) {
+    const __m256i position = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(positions));
+    return {position, _mm256_srli_epi64(position, 32), _mm256_set1_epi64x(key.generation),
+            _mm256_set1_epi64x(key.block)};
+}
+
+/// The words of eight lanes as u in [0, 1).
+[[gnu::target("avx2"), gnu::always_inline]] inline void
+store_units(__m256i first, __m256i second, float* units) {
+    const __m256i high = _mm256_srli_epi32(low_halves(first, second), 8);
+    _mm256_storeu_ps(units, _mm256_mul_ps(_mm256_cvtepi32_ps(high), _mm256_set1_ps(0x1p-24F)));
+}
+
 /// Draws for eight positions at once.
 [[gnu::target("avx2")]] void
 draw_eight(const DrawKey& key, const std::uint64_t* positions, float* units) {
-    const __m256i generation = _mm256_set1_epi64x(key.generation);
-    const __m256i block = _mm256_set1_epi64x(key.block);
-    const auto begin = [&](const std::uint64_t* at) __attribute__((target("avx2"))) {
-        const __m256i position = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
-        return Lanes{position, _mm256_srli_epi64(position, 32), generation, block};
-    };
-    Lanes first = begin(positions);
-    Lanes second = begin(positions + 4);
+    Lanes first = counters_of(key, positions);
+    Lanes second = counters_of(key, positions + 4);
     philox_rounds(first, second, key.seed);
     const auto word = [&key](const Lanes& lanes) __attribute__((target("avx2"))) {
         return key.word == 0   ? lanes.x0
@@ -96,10 +105,21 @@ draw_eight(const DrawKey& key, const std::uint64_t* positions, float* units) {
                : key.word == 2 ? lanes.x2
                                : lanes.x3;
     };
-    const __m256i words = low_halves(word(first), word(second));
-    const __m256 values =
-        _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_srli_epi32(words, 8)), _mm256_set1_ps(0x1p-24F));
-    _mm256_storeu_ps(units, values);
+    store_units(word(first), word(second), units);
+}
+
+/// The four draws of a block for eight positions at once.
+[[gnu::target("avx2")]] void draw_all_of_eight(const DrawKey& key,
+                                               const std::uint64_t* positions,
+                                               float* units,
+                                               std::size_t stride) {
+    Lanes first = counters_of(key, positions);
+    Lanes second = counters_of(key, positions + 4);
+    philox_rounds(first, second, key.seed);
+    store_units(first.x0, second.x0, units);
+    store_units(first.x1, second.x1, units + stride);
+    store_units(first.x2, second.x2, units + 2 * stride);
+    store_units(first.x3, second.x3, units + 3 * stride);
 }
 #endif
 
@@ -129,6 +149,26 @@ void draw_units(const DrawKey& key,
     for (; i < count; ++i) {
         units[i] =
             unit_interval(draw_block(key.seed, key.generation, positions[i], key.block)[key.word]);
+    }
+}
+
+void draw_all_units(const DrawKey& key,
+                    const std::uint64_t* positions,
+                    std::size_t count,
+                    float* units,
+                    std::size_t stride) {
+    std::size_t i = 0;
+#if defined(LSYS_PHILOX_AVX2)
+    constexpr std::size_t kEight = 8;
+    for (; has_avx2 && i + kEight <= count; i += kEight) {
+        draw_all_of_eight(key, positions + i, units + i, stride);
+    }
+#endif
+    for (; i < count; ++i) {
+        const PhiloxBlock block = draw_block(key.seed, key.generation, positions[i], key.block);
+        for (std::size_t word = 0; word < block.size(); ++word) {
+            units[word * stride + i] = unit_interval(block[word]);
+        }
     }
 }
 

@@ -67,6 +67,14 @@ void draw_units(const DrawKey& key,
                 std::size_t count,
                 float* units);
 
+/// Writes the draws of a whole block at `count` positions: those of its word w from
+/// `units` + w * `stride` on. `key.word` is ignored.
+void draw_all_units(const DrawKey& key,
+                    const std::uint64_t* positions,
+                    std::size_t count,
+                    float* units,
+                    std::size_t stride);
+
 /// Blocks per draw_block_run().
 inline constexpr std::uint32_t kBlockRun = 8;
 /// First words of blocks `first_block` ... `first_block` + 7 at one position. Uses vector

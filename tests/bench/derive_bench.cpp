@@ -1,7 +1,6 @@
-// Compares derivation with hand-written programs for the same six systems (tests/bench/limits.h),
-// and times whole runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's
-// JSON if asked for
-// (--benchmark_out=FILE). Asserts nothing about time.
+// Derivation beside hand-written programs for the same systems (tests/bench/limits.h), and whole
+// runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's JSON if asked
+// for (--benchmark_out=FILE). Asserts nothing about time.
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
 // again and reuses the memory of the previous derivation.
@@ -49,7 +48,8 @@ struct Workload {
     LimitProgram limit;
 };
 
-/// The benchmark systems W1 to W6 (tests/README.md).
+/// W1 to W6; W3 and W5 written with local values and choices; W7, where one draw serves two
+/// parameters, with a local value and with a draw for each.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;
@@ -96,6 +96,29 @@ std::vector<Workload> workloads() {
          200, 100'002, [](Pages a, Pages b, Pages, Pages) {
              return derive_w6(200, 100'001, a.as<std::uint8_t>(), b.as<std::uint8_t>());
          }});
+    all.push_back({"W3-let/n=11",
+                   "#n = 11; #w : !(1.4)F(2)/(45)A; #p : A : * : let l = 2, a = 22.5 :"
+                   "!(1.4)F(l)[&(a)F(l)A]/(112.5)[&(a)F(l)A]/(157.5)[&(a)F(l)A];"
+                   "#q : F(l) : * : let m = if(l > 0, l*1.1, 0) : F(m);"
+                   "#r : !(w) : * : let v = w*1.4 : !(v);",
+                   11, 1'594'318, all[2].limit});
+    all.push_back({"W5-let/n=13",
+                   "#n = 13; #w : A(12); #p : A(x) : if(x > 0, 1, 0) :"
+                   "let y = if(x > 0, x - 1, 0), a = 30 : F(1)[+(a)A(y)][-(a)A(y)]A(y);"
+                   "#q : A(x) : if(x > 0, 0, 1) : F(1);",
+                   13, 2'391'481, all[4].limit});
+    const auto random = [](bool shared) {
+        return [=](Pages a, Pages b, Pages c, Pages d) {
+            return derive_w7(20, shared, a.as<std::uint8_t>(), b.as<std::uint8_t>(), c.as<float>(),
+                             d.as<float>());
+        };
+    };
+    all.push_back({"W7-let/n=20",
+                   "#n = 20; #w : A(1); #p : A(x) : * : let r = {0.5, 1} : A(x * r) A(x * r);", 20,
+                   std::size_t{1} << 20, random(true)});
+    all.push_back({"W7/n=20",
+                   "#n = 20; #w : A(1); #p : A(x) : * : A(x * {0.5, 1}) A(x * {0.5, 1});", 20,
+                   std::size_t{1} << 20, random(false)});
     return all;
 }
 
@@ -300,7 +323,7 @@ public:
     void Finalize() override {
         fmt::print(
             "Milliseconds, medians; in brackets the part of the limit program on fresh small "
-            "pages.\n\n{:<9}",
+            "pages.\n\n{:<11}",
             "");
         for (const char* head : {"limit", "huge pages", "warm", "lsc 1 thread", "2 threads",
                                  "warm 1", "warm 2", "M modules/s", "bytes/module", "at peak"}) {
@@ -314,7 +337,7 @@ public:
             if (limit == 0.0 || counters.empty()) {
                 continue; // --benchmark_filter leaves the workload out
             }
-            fmt::print("{:<9} {:>15.3f}", name, limit);
+            fmt::print("{:<11} {:>15.3f}", name, limit);
             for (const char* kind : {"limit cold huge", "limit warm", "lsc cold 1", "lsc cold 2",
                                      "lsc warm 1", "lsc warm 2"}) {
                 const double spent = time(name + "/" + kind);

@@ -147,6 +147,17 @@ std::size_t derive_w5(
     return count;
 }
 
+namespace {
+
+/// A number of 64 random bits for module `index`.
+std::uint64_t hash_of(int generation, std::size_t index) {
+    std::uint64_t hash = (static_cast<std::uint64_t>(generation) << 40) ^ index ^ 0x1234567U;
+    hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;
+    return (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53U;
+}
+
+} // namespace
+
 std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b) {
     alignas(16) static constexpr char kTexts[3][17] = {"F[+F]F[-F]F", "F[+F]F", "F[-F]F"};
     static constexpr std::size_t kLengths[3] = {11, 6, 6};
@@ -159,16 +170,39 @@ std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b) {
                 *cursor++ = a[i];
                 continue;
             }
-            std::uint64_t hash = (static_cast<std::uint64_t>(generation) << 40) ^ i ^ 0x1234567U;
-            hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;
-            hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53U;
-            const auto u = static_cast<std::uint32_t>(hash >> 32);
+            const auto u = static_cast<std::uint32_t>(hash_of(generation, i) >> 32);
             const std::size_t which = (u >= 1417339207U ? 1U : 0U) + (u >= 2834678415U ? 1U : 0U);
             std::memcpy(cursor, kTexts[which], 16);
             cursor += kLengths[which];
         }
         count = static_cast<std::size_t>(cursor - b);
         std::swap(a, b);
+    }
+    return count;
+}
+
+std::size_t derive_w7(int generations,
+                      bool shared,
+                      std::uint8_t* a,
+                      std::uint8_t* b,
+                      float* parameters_a,
+                      float* parameters_b) {
+    a[0] = 'A';
+    parameters_a[0] = 1.0F;
+    std::size_t count = 1;
+    for (int generation = 0; generation < generations; ++generation) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t hash = hash_of(generation, i);
+            const auto high = static_cast<float>(hash >> 40);
+            const float second = shared ? high : static_cast<float>((hash >> 8) & 0xFFFFFFU);
+            b[2 * i] = 'A';
+            b[2 * i + 1] = 'A';
+            parameters_b[2 * i] = parameters_a[i] * (0.5F + 0.5F * (high * 0x1p-24F));
+            parameters_b[2 * i + 1] = parameters_a[i] * (0.5F + 0.5F * (second * 0x1p-24F));
+        }
+        count *= 2;
+        std::swap(a, b);
+        std::swap(parameters_a, parameters_b);
     }
     return count;
 }

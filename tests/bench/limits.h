@@ -47,7 +47,14 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
     int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b);
 /// Derives W4; draws random numbers by a cheap hash instead of Philox.
 [[nodiscard]] std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b);
-/// Derives W6 on `count` modules; returns the index of the only `b`.
+/// W7 with a cheap hash in place of Philox: a draw for both parameters, or one for each.
+[[nodiscard]] std::size_t derive_w7(int generations,
+                                    bool shared,
+                                    std::uint8_t* a,
+                                    std::uint8_t* b,
+                                    float* parameters_a,
+                                    float* parameters_b);
+/// W6 on `count` modules; returns the index of the one `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 

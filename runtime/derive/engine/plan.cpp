@@ -257,7 +257,7 @@ void Plan::make_entries() {
         entry.code_count = successor.codes.count;
         entry.parameter_count = successor.parameter_count;
         if (entry.parameter_count > kEntryTerms) {
-            entry.first_term = static_cast<std::uint32_t>(terms_.size());
+            candidates_[i].first_term = static_cast<std::uint32_t>(terms_.size());
             terms_.resize(terms_.size() + entry.parameter_count);
         }
     }
@@ -298,9 +298,12 @@ Entry Plan::identity_entry(Code code) const {
     return entry;
 }
 
-void Plan::set_special(Entry& entry) {
-    entry.special = entry.general || entry.parameter_count > kEntryTerms ||
-                    std::uint64_t{entry.code_count} * codes_.width > codes_.wide_bytes;
+void Plan::set_special(Entry& entry) const {
+    const bool is_short = std::uint64_t{entry.code_count} * codes_.width <= codes_.wide_bytes;
+    entry.special = entry.general || entry.parameter_count > kEntryTerms || !is_short;
+    const Candidate& candidate = candidates_[entry.candidate];
+    entry.batched = entry.general && is_short && entry.parameter_count <= kMaxBatchedParameters &&
+                    entry.terms_or_program != kNone && !candidate.gathers;
 }
 
 void Plan::set_kind(Code code, RowKind kind) {
@@ -359,9 +362,9 @@ float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
 
 std::uint64_t Plan::held_bytes() const {
     return bytes_of(rows_) + bytes_of(entries_) + bytes_of(terms_) + bytes_of(families_) +
-           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(choices_.list) +
-           bytes_of(choices_.thresholds) + bytes_of(choices_.records) + bytes_of(codes_.pool) +
-           bytes_of(codes_.first_of_symbol) + bytes_of(codes_.by_symbol) +
+           bytes_of(candidates_) + bytes_of(comparisons_) + bytes_of(batch_programs_) +
+           bytes_of(choices_.list) + bytes_of(choices_.thresholds) + bytes_of(choices_.records) +
+           bytes_of(codes_.pool) + bytes_of(codes_.first_of_symbol) + bytes_of(codes_.by_symbol) +
            bytes_of(choices_.of_code) + bytes_of(tests_.of_code) + bytes_of(tests_.lists) +
            bytes_of(tests_.list) + bytes_of(guards_) + bytes_of(varying_families_) +
            bytes_of(folding_.codes) + bytes_of(folding_.block_of_code);

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
+#include "runtime/derive/engine/batch.h"
 #include "runtime/derive/engine/eval.h"
 #include "runtime/derive/engine/folded_index.h"
 #include "runtime/derive/engine/rule_dice.h"
@@ -30,6 +31,8 @@ namespace lsys {
 
 /// Parameters that an entry computes without a loop.
 inline constexpr std::size_t kEntryTerms = 4;
+/// Parameters of a batched entry.
+inline constexpr std::uint32_t kMaxBatchedParameters = 16;
 
 struct alignas(64) Entry {
     std::array<float, kEntryTerms> scale{};
@@ -38,12 +41,15 @@ struct alignas(64) Entry {
     std::uint32_t first_code = 0; // index in the pool
     std::uint32_t code_count = 0;
     std::uint32_t parameter_count = 0;
-    std::uint32_t first_term = 0;    // in Plan::terms(), if there are more than kEntryTerms
+    /// General: the index in Plan::batch_programs(), or kNone for evaluate(). Else, if there are
+    /// more than kEntryTerms parameters, the index of the first one in Plan::terms().
+    std::uint32_t terms_or_program = 0;
     std::uint32_t candidate = kNone; // kNone: a copy of the module
     std::uint32_t first_place = 0;   // of the successor in Bytecode::template_codes
-    bool general = false;            // parameters need evaluate()
+    bool general = false;            // parameters need a batch or evaluate()
     bool reads_own = false;          // terms read the module's parameters
     bool special = false;            // needs more than one wide store of codes or of terms
+    bool batched = false;            // special for its parameters only, which a batch computes
 };
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
@@ -94,6 +100,8 @@ struct Candidate {
     std::uint32_t first_comparison = 0;
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;
+    std::uint32_t first_term = 0;        // in terms, if there are more than kEntryTerms parameters
+    std::uint32_t batch_program = kNone; // if the parameters were not terms at some time
     float weight = 0.0F;
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
@@ -155,6 +163,9 @@ public:
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
     [[nodiscard]] const std::vector<AffineTerm>& terms() const { return terms_; }
+    [[nodiscard]] const std::vector<BatchProgram>& batch_programs() const {
+        return batch_programs_;
+    }
     [[nodiscard]] const Family& family(std::uint32_t index) const { return families_[index]; }
     [[nodiscard]] std::span<const Candidate> candidates(const Family& family) const {
         return {candidates_.data() + family.first, family.count};
@@ -184,6 +195,10 @@ public:
 
     /// Bytes of codes per wide store: 16 or 32.
     [[nodiscard]] std::uint32_t wide_bytes() const { return codes_.wide_bytes; }
+    /// Whether some entry is batched.
+    [[nodiscard]] bool has_batched() const { return has_batched_; }
+    /// Room for parameters that the wide loop needs per module.
+    [[nodiscard]] std::uint32_t wide_parameters() const { return wide_parameters_; }
     /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
 
@@ -209,6 +224,8 @@ public:
 
     // properties of the program
     [[nodiscard]] bool has_parameters() const { return has_parameters_; }
+    /// Whether some successor without parameters has local values that may be at fault.
+    [[nodiscard]] bool checks_unstored() const { return checks_unstored_; }
     [[nodiscard]] std::uint32_t record_width() const { return record_width_; }
     [[nodiscard]] std::uint32_t code_width() const { return codes_.width; }
     /// Whether brackets or ignored modules can occur at all.
@@ -225,6 +242,7 @@ private:
     void shape(Family& family);
     void shape_condition(Candidate& candidate);
     void shape_entry(const Candidate& candidate, Entry& entry);
+    void make_batch_program(Candidate& candidate);
     [[nodiscard]] ShapeKnowledge knowledge(const Candidate& candidate) const;
     void activate_family(std::uint32_t family_index);
     void resolve(std::uint32_t family_index, Code code);
@@ -242,7 +260,7 @@ private:
     void set_kind(Code code, RowKind kind);
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
-    void set_special(Entry& entry);
+    void set_special(Entry& entry) const;
     /// Whether the family does not depend on the generation, or the plan is made for one
     /// generation.
     [[nodiscard]] bool knows_generation(const Family& family) const {
@@ -303,6 +321,7 @@ private:
     std::vector<std::uint32_t> varying_families_; // indexes of families with Family::varies
     std::vector<Candidate> candidates_;
     std::vector<Comparison> comparisons_;
+    std::vector<BatchProgram> batch_programs_;
     std::vector<std::uint8_t> guards_;
     ChoiceTables choices_;
     TestTables tests_;
@@ -312,9 +331,12 @@ private:
 
     // facts of the program
     std::uint32_t record_width_ = 1;
+    std::uint32_t wide_parameters_ = kEntryTerms;
+    bool has_batched_ = false;
     bool mixes_inputs_ = false;
     bool has_parameters_ = false;
     bool has_structure_ = false;
+    bool checks_unstored_ = false;
 };
 
 } // namespace lsys

@@ -75,7 +75,6 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     entry.general = has_drawn_locals;
     entry.reads_own = false;
     if (successor.parameter_count == 0 || has_drawn_locals) {
-        set_special(entry);
         return;
     }
     const std::vector<ValueShape> shapes =
@@ -97,10 +96,22 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
             entry.input[i] = static_cast<std::uint8_t>(term.input);
         }
         if (entry.parameter_count > kEntryTerms) {
-            terms_[entry.first_term + i] = term;
+            terms_[candidate.first_term + i] = term;
         }
     }
-    set_special(entry);
+}
+
+void Plan::make_batch_program(Candidate& candidate) {
+    constexpr std::size_t kMaxPrograms = 1024; // each writer has a pointer for each
+    if (candidate.batch_program != kNone || batch_programs_.size() == kMaxPrograms) {
+        return;
+    }
+    std::optional<BatchProgram> program =
+        batch_program(bytecode_, candidate.production, candidate.gathers);
+    if (program) {
+        candidate.batch_program = static_cast<std::uint32_t>(batch_programs_.size());
+        batch_programs_.push_back(std::move(*program));
+    }
 }
 
 void Plan::shape(Family& family) {
@@ -109,6 +120,17 @@ void Plan::shape(Family& family) {
         Entry& entry = entries_[std::size_t{bytecode_.code_count()} + i];
         shape_condition(candidates_[i]);
         shape_entry(candidates_[i], entry);
+        entry.terms_or_program = candidates_[i].first_term;
+        if (entry.general) {
+            make_batch_program(candidates_[i]);
+            entry.terms_or_program = candidates_[i].batch_program;
+            checks_unstored_ = checks_unstored_ || entry.parameter_count == 0;
+            if (entry.parameter_count <= kMaxBatchedParameters) {
+                wide_parameters_ = std::max(wide_parameters_, entry.parameter_count);
+            }
+        }
+        set_special(entry);
+        has_batched_ = has_batched_ || entry.batched;
         family.reads_own = family.reads_own || entry.reads_own;
     }
     family.current = true;

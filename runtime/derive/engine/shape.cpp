@@ -55,7 +55,7 @@ public:
     }
     [[nodiscard]] Term steps() const { return constant_term(knowledge_.steps); }
 
-    static Term unary(Opcode opcode, const Term& x) {
+    Term unary(Opcode opcode, const Term& x) {
         if (x.kind == ShapeKind::Constant) {
             return constant_term(arithmetic::apply(opcode, x.constant, 0.0F));
         }
@@ -65,7 +65,7 @@ public:
             term.scaled = true;
             return term;
         }
-        return {};
+        return opcode == Opcode::Not ? complement(x) : Term{};
     }
 
     Term binary(Opcode opcode, const Term& x, const Term& y) {
@@ -78,14 +78,7 @@ public:
         if (x.kind == ShapeKind::Constant && y.kind == ShapeKind::Affine) {
             return with_constant(opcode, y, x.constant, true);
         }
-        if (opcode == Opcode::And && x.kind == ShapeKind::Comparisons &&
-            y.kind == ShapeKind::Comparisons &&
-            x.first_comparison + x.comparison_count == y.first_comparison) {
-            Term term = x;
-            term.comparison_count += y.comparison_count;
-            return term;
-        }
-        return {};
+        return opcode == Opcode::And ? conjunction(x, y) : Term{};
     }
 
     static Term mix(const Term& x, const Term& y, const Term& t) {
@@ -93,8 +86,18 @@ public:
                            t.kind == ShapeKind::Constant;
         return known ? constant_term(arithmetic::mix(x.constant, y.constant, t.constant)) : Term{};
     }
-    static Term choice(const Term& x, const Term& y, const Term& z) {
-        return x.kind != ShapeKind::Constant ? Term{} : x.constant != 0.0F ? y : z;
+    /// Comparisons stand for 0 or any other number, as conditions do.
+    Term choice(const Term& x, const Term& y, const Term& z) {
+        if (x.kind == ShapeKind::Constant) {
+            return x.constant != 0.0F ? y : z;
+        }
+        if (is_truth(y, true) && is_truth(z, false)) {
+            return x.kind == ShapeKind::Comparisons ? x : Term{};
+        }
+        if (is_truth(y, false) && is_truth(z, true)) {
+            return complement(x);
+        }
+        return is_truth(z, false) ? conjunction(x, y) : Term{};
     }
 
     bool take(const Term& term, const std::uint32_t* /*at*/) {
@@ -148,6 +151,36 @@ private:
         default:
             return comparison(opcode, x.affine, constant, swapped);
         }
+    }
+
+    /// Whether `x` is a finite constant with this truth.
+    static bool is_truth(const Term& x, bool truth) {
+        return x.kind == ShapeKind::Constant && std::isfinite(x.constant) &&
+               (x.constant != 0.0F) == truth;
+    }
+
+    /// Both, if they are comparisons that were found one after the other.
+    static Term conjunction(const Term& x, const Term& y) {
+        if (x.kind != ShapeKind::Comparisons || y.kind != ShapeKind::Comparisons ||
+            x.first_comparison + x.comparison_count != y.first_comparison) {
+            return {};
+        }
+        Term term = x;
+        term.comparison_count += y.comparison_count;
+        return term;
+    }
+
+    /// Not `x`, if that is one comparison. Its sides are never NaN.
+    Term complement(const Term& x) {
+        if (x.kind != ShapeKind::Comparisons || x.comparison_count != 1) {
+            return {};
+        }
+        Comparison opposite = comparisons_[x.first_comparison];
+        opposite.accepted ^= Comparison::kLess | Comparison::kEqual | Comparison::kGreater;
+        Term term = x;
+        term.first_comparison = comparisons_.size();
+        comparisons_.push_back(opposite);
+        return term;
     }
 
     Term comparison(Opcode opcode, const AffineTerm& affine, float bound, bool swapped) {

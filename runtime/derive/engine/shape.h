@@ -1,6 +1,6 @@
 // The forms of an expression that need no stack machine, found by abstract interpretation
 // (compiler/bytecode/interpret.h): constants, one parameter times a factor plus an offset, and
-// conjunctions of comparisons of such values. They yield the same binary32 values as evaluate().
+// conjunctions of comparisons of such values, written with && or if(). They yield the same binary32 values as evaluate().
 // Made when a derivation is prepared, read by the passes.
 #pragma once
 

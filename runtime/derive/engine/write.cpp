@@ -24,6 +24,8 @@ enum class TermInputs : std::uint8_t {
     Any,
 };
 
+constexpr std::size_t kMaxWideBytes = 32;
+
 bool all_finite(const float* values, std::size_t count) {
     constexpr std::uint32_t kExponent = 0x7F800000;
     std::uint32_t found = 0;
@@ -31,6 +33,96 @@ bool all_finite(const float* values, std::size_t count) {
         found |= (std::bit_cast<std::uint32_t>(values[i]) & kExponent) == kExponent ? 1U : 0U;
     }
     return found == 0;
+}
+
+/// Stores the first four parameters of an entry at once.
+template <TermInputs kInputs>
+[[gnu::always_inline]] inline void store_terms(const Entry& entry, const float* own, float* out) {
+    Float4 scale;
+    Float4 offset;
+    std::memcpy(&scale, entry.scale.data(), sizeof scale);
+    std::memcpy(&offset, entry.offset.data(), sizeof offset);
+    Float4 input;
+    if constexpr (kInputs == TermInputs::First) {
+        input = Float4{own[0], own[0], own[0], own[0]};
+    } else {
+        input = Float4{own[entry.input[0]], own[entry.input[1]], own[entry.input[2]],
+                       own[entry.input[3]]};
+    }
+    const Float4 values = input * scale + offset;
+    std::memcpy(out, &values, sizeof values);
+}
+
+/// The state of run_mixed().
+template <typename C, typename R>
+struct MixedRun {
+    const Row* rows;
+    const Entry* entries;
+    const C* pool;
+    const float* constants; // of folded modules
+    const C* in;            // the next module
+    const C* end;
+    std::uint64_t position; // of `in`
+    const float* own;
+    const R* records;
+    C* codes;
+    float* parameters;
+};
+
+/// Writes the modules of `run` up to the first one with a special entry that is not batched. Like
+/// write_general() no part of Writer, whose fields stay in registers only if no call knows it.
+template <typename C, typename R>
+[[gnu::noinline]] void run_mixed(MixedRun<C, R>& run, Batches& batches) {
+    MixedRun<C, R> at = run;
+    for (; at.in != at.end; ++at.in, ++at.position) {
+        const C code = *at.in;
+        const Row& row = at.rows[code];
+        const Entry* entry = at.entries + code;
+        if (row.kind != RowKind::Fixed) {
+            const std::uint32_t record = *at.records;
+            entry = record == 0 ? entry : at.entries + row.base + record;
+        }
+        if (entry->batched) {
+            batches.add(entry->terms_or_program,
+                        row.constants == kNone ? at.own : at.constants + row.constants, at.position,
+                        at.parameters);
+        } else if (entry->special || row.slow) {
+            break;
+        } else {
+            store_terms<TermInputs::Any>(*entry, at.own, at.parameters);
+        }
+        at.records += row.kind != RowKind::Fixed ? 1 : 0;
+        std::memcpy(at.codes, at.pool + entry->first_code, kMaxWideBytes);
+        at.codes += entry->code_count;
+        at.parameters += entry->parameter_count;
+        at.own += row.stored;
+    }
+    run = at;
+}
+
+/// Leaves the parameters of a general entry to its batch, or evaluates them.
+template <typename C>
+[[gnu::noinline]] bool write_general(const Plan& plan,
+                                     const PassKeys& keys,
+                                     Matcher<C>& matcher,
+                                     const WordView<C>& word,
+                                     ModulePlace place,
+                                     const Entry& entry,
+                                     Batches& batches,
+                                     float* parameters) {
+    const std::uint64_t position = word.first_position + place.index;
+    if (entry.terms_or_program == kNone) {
+        EvalFault fault;
+        return evaluate_entry(plan, keys, matcher, position, place, entry, parameters, fault);
+    }
+    const Candidate& candidate = plan.candidate(entry.candidate);
+    const float* const formals = matcher.formals_after_search(candidate, place);
+    if (candidate.gathers) {
+        batches.add_copy(entry.terms_or_program, formals, position, parameters);
+    } else {
+        batches.add(entry.terms_or_program, formals, position, parameters);
+    }
+    return true;
 }
 
 template <typename C, typename R>
@@ -41,17 +133,19 @@ public:
            Matcher<C>& matcher,
            const WordView<C>& word,
            WriteRequest<C>& request,
-           const R* records)
+           const R* records,
+           Batches& batches)
         : plan_(plan), keys_(keys), matcher_(matcher), word_(word), request_(request),
           rows_(plan.rows().data()), entries_(plan.entries().data()),
-          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records), place_(request.begin),
-          codes_(request.codes), parameters_(request.parameters) {}
+          pool_(reinterpret_cast<const C*>(plan.pool())), records_(records), batches_(batches),
+          place_(request.begin), codes_(request.codes), parameters_(request.parameters) {}
 
     bool run() {
         bool ok = true;
         if (plan_.predecessor_count() > 1) {
             ok = run_exactly(request_.end);
-        } else if (!plan_.has_parameters() || !request_.writes_parameters) {
+        } else if (!plan_.has_parameters() ||
+                   !(request_.writes_parameters || plan_.checks_unstored())) {
             ok = run_with<TermInputs::None>();
         } else if (!plan_.mixes_inputs()) {
             ok = run_with<TermInputs::First>();
@@ -61,7 +155,8 @@ public:
         const float* const written = std::exchange(request_.parameters, parameters_);
         request_.begin = place_;
         request_.codes = codes_;
-        return ok && all_finite(written, static_cast<std::size_t>(parameters_ - written));
+        return ok && batches_.finish() &&
+               all_finite(written, static_cast<std::size_t>(parameters_ - written));
     }
 
 private:
@@ -72,6 +167,9 @@ private:
 
     template <TermInputs kInputs>
     bool run_wide() {
+        if (kInputs != TermInputs::None && plan_.has_batched()) {
+            return run_wide<kInputs, true, kMaxWideBytes, true>();
+        }
         if (plan_.all_fixed()) {
             return plan_.wide_bytes() == 16 ? run_wide<kInputs, false, 16>()
                                             : run_wide<kInputs, false, 32>();
@@ -82,7 +180,7 @@ private:
 
     /// Writes in batches that are short enough to need no check of the limits per module. A module
     /// near a limit, or with a special entry, is written by run_exactly().
-    template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
+    template <TermInputs kInputs, bool kRecords, std::size_t kBytes, bool kMixed = false>
     bool run_wide() {
         while (place_.index < request_.end) {
             const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
@@ -91,9 +189,14 @@ private:
             std::uint64_t batch =
                 std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
             if constexpr (kInputs != TermInputs::None) {
-                batch = std::min(batch, parameter_room / kEntryTerms);
+                batch = std::min(batch,
+                                 parameter_room / (kMixed ? plan_.wide_parameters() : kEntryTerms));
             }
-            if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
+            if constexpr (kMixed) {
+                if (batch != 0 && run_mixed_batch(batch) == batch) {
+                    continue;
+                }
+            } else if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
                 continue;
             }
             if (!run_exactly(place_.index + 1)) {
@@ -101,24 +204,6 @@ private:
             }
         }
         return true;
-    }
-
-    /// Stores the first four parameters of an entry at once.
-    template <TermInputs kInputs>
-    static void store_terms(const Entry& entry, const float* own, float* out) {
-        Float4 scale;
-        Float4 offset;
-        std::memcpy(&scale, entry.scale.data(), sizeof scale);
-        std::memcpy(&offset, entry.offset.data(), sizeof offset);
-        Float4 input;
-        if constexpr (kInputs == TermInputs::First) {
-            input = Float4{own[0], own[0], own[0], own[0]};
-        } else {
-            input = Float4{own[entry.input[0]], own[entry.input[1]], own[entry.input[2]],
-                           own[entry.input[3]]};
-        }
-        const Float4 values = input * scale + offset;
-        std::memcpy(out, &values, sizeof values);
     }
 
     /// Writes up to `batch` modules; returns their number: fewer if a module with a special entry
@@ -171,6 +256,30 @@ private:
         return done;
     }
 
+    /// run_batch() for plans with batched entries.
+    std::uint64_t run_mixed_batch(std::uint64_t batch) {
+        MixedRun<C, R> run{rows_,
+                           entries_,
+                           pool_,
+                           plan_.bytecode().constants.data(),
+                           word_.codes + place_.index,
+                           word_.codes + place_.index + batch,
+                           word_.first_position + place_.index,
+                           word_.parameters + place_.parameter,
+                           records_,
+                           codes_,
+                           parameters_};
+        run_mixed(run, batches_);
+        const auto done = static_cast<std::uint64_t>(run.in - (word_.codes + place_.index));
+        records_ = run.records;
+        codes_ = run.codes;
+        parameters_ = run.parameters;
+        place_.index += done;
+        place_.parameter +=
+            static_cast<std::uint64_t>(run.own - (word_.parameters + place_.parameter));
+        return done;
+    }
+
     template <TermInputs kInputs>
     bool run_masked() {
         constexpr std::size_t kBlock = ActiveMask::kBlock;
@@ -193,91 +302,116 @@ private:
     }
 
     /// Writes the next `size` modules: 64, or fewer at the end. A run between two active modules is
-    /// copied as 64 codes at once.
+    /// copied as 64 codes at once. Works on copies of the fields, which the compiler would read
+    /// again after each store of a code.
     template <TermInputs kInputs>
     bool write_block(const ActiveMask& mask, ActiveBits bits, unsigned size) {
         constexpr std::size_t kBlock = ActiveMask::kBlock;
-        const C* const in = word_.codes + place_.index;
+        constexpr std::size_t kWide = kMaxWideBytes / sizeof(C);
         const std::uint64_t begin = place_.index;
+        const C* const in = word_.codes + begin;
+        if (bits.active == 0 && static_cast<std::size_t>(request_.codes_limit - codes_) >= kBlock) {
+            std::memcpy(codes_, in, kBlock * sizeof(C));
+            codes_ += size;
+            place_.index += size;
+            if constexpr (kInputs != TermInputs::None) {
+                const std::uint64_t stored = mask.stored(in, bits.stores);
+                copy_parameters(word_.parameters + place_.parameter, stored, parameters_,
+                                request_.parameters_limit);
+                parameters_ += stored;
+                place_.parameter += stored;
+            }
+            return true;
+        }
+        const Row* const rows = rows_;
+        const Entry* const entries = entries_;
+        const C* const pool = pool_;
+        const C* const codes_limit = request_.codes_limit;
+        const float* const parameters_limit = request_.parameters_limit;
+        const float* own = word_.parameters + place_.parameter;
+        const R* records = records_;
+        C* codes = codes_;
+        float* parameters = parameters_;
+        const auto keep = [&](unsigned done) {
+            place_ = {begin + done, static_cast<std::uint64_t>(own - word_.parameters)};
+            records_ = records;
+            codes_ = codes;
+            parameters_ = parameters;
+        };
         unsigned from = 0;
         while (true) {
             const unsigned to =
                 bits.active == 0 ? size : static_cast<unsigned>(std::countr_zero(bits.active));
             const unsigned run = to - from;
-            const bool code_room =
-                static_cast<std::size_t>(request_.codes_limit - codes_) >= kBlock;
-            if (code_room) {
-                std::memcpy(codes_, in + from, kBlock * sizeof(C));
+            if (static_cast<std::size_t>(codes_limit - codes) >= kBlock) {
+                std::memcpy(codes, in + from, kBlock * sizeof(C));
             } else {
-                std::copy_n(in + from, run, codes_);
+                std::copy_n(in + from, run, codes);
             }
-            codes_ += run;
+            codes += run;
             if constexpr (kInputs != TermInputs::None) {
                 const std::uint64_t before =
                     to == kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
                 const std::uint64_t stored = mask.stored(in, bits.stores & before);
                 bits.stores &= ~before;
-                copy_parameters(stored);
+                copy_parameters(own, stored, parameters, parameters_limit);
+                parameters += stored;
+                own += stored;
             }
             if (bits.active == 0) {
                 break;
             }
             bits.active &= bits.active - 1;
-            place_.index = begin + to;
-            if (!write_active<kInputs>(in[to])) {
-                return false;
+            const C code = in[to];
+            const Row& row = rows[code];
+            const Entry* entry = entries + code;
+            if (row.kind != RowKind::Fixed) {
+                const std::uint32_t record = *records++;
+                entry = record == 0 ? entry : entries + row.base + record;
+            }
+            bool room = static_cast<std::size_t>(codes_limit - codes) >= kWide;
+            if constexpr (kInputs != TermInputs::None) {
+                room =
+                    room && static_cast<std::size_t>(parameters_limit - parameters) >= kEntryTerms;
+            }
+            if (room && !entry->special && !row.slow) {
+                std::memcpy(codes, pool + entry->first_code, kWide * sizeof(C));
+                if constexpr (kInputs != TermInputs::None) {
+                    store_terms<kInputs>(*entry, own, parameters);
+                }
+            } else {
+                keep(to);
+                if (!write_exactly(*entry)) {
+                    return false;
+                }
+            }
+            codes += entry->code_count;
+            if constexpr (kInputs != TermInputs::None) {
+                parameters += entry->parameter_count;
+                own += row.stored;
             }
             bits.stores &= ~(std::uint64_t{1} << to);
             from = to + 1;
         }
-        place_.index = begin + size;
+        keep(size);
         return true;
     }
 
-    void copy_parameters(std::uint64_t count) {
-        const float* const own = word_.parameters + place_.parameter;
-        if (static_cast<std::uint64_t>(request_.parameters_limit - parameters_) >=
-            count + kEntryTerms) {
+    static void
+    copy_parameters(const float* own, std::uint64_t count, float* parameters, const float* limit) {
+        if (static_cast<std::uint64_t>(limit - parameters) >= count + kEntryTerms) {
             for (std::uint64_t i = 0; i < count; i += kEntryTerms) {
-                std::memcpy(parameters_ + i, own + i, kEntryTerms * sizeof(float));
+                std::memcpy(parameters + i, own + i, kEntryTerms * sizeof(float));
             }
         } else {
-            std::copy_n(own, count, parameters_);
+            std::copy_n(own, count, parameters);
         }
-        parameters_ += count;
-        place_.parameter += count;
     }
 
-    /// Writes the active module at place_.
-    template <TermInputs kInputs>
-    bool write_active(C code) {
-        constexpr std::size_t kWide = 32 / sizeof(C);
-        const Row& row = rows_[code];
-        const Entry* entry = entries_ + code;
-        if (row.kind != RowKind::Fixed) {
-            const std::uint32_t record = *records_++;
-            entry = record == 0 ? entry : entries_ + row.base + record;
-        }
-        bool room = static_cast<std::size_t>(request_.codes_limit - codes_) >= kWide;
-        if constexpr (kInputs != TermInputs::None) {
-            room = room &&
-                   static_cast<std::size_t>(request_.parameters_limit - parameters_) >= kEntryTerms;
-        }
-        if (room && !entry->special && !row.slow) {
-            std::memcpy(codes_, pool_ + entry->first_code, kWide * sizeof(C));
-            if constexpr (kInputs != TermInputs::None) {
-                store_terms<kInputs>(*entry, word_.parameters + place_.parameter, parameters_);
-            }
-        } else {
-            std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
-            if (!write_parameters(*entry)) {
-                return false;
-            }
-        }
-        codes_ += entry->code_count;
-        parameters_ += entry->parameter_count;
-        place_.parameter += row.stored;
-        return true;
+    /// Writes an entry without wide stores and without moving on.
+    [[gnu::noinline]] bool write_exactly(const Entry& entry) {
+        std::copy_n(pool_ + entry.first_code, entry.code_count, codes_);
+        return write_parameters(entry);
     }
 
     /// Writes the modules up to `end` without wide stores.
@@ -294,10 +428,10 @@ private:
                     modules = plan_.replaced_modules(*entry);
                 }
             }
-            codes_ = std::copy_n(pool_ + entry->first_code, entry->code_count, codes_);
-            if (!write_parameters(*entry)) {
+            if (!write_exactly(*entry)) {
                 return false;
             }
+            codes_ += entry->code_count;
             parameters_ += entry->parameter_count;
             for (; modules != 0; --modules, ++place_.index) {
                 place_.parameter += rows_[word_.codes[place_.index]].stored;
@@ -311,13 +445,12 @@ private:
             return true;
         }
         if (entry.general) {
-            EvalFault fault;
-            return evaluate_entry(plan_, keys_, matcher_, word_.first_position + place_.index,
-                                  place_, entry, parameters_, fault);
+            return write_general(plan_, keys_, matcher_, word_, place_, entry, batches_,
+                                 parameters_);
         }
         const float* const own = matcher_.own_parameters(place_);
         if (entry.parameter_count > kEntryTerms) {
-            const AffineTerm* const terms = plan_.terms().data() + entry.first_term;
+            const AffineTerm* const terms = plan_.terms().data() + entry.terms_or_program;
             for (std::uint32_t i = 0; i < entry.parameter_count; ++i) {
                 parameters_[i] = value_of(terms[i], own);
             }
@@ -338,6 +471,7 @@ private:
     const Entry* entries_;
     const C* pool_;
     const R* records_;
+    Batches& batches_;
     ModulePlace place_;
     C* codes_;
     float* parameters_;
@@ -353,7 +487,10 @@ bool write_modules(const Plan& plan,
                    WriteRequest<C>& request,
                    const R* records) {
     const std::uint64_t begin = request.begin.index;
-    if (!Writer<C, R>(plan, keys, matcher, word, request, records).run()) {
+    Batches batches(
+        plan.bytecode(), plan.batch_programs(),
+        {plan.inputs().globals, plan.inputs().steps, keys.seed, keys.generation, keys.first_draw});
+    if (!Writer<C, R>(plan, keys, matcher, word, request, records, batches).run()) {
         return false;
     }
     if (request.origins != nullptr) {

@@ -82,6 +82,28 @@ TEST_CASE("a range of a local value that nothing uses is at fault all the same")
     CHECK(error.position == 1);
 }
 
+TEST_CASE("choices and complements in conditions are those of comparisons") {
+    const auto derived = [](const std::string& condition) {
+        return word_of("#w : A(-2) A(-1) A(-(0)) A(0) A(1) A(1.5) A(2) A(3e38);\n#p : A(x) : " +
+                           condition + " : F(x);\n",
+                       1);
+    };
+    const std::string above = derived("x > 1");
+    CHECK(derived("if(x > 1, 2, 0)") == above);
+    CHECK(derived("if(x <= 1, 0, -1)") == above);
+    CHECK(derived("!(x <= 1)") == above);
+    CHECK(derived("!if(x*1e10 > 1e10, 0, 1)") == above);
+    CHECK(derived("if(if(x > 1, 3, 0), 1, 0)") == above);
+    CHECK(derived("if(x > 1, 2, 0) == 2") == above);
+    CHECK(derived("if(x > 1, x > -5, 0)") == above);
+    const std::string between = derived("x > -1 && x != 0 && x < 2");
+    CHECK(derived("if(x > -1, x != 0 && x < 2, 0)") == between);
+    CHECK(derived("if(x > -1 && x != 0, x < 2, 0)") == between);
+    CHECK(derived("!(x <= -1) && !(x == 0) && !(x >= 2)") == between);
+    CHECK(derived("if(x > -1 && x != 0 && x < 2, 0, 1)") ==
+          derived("!(x > -1 && x != 0 && x < 2)"));
+}
+
 TEST_CASE("clamp and mix") {
     CHECK(word_of("#w : A(5) A(-5) A(0.5);\n"
                   "#p : A(x) : * : F(clamp(x, -1, 1)) G(mix(10, 20, x));\n",

@@ -1,0 +1,105 @@
+// Batches: parameters that need the stack machine, evaluated for 64 modules of a production at
+// once. Each value of the machine is a row of 64 numbers, so an instruction is decoded once per
+// batch and computed with vector instructions. Rows hold the same binary32 values as evaluate() in
+// eval.h. The writing pass adds modules and leaves room for their parameters, which are filled in
+// when a batch is full or the pass ends.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+/// Modules per batch.
+inline constexpr std::size_t kLanes = 64;
+
+/// One value of the stack machine for each module of a batch.
+struct alignas(64) Lanes {
+    std::array<float, kLanes> values;
+};
+
+/// The code of a production's parameters with the room that batches need for it.
+struct BatchProgram {
+    std::uint32_t production = 0;
+    std::vector<std::uint32_t> formals; // that are read, ascending
+    // Rows, in this order:
+    std::uint32_t formal_rows = 0; // one more than the highest formal that is read
+    std::uint32_t stack_rows = 0;
+    std::uint32_t slot_rows = 0;
+    std::uint32_t choice_draws = 0; // 1 if draw 0 of the module chooses the production
+    bool gathers = false;           // formals come from several modules and must be copied
+};
+
+/// The program of a production; none if it would need much memory per thread.
+[[nodiscard]] std::optional<BatchProgram>
+batch_program(const Bytecode& bytecode, std::uint32_t production, bool gathers);
+
+/// Inputs that all modules of a pass share.
+struct BatchInputs {
+    const float* globals = nullptr;
+    float steps = 0.0F;
+    std::uint64_t seed = 0;
+    std::uint32_t generation = 0;
+    std::uint64_t first_draw = 0;
+};
+
+/// The modules of a batch.
+struct BatchModules {
+    std::array<const float*, kLanes> formals;
+    std::array<std::uint64_t, kLanes> positions;
+    std::array<float*, kLanes> out; // parameters to write
+};
+
+/// Holds references; each thread has its own.
+class Batches {
+public:
+    Batches(const Bytecode& bytecode,
+            const std::vector<BatchProgram>& programs,
+            const BatchInputs& inputs)
+        : bytecode_(bytecode), programs_(programs), inputs_(inputs), queues_(programs.size()) {}
+
+    /// Adds a module to the batch of program `index`. Its parameters are written to `out` at the
+    /// latest by finish(); until then its formals stay, unless the program gathers them.
+    [[gnu::always_inline]] void
+    add(std::uint32_t index, const float* formals, std::uint64_t position, float* out) {
+        Queue& queue = queues_[index];
+        if (queue.count == kLanes) {
+            make_room(index);
+        }
+        const std::size_t lane = queue.count++;
+        queue.modules->formals[lane] = formals;
+        queue.modules->positions[lane] = position;
+        queue.modules->out[lane] = out;
+    }
+    /// add() for a program that gathers.
+    void add_copy(std::uint32_t index, const float* formals, std::uint64_t position, float* out);
+    /// Runs all batches that wait. Returns false if some random range or distribution of any added
+    /// module is at fault. Parameters may still be infinite or not a number.
+    [[nodiscard]] bool finish();
+
+private:
+    struct Queue {
+        std::size_t count = kLanes;            // full until there is room for modules
+        std::unique_ptr<BatchModules> modules; // null until one is added
+        std::vector<float> copies;             // formals of programs that gather
+    };
+
+    void make_room(std::uint32_t index);
+    void run(std::uint32_t index);
+    void run_each(const BatchProgram& program, const BatchModules& modules, std::size_t count);
+
+    const Bytecode& bytecode_;
+    const std::vector<BatchProgram>& programs_;
+    BatchInputs inputs_;
+    std::vector<Queue> queues_; // by program
+    std::vector<Lanes> rows_;   // of the program that runs
+    bool faulty_ = false;
+};
+
+} // namespace lsys
