@@ -15,7 +15,7 @@
 //   bool draw(opcode, x, y, i, at)  replaces x by draw i of the range [x, y) or of a distribution
 //                                   with arguments x and y; false stops the run
 //   bool take(x, at)                receives the operand x of Emit or Test; false stops the run
-//   kKnowsChoices                   a constant: whether the condition of every choice is known
+//   kRunsOneSide                   a constant: whether the condition of every choice is known
 //     bool holds(x)                 if true: whether condition x holds; only that side is run
 //     Value choice(x, y, z)         if false: both sides are run; y if x is not 0, else z
 // `at` points to the instruction being run.
@@ -37,7 +37,7 @@ namespace lsys {
 template <typename Unknown>
 struct UnknownDomain {
     using Value = Unknown;
-    static constexpr bool kKnowsChoices = false;
+    static constexpr bool kRunsOneSide = false;
 
     static bool enter() { return true; }
     static Value literal(float /*value*/) { return {}; }
@@ -144,17 +144,17 @@ template <typename Domain>
             top[-1] = domain.mix(top[-1], top[0], top[1]);
             break;
         case Opcode::If:
-            if constexpr (Domain::kKnowsChoices) {
+            if constexpr (Domain::kRunsOneSide) {
                 at += domain.holds(*--top) ? 0 : operand;
             }
             break;
         case Opcode::Else:
-            if constexpr (Domain::kKnowsChoices) {
+            if constexpr (Domain::kRunsOneSide) {
                 at += operand;
             }
             break;
         case Opcode::EndIf:
-            if constexpr (!Domain::kKnowsChoices) {
+            if constexpr (!Domain::kRunsOneSide) {
                 top -= 2;
                 top[-1] = domain.choice(top[-1], top[0], top[1]);
             }

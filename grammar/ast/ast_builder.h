@@ -77,7 +77,7 @@ public:
 
     /// Removes the recorded `//` at or after `begin` of the scanned text; another message already
     /// explains them.
-    void forget_slashes(std::uint32_t begin);
+    void remove_slashes(std::uint32_t begin);
 
     // --- statements
     void generations(ExpressionId value);

@@ -42,11 +42,11 @@ using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 /// Removes NoVariety notes from `diagnostics`: all if the species has one hero or `is_wanted` is
 /// false, else those at places in `noted`. Adds the places of the notes it keeps to `noted`.
 /// Returns whether `diagnostics` had such notes.
-bool drop_notes(const SceneSpecies& species,
-                bool is_wanted,
-                const std::string& path,
-                NotedAxioms& noted,
-                Diagnostics& diagnostics) {
+bool drop_variety_notes(const SceneSpecies& species,
+                        bool is_wanted,
+                        const std::string& path,
+                        NotedAxioms& noted,
+                        Diagnostics& diagnostics) {
     Diagnostics left;
     bool found = false;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -200,7 +200,7 @@ struct GrownStage {
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool may_take = false;            // some branch can be replaced by a recorded one
+    bool can_reuse_branches = false;  // some branch can be replaced by a recorded one
     std::vector<std::string> origins; // by instance; empty unless grow_stage() is asked for them
 };
 
@@ -254,7 +254,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     Diagnostics diagnostics;
     std::optional<InstancedSystem> system = compile_instanced(
         std::move(*grammar.program), grammar.names, *grammar.sources, species.rho, diagnostics);
-    grown.axiom.is_noted = drop_notes(species, is_first, path, noted, diagnostics);
+    grown.axiom.is_noted = drop_variety_notes(species, is_first, path, noted, diagnostics);
     if (!step.diagnose(std::move(diagnostics), grammar.sources) || !system) {
         return step.end(Stop::Diagnosed);
     }
@@ -293,7 +293,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
             return step.end_too_large(*stop, "the pipe model");
         }
     }
-    grown.may_take = system->kind_count != 0 && species.rho > 0.0F;
+    grown.can_reuse_branches = system->kind_count != 0 && species.rho > 0.0F;
     return step.done(std::move(grown));
 }
 
@@ -484,7 +484,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             meshes = std::move(last.user_meshes);
         }
         AxiomPlace& axiom = grown.axioms.emplace_back(last.axiom);
-        if (last.may_take && !has_hits(made)) {
+        if (last.can_reuse_branches && !has_hits(made)) {
             axiom.is_noted = true;
             Messages note;
             note.add_info(

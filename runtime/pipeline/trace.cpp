@@ -242,8 +242,8 @@ private:
                     ++trace_.matches;
                     if (positions.size() < max_rows) {
                         positions.push_back(i);
-                    } else if (trace_.next_like == 0) {
-                        trace_.next_like = i;
+                    } else if (trace_.next_untraced == 0) {
+                        trace_.next_untraced = i;
                     }
                 } else if (others.size() < 4) {
                     others.push_back(i);
@@ -421,7 +421,7 @@ private:
                 report(derivation, *stop);
                 return stop;
             }
-            TraceBack& back = place.back.emplace_back();
+            AncestorStep& back = place.back.emplace_back();
             back.generation = age;
             back.next_position = position;
             back.position = derivation.word().origins()[position].place;
@@ -444,7 +444,7 @@ private:
     }
 
     [[nodiscard]] std::optional<Stop>
-    trace_back_step(Word before, std::uint64_t target, TraceBack& back) {
+    trace_back_step(Word before, std::uint64_t target, AncestorStep& back) {
         StepTracer tracer(bytecode_, inputs_);
         tracer.begin({back.position}, before, back.generation, DerivationPass::Kind::Rewrite);
         back.module = modules_at(bytecode_, before, {back.position}).front();

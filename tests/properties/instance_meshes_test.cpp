@@ -88,7 +88,7 @@ std::array<double, 9> sorted(const Triangle& triangle) {
 /// Count of triangles of `a` without a triangle of `b` within `distance` (m). Each triangle of `b`
 /// matches at most one.
 std::size_t
-count_strangers(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
+count_unmatched(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
     const double cell = 4.0 * distance;
     const auto middle = [](const Triangle& t) { return (t[0] + t[1] + t[2]) / 3.0; };
     const auto key = [cell](const glm::dvec3& p, int n) {
@@ -213,7 +213,7 @@ TEST_CASE("where nothing is left to chance, a tree has the surface of the plain 
             INFO(material);
             REQUIRE(plain.count(material) == 1);
             CHECK(triangles.size() == plain.at(material).size());
-            CHECK(count_strangers(triangles, plain.at(material), 1e-4) == 0);
+            CHECK(count_unmatched(triangles, plain.at(material), 1e-4) == 0);
             for (const Triangle& triangle : triangles) {
                 for (const glm::dvec3& corner : triangle) {
                     of_tree.add(glm::vec3(corner));

@@ -109,7 +109,7 @@ std::vector<TreeSegment> segments_of(const Skeleton& skeleton) {
     return segments;
 }
 
-std::size_t count_strangers(const std::vector<TreeSegment>& a,
+std::size_t count_unmatched(const std::vector<TreeSegment>& a,
                             const std::vector<TreeSegment>& b,
                             double distance) {
     const double cell = 4.0 * distance;

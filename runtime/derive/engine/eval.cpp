@@ -39,7 +39,7 @@ constexpr std::uint32_t kUsualSlots = 32;
 
 /// The Domain of interpret() whose values are numbers.
 struct Numbers : UnknownDomain<float> {
-    static constexpr bool kKnowsChoices = true;
+    static constexpr bool kRunsOneSide = true;
 
     const Bytecode& bytecode;
     const EvalFrame& frame;

@@ -115,7 +115,7 @@ Binding tighter(Binding binding) {
 
 /// The Domain of interpret() whose values are numbers with their texts.
 struct ShownNumbers : UnknownDomain<Shown> {
-    static constexpr bool kKnowsChoices = true;
+    static constexpr bool kRunsOneSide = true;
 
     ShownNumbers(const TracedFrame& given, RangeDraws* from, std::uint64_t first)
         : frame(given), draws(from), first_draw(first), slots(given.bytecode.local_count) {}

@@ -153,7 +153,6 @@ private:
     std::vector<std::size_t> collision_meshes_; // number of the first mesh, by instance
     std::size_t first_collision_accessor_ = 0;
     std::size_t first_collision_view_ = 0;
-    std::uint64_t collisions_offset_ = 0;
     std::vector<GltfTextureForm> texture_forms_; // by material of the scene
     std::vector<std::size_t> surface_of_kind_;
     std::size_t ground_surface_ = kNoSurface;

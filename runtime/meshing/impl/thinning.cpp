@@ -28,16 +28,17 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
     std::vector<double> areas(count, 0.0);   // outline of a segment and all its descendants
     std::vector<double> reaches(count, 0.0); // of the longest path through a child
-    std::vector<std::uint32_t> heirs(count, kNoSegment); // the child that continues the path
+    std::vector<std::uint32_t> path_children(count,
+                                             kNoSegment); // the child that continues the path
     for (std::size_t i = count; i-- > 0;) {
         const Segment& segment = skeleton.segments[i];
         areas[i] += outline_area(segment);
         const double reach = reaches[i] + static_cast<double>(segment.length);
         if (segment.parent < i) {
             areas[segment.parent] += areas[i];
-            if (heirs[segment.parent] == kNoSegment || reach >= reaches[segment.parent]) {
+            if (path_children[segment.parent] == kNoSegment || reach >= reaches[segment.parent]) {
                 reaches[segment.parent] = reach;
-                heirs[segment.parent] = static_cast<std::uint32_t>(i);
+                path_children[segment.parent] = static_cast<std::uint32_t>(i);
             }
         }
     }
@@ -51,7 +52,7 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     order.path_ranks.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t parent = skeleton.segments[i].parent;
-        if (parent < i && heirs[parent] == i) {
+        if (parent < i && path_children[parent] == i) {
             order.path_ranks[i] = order.path_ranks[parent];
             continue;
         }

@@ -357,7 +357,7 @@ TEST_CASE("stages say where plants start, with every method") {
     Scene scene = scene_of(species);
     CHECK(scene.placement.species[0].stages == 3);
     CHECK(scene.placement.species[0].start == lsys::StageStart::Random);
-    CHECK(lsys::years_of_stage(scene, 0) == lsys::kYearsOfFreeStage);
+    CHECK(lsys::years_of_stage(scene, 0) == lsys::kYearsPerStage);
     CHECK(lsys::last_year(scene) == 2);
     scene = scene_of(species + "starting_stage = \"first\"\n");
     CHECK(scene.placement.species[0].start == lsys::StageStart::First);
