@@ -35,7 +35,7 @@ public:
     void number(const Value& value) {
         state_ = combine(state_, value);
     }
-    void rare_number(const std::uint32_t& value) {
+    void number_or_none(const std::uint32_t& value) {
         if (value != kNone) {
             number(value);
         }
@@ -59,7 +59,7 @@ public:
         }
     }
     template <typename Row, typename Function>
-    void rare_table(const std::vector<Row>& rows, Function row) {
+    void table_or_none(const std::vector<Row>& rows, Function row) {
         if (!rows.empty()) {
             table(rows, row);
         }

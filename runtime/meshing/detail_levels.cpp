@@ -883,12 +883,12 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
                                   const MeshOptions& options,
                                   const DetailLevel& level,
                                   Mesh& mesh) {
-    MeshOptions baked = options;
-    baked.texture_coordinates = true;
-    baked.tangents = false;
-    baked.colours = true;
-    baked.segments = false;
-    if (const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, baked, mesh)) {
+    MeshOptions bake_options = options;
+    bake_options.texture_coordinates = true;
+    bake_options.tangents = false;
+    bake_options.colours = true;
+    bake_options.segments = false;
+    if (const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, bake_options, mesh)) {
         return stop;
     }
     return catch_out_of_memory(

@@ -89,8 +89,8 @@ TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 10
     struct Ground {
         const char* size;
         const char* count;
-        double contrast; // min
-        double trees;    // min
+        double contrast; // min of PictureContrast::contrast
+        double trees;    // min fraction of the pixels that show trees
     };
     const Ground ground = GENERATE(values<Ground>({
         {"100", "204", 0.08, 0.2},
@@ -110,8 +110,8 @@ TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 10
 TEST_CASE("the default picture of each sample scene shows its trees with contrast") {
     struct Sample {
         const char* name;
-        double contrast; // min
-        double trees;    // min
+        double contrast; // min of PictureContrast::contrast
+        double trees;    // min fraction of the pixels that show trees
     };
     const Sample wood = GENERATE(values<Sample>({
         {"mixed-forest", 0.08, 0.3},

@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-constexpr int kVertices = 34962;
-constexpr int kIndices = 34963;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
 
 /// The view of an array of several slices, for which glTF asks for a stride; in buffer 0. That of a
 /// compressed array is in buffer 1, which holds decoded items.
@@ -25,7 +25,7 @@ void put_array_view(JsonWriter& json, const ForestView& view) {
     if (!indices) {
         json.member("byteStride", view.type.stride);
     }
-    json.member("target", indices ? kIndices : kVertices);
+    json.member("target", indices ? kElementArrayBuffer : kArrayBuffer);
     if (compressed) {
         put_packed_view(json, {view.offset, view.bytes, view.type.stride, view.count, indices});
     }

@@ -362,7 +362,7 @@ private:
     std::vector<bool> closed_; // no side of the parent's joint has room
     std::vector<std::uint32_t> first_child_;
     std::vector<std::uint32_t> children_;
-    std::vector<std::uint32_t> socket_of_; // in sockets_
+    std::vector<std::uint32_t> socket_of_; // by segment: index in sockets_
     std::vector<BoxSocket> sockets_;
     BoxWriter writer_;
 };

@@ -13,8 +13,8 @@ namespace lsys {
 /// Min bodies of a plant that has coarse plants.
 inline constexpr std::uint32_t kMinCoarsened = 2000;
 
-/// A part of a plant that has the parent of each of its bodies. A twig that is left out is a point
-/// mass at its base, on its parent, with its area in the wind.
+/// Subset of the bodies of a plant that includes the parent of each. An omitted twig is a point mass
+/// at its base: its mass and its area in the wind are added to its parent.
 struct CoarsePlant {
     Bodies bodies;                    // `segments` and `places` are empty
     std::vector<std::uint32_t> whole; // index in the whole plant of each body, ascending

@@ -215,7 +215,7 @@ void read_cache(SpeciesReader& from) {
                             from.reader.has("cache_cap")};
 }
 
-void read_place(SpeciesReader& from) {
+void read_placement(SpeciesReader& from) {
     PlacementSpecies& placed = from.placed;
     placed.share = from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placed.share);
     if (const auto scale = from.reader.ordered_pair("scale", {1.0e-3, 1000.0, false, {}})) {
@@ -281,7 +281,7 @@ void read_one_species(const SceneValue& table, Scene& scene, Diagnostics& diagno
     read_grammar(from);
     read_stages(from, has_ages);
     read_cache(from);
-    read_place(from);
+    read_placement(from);
     read_growth(from.reader.table("growth"), placed, diagnostics);
     if (!has_ages) {
         from.reader.report_conflicting_key("growth",

@@ -31,7 +31,7 @@ public:
             value ^= 1;
         }
     }
-    void rare_number(std::uint32_t& value) { number(value); }
+    void number_or_none(std::uint32_t& value) { number(value); }
     void real(float& value) {
         if (is_target()) {
             value += 1.0F;
@@ -74,7 +74,7 @@ public:
         }
     }
     template <typename Row, typename Function>
-    void rare_table(std::vector<Row>& rows, Function row) {
+    void table_or_none(std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
     void codes(std::vector<Code>& codes, std::uint32_t /*width*/) {

@@ -454,11 +454,12 @@ TEST_CASE("values out of range are named with their range") {
          "stages rise: 3 does not come after 3"},
     };
     for (const auto& [text, message] : cases) {
-        const Parsed all = parsed(with_species(text));
-        INFO(text << "\n" << all.messages);
-        CHECK(all.messages.empty() == message.empty());
-        CHECK(all.messages.find(message) != std::string::npos);
-        CHECK((message.empty() || all.messages.find("[bad-scene-value]\n") != std::string::npos));
+        const Parsed result = parsed(with_species(text));
+        INFO(text << "\n" << result.messages);
+        CHECK(result.messages.empty() == message.empty());
+        CHECK(result.messages.find(message) != std::string::npos);
+        CHECK(
+            (message.empty() || result.messages.find("[bad-scene-value]\n") != std::string::npos));
     }
     CHECK(parsed("[[species]]\ngrammar = \"a\"\nshare = 0\n").messages ==
           "3:9-10: the shares of all species are 0, so no tree can be of any "
