@@ -12,8 +12,8 @@
 //   Value binary(opcode, x, y)      every one that takes two
 //   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
-//   bool draw(opcode, x, y, i, at)  replaces x by draw i of the range [x, y) or of a distribution
-//                                   with arguments x and y; false stops the run
+//   bool random_draw(opcode, x, y, i, at)   replaces x by draw i of the range [x, y) or of a
+//                                   distribution with arguments x and y; false stops the run
 //   bool take(x, at)                receives the operand x of Emit or Test; false stops the run
 //   kRunsOneSide                   a constant: whether the condition of every choice is known
 //     bool holds(x)                 if true: whether condition x holds; only that side is run
@@ -51,11 +51,11 @@ struct UnknownDomain {
     static Value curve(std::uint32_t /*index*/, const Value& /*x*/) { return {}; }
     static Value mix(const Value& /*x*/, const Value& /*y*/, const Value& /*t*/) { return {}; }
     static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
-    static bool draw(Opcode /*opcode*/,
-                     Value& x,
-                     const Value& /*y*/,
-                     std::uint32_t /*index*/,
-                     const std::uint32_t* /*at*/) {
+    static bool random_draw(Opcode /*opcode*/,
+                            Value& x,
+                            const Value& /*y*/,
+                            std::uint32_t /*index*/,
+                            const std::uint32_t* /*at*/) {
         x = {};
         return true;
     }
@@ -75,8 +75,8 @@ struct UnknownDomain {
 }
 
 /// Number of slots that the verified code at `first` sets.
-[[nodiscard]] inline std::size_t slot_room(std::span<const std::uint32_t> words,
-                                           std::uint32_t first) {
+[[nodiscard]] inline std::size_t slot_count(std::span<const std::uint32_t> words,
+                                            std::uint32_t first) {
     std::size_t slots = 0;
     for (const Instruction each : InstructionRange(words, first)) {
         slots = each.opcode == Opcode::SetLocal ? std::max<std::size_t>(slots, each.operand + 1U)
@@ -87,7 +87,7 @@ struct UnknownDomain {
 
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
 /// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
-/// Bytecode::local_count or slot_room(). The caller sets the slots that this code reads before
+/// Bytecode::local_count or slot_count(). The caller sets the slots that this code reads before
 /// it sets them.
 template <typename Domain>
 [[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
@@ -166,12 +166,12 @@ template <typename Domain>
         case Opcode::Normal:
         case Opcode::Binomial:
             --top;
-            if (!domain.draw(opcode, top[-1], top[0], operand, at)) {
+            if (!domain.random_draw(opcode, top[-1], top[0], operand, at)) {
                 return false;
             }
             break;
         case Opcode::Poisson:
-            if (!domain.draw(opcode, top[-1], top[-1], operand, at)) {
+            if (!domain.random_draw(opcode, top[-1], top[-1], operand, at)) {
                 return false;
             }
             break;

@@ -139,7 +139,7 @@ struct StepTracer::State {
                 match = explain_module(pass, pass_productions, i);
                 used = match->fate == Fate::Rewritten ? match->replaced : 1;
             }
-            bool has_place = false;
+            bool match_is_added = false;
             for (; next < tracked.size() && tracked[next].position < i + used; ++next) {
                 Place place = tracked[next];
                 std::size_t trace = traced[next];
@@ -169,14 +169,14 @@ struct StepTracer::State {
                     } else {
                         trace = add(std::move(consumed), place);
                     }
-                    if (has_place) {
+                    if (match_is_added) {
                         continue;
                     }
                     place.parent = trace;
                     place.position = i;
                     trace = add(*match, place);
                 }
-                has_place = true;
+                match_is_added = true;
                 places.push_back(place);
                 trace_of_place.push_back(trace);
             }

@@ -159,23 +159,23 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
             triangles_of(plain_mesh(plain_plant(kMeshedBush, 6, 40 + instance.hero), options));
         std::size_t found = 0;
         for (const MeshPart& part : meshes.parts_of(i)) {
-            std::vector<std::array<double, 9>> ours;
-            std::vector<std::array<double, 9>> theirs;
+            std::vector<std::array<double, 9>> found_triangles;
+            std::vector<std::array<double, 9>> expected_triangles;
             for (std::uint64_t t = 0; t < part.index_count; t += 3) {
                 Triangle triangle;
                 for (std::uint64_t c = 0; c < 3; ++c) {
                     triangle[c] = glm::dvec3(
                         meshes.mesh.positions[meshes.mesh.indices[part.first_index + t + c]]);
                 }
-                ours.push_back(sorted(triangle));
+                found_triangles.push_back(sorted(triangle));
             }
             for (const Triangle& triangle :
                  expected.at(meshes.mesh.materials[part.material].name)) {
-                theirs.push_back(sorted(triangle));
+                expected_triangles.push_back(sorted(triangle));
             }
-            std::sort(ours.begin(), ours.end());
-            std::sort(theirs.begin(), theirs.end());
-            CHECK(ours == theirs);
+            std::sort(found_triangles.begin(), found_triangles.end());
+            std::sort(expected_triangles.begin(), expected_triangles.end());
+            CHECK(found_triangles == expected_triangles);
             ++found;
         }
         CHECK(found == expected.size());

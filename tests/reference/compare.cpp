@@ -138,7 +138,7 @@ private:
                gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
                gives(command("dump", {}), 0, last) &&
                gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
-               continues_alike() && traces_alike() && reads_its_word();
+               continues_alike() && traces_alike() && printed_word_parses();
     }
 
     // Checks the origins of all modules: by threads, streamed, from bytecode and from a saved
@@ -231,7 +231,7 @@ private:
     }
 
     // "What is printed parses again as the axiom of the same file."
-    bool reads_its_word() {
+    bool printed_word_parses() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
         // An axiom is decomposed, so a word whose decomposition stopped at the depth limit would be
         // decomposed further.

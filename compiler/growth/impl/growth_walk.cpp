@@ -254,7 +254,7 @@ void GrowthWalk::index_by_symbol() {
 }
 
 void GrowthWalk::drop_absent() {
-    const auto absent = [&](ClassId id) {
+    const auto clear_if_absent = [&](ClassId id) {
         const auto i = static_cast<std::size_t>(id);
         if (is_zero(high_[i])) {
             is_present_[i] = false;
@@ -262,7 +262,8 @@ void GrowthWalk::drop_absent() {
         }
         return false;
     };
-    present_.erase(std::remove_if(present_.begin(), present_.end(), absent), present_.end());
+    present_.erase(std::remove_if(present_.begin(), present_.end(), clear_if_absent),
+                   present_.end());
 }
 
 void GrowthWalk::advance() {

@@ -631,7 +631,8 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // The `;` may belong to a statement that another `;` has ended too early.
+        // After a syntax error the fix is only an offer: another `;` may have ended the statement too
+        // early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;

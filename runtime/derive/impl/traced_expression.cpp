@@ -226,7 +226,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         }
         return x.number != 0.0F;
     }
-    bool draw(
+    bool random_draw(
         Opcode opcode, Shown& x, const Shown& y, std::uint32_t index, const std::uint32_t* /*at*/) {
         TracedRange range;
         range.opcode = opcode;

@@ -226,7 +226,7 @@ void eliminate(const BodyForms& own,
     inertia.add_diagonal(kMinInertia * std::max(inertia.trace(), 0.0));
     Symmetric joint_matrix; // damping and stiffness of the joint
     joint_matrix.add_diagonal(h * forces.damping + hooke);
-    Rows twist; // the joint's coupling is joint_matrix + twist
+    Rows twist; // joint_matrix + twist couples the spins of the parent and the body
     if (forces.exactness > 0.0) {
         // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
         // directions normal to the bend, with x = |bend| / 2. The twist comes from

@@ -18,7 +18,7 @@ public:
         std::size_t target = 0;
         std::size_t next = 0;
         bool changed = false;
-        bool beside_word = false; // the changed field is beside the word: it does not affect it
+        bool beside_word = false; // the changed field does not affect derived words
     };
 
     Change(Progress& progress, bool beside) : progress_(progress), beside_(beside) {}
