@@ -954,11 +954,12 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
             }
             spread_levels(chain.count, levels.levels);
             const std::size_t last = levels.levels.size() - 1;
-            std::vector<bool> which(levels.levels.size());
+            std::vector<bool> fitted_levels(levels.levels.size());
             for (std::size_t k = 0; k <= last && chain.first_fitted != kNoDetailLevel; ++k) {
-                which[k] = k >= std::min<std::size_t>(chain.first_fitted, last);
+                fitted_levels[k] = k >= std::min<std::size_t>(chain.first_fitted, last);
             }
-            return fits_any(which) ? planner.fit(chain, which, levels) : std::nullopt;
+            return fits_any(fitted_levels) ? planner.fit(chain, fitted_levels, levels)
+                                           : std::nullopt;
         },
         [&] {
             levels = {};

@@ -499,12 +499,12 @@ std::vector<ProductionNames> production_names(const Grammar& grammar) {
     }
     const Program& program = *grammar.program;
     for (const Production& production : program.productions) {
-        ProductionNames& own = names.emplace_back();
+        ProductionNames& production_names = names.emplace_back();
         for (const NameId formal : production.formals) {
-            own.formals.emplace_back(grammar.names.text(formal));
+            production_names.formals.emplace_back(grammar.names.text(formal));
         }
         for (const LocalValue& local : production.locals) {
-            ProductionNames::Local& named = own.locals.emplace_back();
+            ProductionNames::Local& named = production_names.locals.emplace_back();
             named.name = grammar.names.text(local.name);
             const Value& value = program.value(local.value);
             if (value.left != kNoValue) {

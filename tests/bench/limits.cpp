@@ -163,9 +163,9 @@ std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b) {
             hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;
             hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53U;
             const auto u = static_cast<std::uint32_t>(hash >> 32);
-            const std::size_t which = (u >= 1417339207U ? 1U : 0U) + (u >= 2834678415U ? 1U : 0U);
-            std::memcpy(cursor, kTexts[which], 16);
-            cursor += kLengths[which];
+            const std::size_t choice = (u >= 1417339207U ? 1U : 0U) + (u >= 2834678415U ? 1U : 0U);
+            std::memcpy(cursor, kTexts[choice], 16);
+            cursor += kLengths[choice];
         }
         count = static_cast<std::size_t>(cursor - b);
         std::swap(a, b);

@@ -37,8 +37,8 @@ struct Wood {
         ForestStage& stage = species.stages.emplace_back();
         stage.generations = generations;
         stage.cache = plant(grammar, generations, rho, options).cache;
-        InstanceMeshes& made = meshes.emplace_back().emplace_back();
-        REQUIRE(make_instance_meshes(stage.cache, {}, {}, made) == std::nullopt);
+        InstanceMeshes& instance_meshes = meshes.emplace_back().emplace_back();
+        REQUIRE(make_instance_meshes(stage.cache, {}, {}, instance_meshes) == std::nullopt);
     }
     void add_trees(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {

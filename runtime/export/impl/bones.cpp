@@ -212,9 +212,9 @@ private:
             }
         }
         const std::uint32_t top = way[low];
-        const auto made = static_cast<std::uint32_t>(pieces_.size());
+        const auto new_piece = static_cast<std::uint32_t>(pieces_.size());
         pieces_.push_back({top, kNoSegment, 0.0});
-        measure(top, made);
+        measure(top, new_piece);
         remeasure(piece, root);
     }
 

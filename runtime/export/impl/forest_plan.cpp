@@ -71,11 +71,11 @@ void ForestPlan::sort_trees(float cell) {
     std::vector<std::uint64_t> next(counts.size());
     std::uint64_t first = 0;
     for (const auto& [at, number] : numbers) {
-        ForestCell& made = cells_.emplace_back();
-        made.x = at.second;
-        made.z = at.first;
-        made.first_tree = first;
-        made.tree_count = counts[number];
+        ForestCell& new_cell = cells_.emplace_back();
+        new_cell.x = at.second;
+        new_cell.z = at.first;
+        new_cell.first_tree = first;
+        new_cell.tree_count = counts[number];
         next[number] = first;
         first += counts[number];
     }
@@ -187,14 +187,14 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
 
 InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& plan) {
     const Mesh& mesh = stage.meshes->mesh;
-    InstanceVertices own;
+    InstanceVertices instance_vertices;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-    own.indices.resize(indices.size());
+    instance_vertices.indices.resize(indices.size());
     // For each vertex the last instance that uses it, and the vertex's number there.
     std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
     for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
-        own.first.push_back(own.vertices.size());
+        instance_vertices.first.push_back(instance_vertices.vertices.size());
         if (plan.uses()[stage.first + i] == 0) {
             continue;
         }
@@ -203,16 +203,16 @@ InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& p
                 const std::uint32_t vertex = indices[k];
                 if (met_by[vertex] != i) {
                     met_by[vertex] = i;
-                    numbers[vertex] =
-                        static_cast<std::uint32_t>(own.vertices.size() - own.first[i]);
-                    own.vertices.push_back(vertex);
+                    numbers[vertex] = static_cast<std::uint32_t>(instance_vertices.vertices.size() -
+                                                                 instance_vertices.first[i]);
+                    instance_vertices.vertices.push_back(vertex);
                 }
-                own.indices[k] = numbers[vertex];
+                instance_vertices.indices[k] = numbers[vertex];
             }
         }
     }
-    own.first.push_back(own.vertices.size());
-    return own;
+    instance_vertices.first.push_back(instance_vertices.vertices.size());
+    return instance_vertices;
 }
 
 } // namespace lsys
