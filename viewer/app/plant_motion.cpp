@@ -151,7 +151,7 @@ bool PlantMotion::take(BentPlant& plant) {
     if (!state_->is_made) {
         return false;
     }
-    std::swap(plant, state_->made);
+    std::swap(plant, state_->bent_plant);
     state_->is_made = false;
     state_->changed.notify_one();
     return true;
