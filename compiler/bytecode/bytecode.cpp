@@ -35,7 +35,7 @@ public:
     void number(const Value& value) {
         state_ = combine(state_, value);
     }
-    void rare_number(const std::uint32_t& value) {
+    void number_or_none(const std::uint32_t& value) {
         if (value != kNone) {
             number(value);
         }
@@ -59,7 +59,7 @@ public:
         }
     }
     template <typename Row, typename Function>
-    void rare_table(const std::vector<Row>& rows, Function row) {
+    void table_or_none(const std::vector<Row>& rows, Function row) {
         if (!rows.empty()) {
             table(rows, row);
         }
@@ -80,20 +80,20 @@ const OpcodeInfo& info(Opcode opcode) {
     return kOpcodes[index];
 }
 
-CodeRoom room_of(std::span<const std::uint32_t> instructions) {
-    CodeRoom room;
+CodeNeeds needs_of(std::span<const std::uint32_t> instructions) {
+    CodeNeeds needs;
     std::uint32_t depth = 0;
     for (std::size_t at = 0; at < instructions.size();) {
         const Opcode opcode = opcode_of(instructions[at]);
         const OpcodeInfo& row = info(opcode);
         depth = depth - row.pops + row.pushes;
-        room.stack_depth = std::max(room.stack_depth, depth);
+        needs.stack_depth = std::max(needs.stack_depth, depth);
         if (row.operand == OperandKind::Local) {
-            room.local_count = std::max(room.local_count, operand_of(instructions[at]) + 1);
+            needs.local_count = std::max(needs.local_count, operand_of(instructions[at]) + 1);
         }
         at += instruction_length(opcode);
     }
-    return room;
+    return needs;
 }
 
 TableRange Bytecode::productions_of(Stage stage) const {

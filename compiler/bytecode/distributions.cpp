@@ -21,18 +21,18 @@ double polynomial(const std::array<double, Count>& coefficients, double x) {
 
 // Coefficients of algorithm AS 241 (normal_quantile()), numerator (Above) and denominator (Below).
 // Middle: |p - 0.5| <= 0.425.
-constexpr std::array kMiddleAbove{3.3871328727963666080e0,  1.3314166789178437745e+2,
-                                  1.9715909503065514427e+3, 1.3731693765509461125e+4,
-                                  4.5921953931549871457e+4, 6.7265770927008700853e+4,
-                                  3.3430575583588128105e+4, 2.5090809287301226727e+3};
-constexpr std::array kMiddleBelow{1.0,
-                                  4.2313330701600911252e+1,
-                                  6.8718700749205790830e+2,
-                                  5.3941960214247511077e+3,
-                                  2.1213794301586595867e+4,
-                                  3.9307895800092710610e+4,
-                                  2.8729085735721942674e+4,
-                                  5.2264952788528545610e+3};
+constexpr std::array kCentralNumerator{3.3871328727963666080e0,  1.3314166789178437745e+2,
+                                       1.9715909503065514427e+3, 1.3731693765509461125e+4,
+                                       4.5921953931549871457e+4, 6.7265770927008700853e+4,
+                                       3.3430575583588128105e+4, 2.5090809287301226727e+3};
+constexpr std::array kCentralDenominator{1.0,
+                                         4.2313330701600911252e+1,
+                                         6.8718700749205790830e+2,
+                                         5.3941960214247511077e+3,
+                                         2.1213794301586595867e+4,
+                                         3.9307895800092710610e+4,
+                                         2.8729085735721942674e+4,
+                                         5.2264952788528545610e+3};
 // Tail: other p with r <= 5, where r = sqrt(-log(min(p, 1 - p))).
 constexpr std::array kTailAbove{1.42343711074968357734e0,  4.63033784615654529590e0,
                                 5.76949722146069140550e0,  3.64784832476320460504e0,
@@ -132,7 +132,7 @@ double normal_quantile(double p) {
     const double offset = p - 0.5;
     if (std::fabs(offset) <= 0.425) {
         const double r = 0.180625 - offset * offset;
-        return offset * polynomial(kMiddleAbove, r) / polynomial(kMiddleBelow, r);
+        return offset * polynomial(kCentralNumerator, r) / polynomial(kCentralDenominator, r);
     }
     const double r = std::sqrt(-std::log(offset < 0.0 ? p : 1.0 - p));
     const double distance = r <= 5.0

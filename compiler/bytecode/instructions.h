@@ -31,11 +31,11 @@ inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
 }
 
 /// Memory that running some code needs: max stack depth and number of slots.
-struct CodeRoom {
+struct CodeNeeds {
     std::uint32_t stack_depth = 0;
     std::uint32_t local_count = 0;
 };
-[[nodiscard]] CodeRoom room_of(std::span<const std::uint32_t> instructions);
+[[nodiscard]] CodeNeeds needs_of(std::span<const std::uint32_t> instructions);
 
 struct Instruction {
     std::uint32_t at = 0; // index of its first word

@@ -12,14 +12,14 @@
 //   Value binary(opcode, x, y)      every one that takes two
 //   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
-//   bool draw(opcode, x, y, i, at)  replace x by draw i of a range [x, y) or a distribution with
-//                                   these arguments: whether to go on
-//   bool take(x, at)                Emit or Test took x: whether to go on
-//   kKnowsChoices, and then         whether it knows each condition of a choice:
-//     bool holds(x)                 it does, and only one side is run
-//   Value choice(x, y, z)           else both sides are run: y where x is not 0, else z,
-//     first_side(x), second_side(x) after they were announced
-// `at` points to the instruction.
+//   bool random_draw(opcode, x, y, i, at)   replaces x by draw i of the range [x, y) or of a
+//                                   distribution with arguments x and y; false stops the run
+//   bool take(x, at)                receives the operand x of Emit or Test; false stops the run
+//   kRunsOneSide                    a constant: whether the condition of every choice is known
+//     bool holds(x)                 if true: whether condition x holds; only that side is run
+//     Value choice(x, y, z)         if false: both sides are run; y if x is not 0, else z
+//     first_side(x), second_side(x) if false: called before either side is run
+// `at` points to the instruction being run.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
@@ -38,7 +38,7 @@ namespace lsys {
 template <typename Unknown>
 struct UnknownDomain {
     using Value = Unknown;
-    static constexpr bool kKnowsChoices = false;
+    static constexpr bool kRunsOneSide = false;
 
     static bool enter() { return true; }
     static Value literal(float /*value*/) { return {}; }
@@ -54,11 +54,11 @@ struct UnknownDomain {
     static Value choice(const Value& /*x*/, const Value& /*y*/, const Value& /*z*/) { return {}; }
     static void first_side(const Value& /*x*/) {}
     static void second_side(const Value& /*x*/) {}
-    static bool draw(Opcode /*opcode*/,
-                     Value& x,
-                     const Value& /*y*/,
-                     std::uint32_t /*index*/,
-                     const std::uint32_t* /*at*/) {
+    static bool random_draw(Opcode /*opcode*/,
+                            Value& x,
+                            const Value& /*y*/,
+                            std::uint32_t /*index*/,
+                            const std::uint32_t* /*at*/) {
         x = {};
         return true;
     }
@@ -78,8 +78,8 @@ struct UnknownDomain {
 }
 
 /// Number of slots that the verified code at `first` sets.
-[[nodiscard]] inline std::size_t slot_room(std::span<const std::uint32_t> words,
-                                           std::uint32_t first) {
+[[nodiscard]] inline std::size_t slot_count(std::span<const std::uint32_t> words,
+                                            std::uint32_t first) {
     std::size_t slots = 0;
     for (const Instruction each : InstructionRange(words, first)) {
         slots = each.opcode == Opcode::SetLocal ? std::max<std::size_t>(slots, each.operand + 1U)
@@ -90,7 +90,7 @@ struct UnknownDomain {
 
 /// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
 /// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
-/// Bytecode::local_count or slot_room(). The caller sets the slots that this code reads before
+/// Bytecode::local_count or slot_count(). The caller sets the slots that this code reads before
 /// it sets them.
 template <typename Domain>
 [[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
@@ -147,21 +147,21 @@ template <typename Domain>
             top[-1] = domain.mix(top[-1], top[0], top[1]);
             break;
         case Opcode::If:
-            if constexpr (Domain::kKnowsChoices) {
+            if constexpr (Domain::kRunsOneSide) {
                 at += domain.holds(*--top) ? 0 : operand;
             } else {
                 domain.first_side(top[-1]);
             }
             break;
         case Opcode::Else:
-            if constexpr (Domain::kKnowsChoices) {
+            if constexpr (Domain::kRunsOneSide) {
                 at += operand;
             } else {
                 domain.second_side(top[-2]);
             }
             break;
         case Opcode::EndIf:
-            if constexpr (!Domain::kKnowsChoices) {
+            if constexpr (!Domain::kRunsOneSide) {
                 top -= 2;
                 top[-1] = domain.choice(top[-1], top[0], top[1]);
             }
@@ -173,12 +173,12 @@ template <typename Domain>
         case Opcode::Normal:
         case Opcode::Binomial:
             --top;
-            if (!domain.draw(opcode, top[-1], top[0], operand, at)) {
+            if (!domain.random_draw(opcode, top[-1], top[0], operand, at)) {
                 return false;
             }
             break;
         case Opcode::Poisson:
-            if (!domain.draw(opcode, top[-1], top[-1], operand, at)) {
+            if (!domain.random_draw(opcode, top[-1], top[-1], operand, at)) {
                 return false;
             }
             break;

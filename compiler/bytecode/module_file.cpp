@@ -47,7 +47,7 @@ public:
             out_.push_back(static_cast<char>((value >> (8 * i)) & 0xFF));
         }
     }
-    void rare_number(const std::uint32_t& value) { number(value); }
+    void number_or_none(const std::uint32_t& value) { number(value); }
     void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
     void truth(const bool& value) { out_.push_back(value ? '\1' : '\0'); }
     template <typename Enum>
@@ -75,7 +75,7 @@ public:
         }
     }
     template <typename Row, typename Function>
-    void rare_table(const std::vector<Row>& rows, Function row) {
+    void table_or_none(const std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
     void codes(const std::vector<Code>& codes, std::uint32_t width) {
@@ -106,7 +106,7 @@ public:
     void number(T& value) {
         value = static_cast<T>(take_number(sizeof(T)));
     }
-    void rare_number(std::uint32_t& value) { number(value); }
+    void number_or_none(std::uint32_t& value) { number(value); }
     void real(float& value) {
         value = std::bit_cast<float>(static_cast<std::uint32_t>(take_number(4)));
     }
@@ -146,7 +146,7 @@ public:
     }
     /// Makes at most as many rows as the remaining bytes can hold.
     template <typename Row, typename Function>
-    void rare_table(std::vector<Row>& rows, Function row) {
+    void table_or_none(std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
     template <typename Row, typename Function>

@@ -539,16 +539,16 @@ private:
     /// Whether `number` is used for the first time in this word or constant. Numbers of draws that
     /// constant folding removed stay unused.
     bool is_first_draw(std::uint32_t number) {
-        drawn_.resize(std::max<std::size_t>(drawn_.size(), std::size_t{number} + 1));
-        const bool is_first = !drawn_[number];
-        drawn_[number] = true;
+        draw_is_seen_.resize(std::max<std::size_t>(draw_is_seen_.size(), std::size_t{number} + 1));
+        const bool is_first = !draw_is_seen_[number];
+        draw_is_seen_[number] = true;
         return is_first;
     }
 
     /// Begins a word, constant or condition, which shares neither slots nor draws with others.
     void begin_piece() {
         end_slots(0);
-        drawn_.clear();
+        draw_is_seen_.clear();
     }
 
     /// Sets the slot if `opcode` is SetLocal; returns whether the slot has a value. Values set in
@@ -621,11 +621,11 @@ private:
             next_instruction_ != bytecode_.instructions.size()) {
             return fail("a table holds more than the productions use");
         }
-        const CodeRoom room = room_of(bytecode_.instructions);
-        return (room.stack_depth == bytecode_.stack_depth &&
-                room.local_count == bytecode_.local_count) ||
-               fail("a stack of {} values and {} slots, not {} and {}", room.stack_depth,
-                    room.local_count, bytecode_.stack_depth, bytecode_.local_count);
+        const CodeNeeds needs = needs_of(bytecode_.instructions);
+        return (needs.stack_depth == bytecode_.stack_depth &&
+                needs.local_count == bytecode_.local_count) ||
+               fail("a stack of {} values and {} slots, not {} and {}", needs.stack_depth,
+                    needs.local_count, bytecode_.stack_depth, bytecode_.local_count);
     }
 
     const Bytecode& bytecode_;
@@ -641,7 +641,7 @@ private:
     std::vector<Choice> choices_;
     std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
     std::vector<bool> is_set_;             // by slot
-    std::vector<bool> drawn_;              // by number of a draw of the current word or constant
+    std::vector<bool> draw_is_seen_; // by number of a random draw of the current word or constant
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

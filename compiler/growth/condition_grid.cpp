@@ -264,7 +264,7 @@ bool GridBuilder::add(const ConditionView& condition) {
     first_formal_ = condition.first_formal;
     has_grid_ = false;
     std::vector<Node> stack(stack_room(instructions_, condition.first_instruction));
-    std::vector<Node> slots(slot_room(instructions_, condition.first_instruction));
+    std::vector<Node> slots(slot_count(instructions_, condition.first_instruction));
     interpret(instructions_.data() + condition.first_instruction, *this, stack.data(),
               slots.data());
     return has_grid_;

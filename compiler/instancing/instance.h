@@ -17,7 +17,7 @@
 namespace lsys {
 
 /// Number of forms per production that a listing shows by default.
-inline constexpr std::uint64_t kFormsOfPage = 4096;
+inline constexpr std::uint64_t kDefaultFormCount = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
@@ -37,7 +37,7 @@ struct InstancedSystem {
 /// 9.2).
 struct FormPage {
     std::uint64_t first = 0;
-    std::uint64_t count = kFormsOfPage;
+    std::uint64_t count = kDefaultFormCount;
 };
 
 /// Lists forms of each production with their probabilities. Passes the text to `put` in pieces

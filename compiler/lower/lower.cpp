@@ -43,9 +43,9 @@ public:
         for (const Production& production : program_.productions) {
             bytecode_.productions.push_back(lowered(production));
         }
-        const CodeRoom room = room_of(bytecode_.instructions);
-        bytecode_.stack_depth = room.stack_depth;
-        bytecode_.local_count = room.local_count;
+        const CodeNeeds needs = needs_of(bytecode_.instructions);
+        bytecode_.stack_depth = needs.stack_depth;
+        bytecode_.local_count = needs.local_count;
         if (emitter_.overflowed()) {
             return std::nullopt;
         }

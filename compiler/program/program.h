@@ -214,7 +214,7 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
-    std::vector<Production> productions; // by stage: Rewrite, Decompose, Interpret
+    std::vector<Production> productions; // sorted by stage: Rewrite, Decompose, Interpret
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
     std::vector<Axiom> axioms; // at least one if `complete`

@@ -310,7 +310,8 @@ void resolve_settings(Ast& ast,
             statements.read_number(ast.sets[statement.index], expressions);
         }
     }
-    program.settings.traits = settings.traits; // the profile of compiled code cannot change
+    // The turtle profile of compiled code cannot change, so its traits stay.
+    program.settings.traits = settings.traits;
     settings = program.settings;
 }
 

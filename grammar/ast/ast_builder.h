@@ -77,7 +77,7 @@ public:
 
     /// Removes the recorded `//` at or after `begin` of the scanned text; another message already
     /// explains them.
-    void forget_slashes(std::uint32_t begin);
+    void remove_slashes(std::uint32_t begin);
 
     // --- statements
     void generations(ExpressionId value);
@@ -187,7 +187,8 @@ private:
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the current module list
     LastName last_name_ = LastName::None;
-    SourceSpan list_place_;     // in a translation: last place of the current list in its own file
+    /// In a translation: place in the original file of the last module of the current list.
+    SourceSpan list_place_;
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;

@@ -325,7 +325,7 @@ void AstBuilder::count_bracket(char bracket, SourceSpan span) {
     }
 }
 
-void AstBuilder::forget_slashes(std::uint32_t begin) {
+void AstBuilder::remove_slashes(std::uint32_t begin) {
     const SourceSpan first = scanned_.span(begin, begin);
     while (!ast_.slashes.empty() && ast_.slashes.back().file == first.file &&
            ast_.slashes.back().begin >= first.begin) {

@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// parse_lsys() with `names`, which is `words`, `letters` or `characters`, as the form of module
-/// names of `root`, but not of its included files. Another word leaves the form to the file.
+/// parse_lsys() with `names` (`words`, `letters` or `characters`) in place of the `#set names` of
+/// `root`; any other value keeps the file's own. Included files are not affected.
 [[nodiscard]] Ast
 parse_lsys_with_names(FileId root, std::string_view names, const ParseContext& context);
 

@@ -70,7 +70,7 @@ Result<OutputTarget> target_of(const ForestCommand& command) {
 }
 
 /// A message about --collision, --unit or --pivot if one does not fit the output; empty if all do.
-std::string find_place_conflict(const ForestCommand& command, const OutputTarget& target) {
+std::string find_option_conflict(const ForestCommand& command, const OutputTarget& target) {
     const bool has_format = target.kind == OutputKind::Instances || target.kind == OutputKind::Mesh;
     if (command.collision != CollisionKind::None) {
         if (target.kind != OutputKind::Instances || !traits_of(target.format).collision) {
@@ -146,7 +146,7 @@ std::string find_conflict(const ForestCommand& command, const OutputTarget& targ
                !conflict.empty()) {
         return conflict;
     }
-    if (const std::string conflict = find_place_conflict(command, target); !conflict.empty()) {
+    if (const std::string conflict = find_option_conflict(command, target); !conflict.empty()) {
         return conflict;
     }
     if (command.frames != 0 && (command.output.empty() || command.output == "-")) {

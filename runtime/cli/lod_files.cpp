@@ -11,7 +11,7 @@ namespace lsys::lsc {
 namespace {
 
 constexpr double kAspect = 16.0 / 9.0;                 // width / height of the screen
-constexpr double kDegrees = 60.0;                      // vertical field of view
+constexpr double kFieldOfViewDegrees = 60.0;           // vertical
 constexpr double kHalfCotangent = 0.86602540378443865; // 1 / (2 tan 30 degrees)
 
 } // namespace
@@ -56,7 +56,7 @@ lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<L
     object["seed"] = info.seed;
     object["n"] = info.generations;
     object["extent"] = extent.largest;
-    object["vertical_field_of_view"] = kDegrees;
+    object["vertical_field_of_view"] = kFieldOfViewDegrees;
     object["levels"] = nlohmann::ordered_json::array();
     for (const LodFile& file : files) {
         const bool is_first = object["levels"].empty();

@@ -62,7 +62,7 @@ struct DumpCommand {
     bool all = false;
     bool count = false;
     bool stream = false;
-    std::optional<float> rho;           // for --stage instanced, heroes and cache
+    std::optional<float> rho;           // --rho, for --stage instanced, heroes and cache
     std::optional<std::uint64_t> first; // for --stage instanced: first form listed
     std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
     std::optional<std::uint32_t> heroes;

@@ -62,21 +62,23 @@ struct StepTracer::State {
     const Bytecode& bytecode;
     TraceInputs inputs;
     std::vector<ModuleTrace> traces;
-    std::vector<Place> places;           // tracked in the current word, ascending
-    std::vector<ModuleTrace> unrun;      // traces of the roots, if the engine makes no pass
-    std::vector<std::uint32_t> of_names; // productions of the current pass
-    bool multiple = false;               // the pass has predecessors of several modules
-    std::size_t first_of_pass = 0;       // in traces
+    std::vector<Place> places; // tracked in the current word, ascending
+    std::vector<ModuleTrace>
+        traces_without_pass;                     // traces of the roots, if the engine makes no pass
+    std::vector<std::uint32_t> pass_productions; // productions of the current pass
+    bool multiple = false;                       // the pass has predecessors of several modules
+    std::size_t first_of_pass = 0;               // in traces
     /// By place: its trace in the current pass; kNoTrace: it was copied without a trace.
     std::vector<std::size_t> trace_of_place;
     bool ok = true;
 
     /// Whether the predecessor of a production of the pass begins with `symbol`.
     [[nodiscard]] bool concerns(SymbolId symbol) const {
-        return std::any_of(of_names.begin(), of_names.end(), [&](std::uint32_t index) {
-            const TableRange predecessor = bytecode.productions[index].predecessor;
-            return bytecode.patterns[predecessor.first].symbol == symbol;
-        });
+        return std::any_of(
+            pass_productions.begin(), pass_productions.end(), [&](std::uint32_t index) {
+                const TableRange predecessor = bytecode.productions[index].predecessor;
+                return bytecode.patterns[predecessor.first].symbol == symbol;
+            });
     }
 
     std::size_t add(ModuleTrace trace, const Place& place) {
@@ -113,17 +115,18 @@ struct StepTracer::State {
             const bool first = facts.kind == DerivationPass::Kind::Rewrite &&
                                bytecode.settings.rewriting != RewritingMode::Sequential;
             if (first || concerns(word.symbol(place.position))) {
-                trace_of_place[i] = add(explain_module(pass, of_names, place.position), place);
+                trace_of_place[i] =
+                    add(explain_module(pass, pass_productions, place.position), place);
             }
         }
         if (multiple) {
-            find_used_up(pass);
+            find_consumed(pass);
         }
     }
 
     /// With predecessors of several modules, a match may begin before a tracked module and use it
     /// up. Reads the word from its start, as the pass does; adds the places of such matches.
-    void find_used_up(const TracedPass& pass) {
+    void find_consumed(const TracedPass& pass) {
         const std::vector<Place> tracked = places;
         const std::vector<std::size_t> traced = trace_of_place;
         places.clear();
@@ -133,47 +136,47 @@ struct StepTracer::State {
             std::uint32_t used = 1;
             std::optional<ModuleTrace> match;
             if (concerns(pass.word.symbol(i))) {
-                match = explain_module(pass, of_names, i);
+                match = explain_module(pass, pass_productions, i);
                 used = match->fate == Fate::Rewritten ? match->replaced : 1;
             }
-            bool has_place = false;
+            bool match_is_added = false;
             for (; next < tracked.size() && tracked[next].position < i + used; ++next) {
                 Place place = tracked[next];
                 std::size_t trace = traced[next];
-                if (place.position > i) { // used up
-                    ModuleTrace used_up;
+                if (place.position > i) { // consumed
+                    ModuleTrace consumed;
                     if (trace != kNoTrace) {
-                        used_up = std::move(traces[trace]);
-                        used_up.choice.reset();
-                        used_up.locals.clear();
-                        used_up.ranges.clear();
-                        used_up.written.clear();
-                        used_up.fault.clear();
-                        used_up.attempts.clear();
-                        used_up.other_names = 0;
+                        consumed = std::move(traces[trace]);
+                        consumed.choice.reset();
+                        consumed.locals.clear();
+                        consumed.ranges.clear();
+                        consumed.written.clear();
+                        consumed.fault.clear();
+                        consumed.attempts.clear();
+                        consumed.other_names = 0;
                     } else {
-                        used_up.kind = pass.facts.kind;
-                        used_up.rule = pass.facts.rule;
-                        used_up.generation = pass.facts.generation;
-                        used_up.position = place.position;
-                        used_up.module = pass.word.module(place.position);
+                        consumed.kind = pass.facts.kind;
+                        consumed.rule = pass.facts.rule;
+                        consumed.generation = pass.facts.generation;
+                        consumed.position = place.position;
+                        consumed.module = pass.word.module(place.position);
                     }
-                    used_up.fate = Fate::UsedUp;
-                    used_up.cause = i;
-                    used_up.production = match->production;
+                    consumed.fate = Fate::Consumed;
+                    consumed.cause = i;
+                    consumed.production = match->production;
                     if (trace != kNoTrace) {
-                        traces[trace] = std::move(used_up);
+                        traces[trace] = std::move(consumed);
                     } else {
-                        trace = add(std::move(used_up), place);
+                        trace = add(std::move(consumed), place);
                     }
-                    if (has_place) {
+                    if (match_is_added) {
                         continue;
                     }
                     place.parent = trace;
                     place.position = i;
                     trace = add(*match, place);
                 }
-                has_place = true;
+                match_is_added = true;
                 places.push_back(place);
                 trace_of_place.push_back(trace);
             }
@@ -223,7 +226,7 @@ struct StepTracer::State {
         }
         for (std::size_t i = first_of_pass; i < traces.size(); ++i) {
             traces[i].is_checked = true;
-            traces[i].agrees = traces[i].agrees || traces[i].fate == Fate::UsedUp;
+            traces[i].agrees = traces[i].agrees || traces[i].fate == Fate::Consumed;
         }
         places = std::move(written);
     }
@@ -242,7 +245,7 @@ void StepTracer::begin(const std::vector<std::uint64_t>& positions,
     State& state = *state_;
     state.traces.clear();
     state.places.clear();
-    state.unrun.clear();
+    state.traces_without_pass.clear();
     state.ok = true;
     const Bytecode& bytecode = state.bytecode;
     DerivationPass facts{.kind = kind, .generation = age};
@@ -259,7 +262,7 @@ void StepTracer::begin(const std::vector<std::uint64_t>& positions,
         ModuleTrace trace = explain_module(pass, productions, position);
         trace.root = place.root;
         trace.was_run = false;
-        state.unrun.push_back(std::move(trace));
+        state.traces_without_pass.push_back(std::move(trace));
     }
 }
 
@@ -276,26 +279,26 @@ void StepTracer::on_pass(const DerivationPass& facts) {
         state.begin_cuts(word, facts);
         return;
     }
-    state.of_names = productions_of_pass(state.bytecode, facts);
-    state.multiple =
-        std::any_of(state.of_names.begin(), state.of_names.end(), [&](std::uint32_t index) {
-            return state.bytecode.productions[index].predecessor.count > 1;
-        });
+    state.pass_productions = productions_of_pass(state.bytecode, facts);
+    state.multiple = std::any_of(state.pass_productions.begin(), state.pass_productions.end(),
+                                 [&](std::uint32_t index) {
+                                     return state.bytecode.productions[index].predecessor.count > 1;
+                                 });
     state.begin_productions(word, facts);
 }
 
 void StepTracer::finish() {
     State& state = *state_;
-    std::vector<bool> traced(state.unrun.size(), false);
+    std::vector<bool> traced(state.traces_without_pass.size(), false);
     for (const ModuleTrace& trace : state.traces) {
         traced[trace.root] = traced[trace.root] || trace.kind == DerivationPass::Kind::Cut ||
-                             trace.kind == state.unrun[trace.root].kind;
+                             trace.kind == state.traces_without_pass[trace.root].kind;
     }
     for (std::size_t root = 0; root < traced.size(); ++root) {
         if (traced[root]) {
             continue;
         }
-        ModuleTrace& trace = state.unrun[root];
+        ModuleTrace& trace = state.traces_without_pass[root];
         trace.is_checked = true; // the engine found no module that a pass could change
         trace.agrees = trace.fate == Fate::Copied;
         trace.first_written = trace.position;

@@ -136,7 +136,7 @@ LSYS_COUNTED_ENUM(Fate,
                   Copied,    // no production matches
                   Rewritten, // by a production
                   Cut,       // taken out with the rest of its branch
-                  UsedUp,    // by a match that begins before it
+                  Consumed,  // by a match that begins before it
                   Failed);   // a value is not finite, or a range cannot be drawn from
 
 /// A module in one pass.

@@ -129,11 +129,11 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     for (std::size_t i = 0; i < looks.size(); ++i) {
         const TreeLook& look = looks[i];
         const auto& s = look.moments.second;
-        const double reach = 2e-6 * (s[0] + s[1] + s[2]);
+        const double tolerance = 2e-6 * (s[0] + s[1] + s[2]);
         std::erase_if(near, [&](std::size_t other) {
             return looks[other].species != look.species ||
                    looks[other].moments.items != look.moments.items ||
-                   looks[other].moments.second[0] < s[0] - reach;
+                   looks[other].moments.second[0] < s[0] - tolerance;
         });
         const bool known = std::any_of(near.begin(), near.end(), [&](std::size_t other) {
             return alike(looks[other].moments, look.moments);

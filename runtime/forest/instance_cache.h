@@ -62,9 +62,10 @@ struct InstanceSlot {
     std::uint32_t age = 0;           // of the branch, in generations
     std::uint32_t first_variant = 0; // in InstanceCache::variants
     std::uint32_t variant_count = 0;
+    // In the instanced system `<` takes a recorded branch, `@` records one.
     std::uint64_t hits = 0;     // branches `<` that a recorded instance replaced
     std::uint64_t misses = 0;   // branches `<` that were recorded because the slot was empty
-    std::uint64_t recorded = 0; // branches `@`, those not kept included
+    std::uint64_t recorded = 0; // branches `@`, dropped ones included
     std::uint64_t dropped = 0;  // branches `@` that were not kept because of CacheOptions::cap
 };
 

@@ -248,19 +248,20 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
             }
         });
     };
-    LargeVector<std::uint64_t> places;
-    places.assign(cache.instances.size() * hero_part_count, 0);
-    const auto places_of = [&](std::uint64_t instance) {
-        return std::span(places).subspan(instance * hero_part_count, hero_part_count);
+    // By instance and part: first the number of indices, later the index of the first in `listed`.
+    LargeVector<std::uint64_t> index_offsets;
+    index_offsets.assign(cache.instances.size() * hero_part_count, 0);
+    const auto offsets_of = [&](std::uint64_t instance) {
+        return std::span(index_offsets).subspan(instance * hero_part_count, hero_part_count);
     };
     for_each_reached(
-        [&](std::uint64_t i, const Instance& instance) { lists.count(instance, places_of(i)); });
+        [&](std::uint64_t i, const Instance& instance) { lists.count(instance, offsets_of(i)); });
 
     std::vector<MeshPart> parts;
     std::uint64_t indices = 0;
     for (std::uint64_t i = 0; i < cache.instances.size(); ++i) {
         meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
-        const std::span<std::uint64_t> of_instance = places_of(i);
+        const std::span<std::uint64_t> of_instance = offsets_of(i);
         for (std::size_t part = 0; part < hero_part_count; ++part) {
             if (of_instance[part] > 0) {
                 parts.push_back({mesh.parts[part].material, indices, of_instance[part]});
@@ -280,7 +281,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     LargeVector<std::uint32_t> listed;
     listed.resize(indices);
     for_each_reached([&](std::uint64_t i, const Instance& instance) {
-        lists.write(instance, places_of(i), listed);
+        lists.write(instance, offsets_of(i), listed);
     });
     mesh.indices = std::move(listed);
     mesh.parts = std::move(parts);

@@ -48,7 +48,7 @@ constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
 constexpr double kLastTriangles = 45.0; // aimed at for the last level, without impostors
-constexpr double kLastOfCards = 24.0;   // aimed at for the last level, with impostors
+constexpr double kLastCardTriangles = 24.0; // aimed at for the last level, with impostors
 // Max triangles of a level that impostors may follow because the next mesh would look poor.
 constexpr std::uint64_t kMaxBeforePoor = 450;
 // A mesh looks poor if left-out wood lies, on average, more pixels than this from its parent.
@@ -73,9 +73,8 @@ constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels that get such
 constexpr double kFairCount = 0.1;      // kCloseCount with such paths
 constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
-constexpr float kMinErrorPart = 0.1F;
-constexpr float kMaxDeviations = 4.0F; // max MeshOptions::deviation / axis_error
-constexpr double kMinMove = 1e-12;     // min product of a step and its effect to update derivatives
+constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
+constexpr double kMinMove = 1e-12; // min product of a step and its effect to update derivatives
 constexpr float kMaxRadiusErrors = 2.0F; // radius of widened wood in errors: it is two pixels wide
 
 std::uint64_t triangles_of(const Mesh& mesh) {
@@ -154,7 +153,7 @@ public:
         measure_finest();
         level.triangles = finest_;
         result.levels.push_back(level);
-        last_ = chain.pictures ? kLastOfCards : kLastTriangles;
+        last_ = chain.pictures ? kLastCardTriangles : kLastTriangles;
         while (result.levels.size() <= chain.last && !stop_) {
             const std::uint64_t end = !chain.pictures  ? kMinDetailTriangles
                                       : level.impostor ? kMinBeforeFewer
@@ -170,8 +169,8 @@ public:
                 const DetailLevel cards = cards_after(level);
                 const bool is_forced = next.triangles >= level.triangles;
                 const bool is_poor = level.triangles <= kMaxBeforePoor && shows_loss(next);
-                const double off = off_band(level, cards);
-                if (is_forced || off < off_band(level, next) || (is_poor && off == 0.0)) {
+                const double off = ratio_excess(level, cards);
+                if (is_forced || off < ratio_excess(level, next) || (is_poor && off == 0.0)) {
                     next = cards;
                 }
             }
@@ -233,7 +232,7 @@ private:
         measure_polygons();
     }
 
-    /// Sets losses_: for each number of paths that stay, the distance in m from wood that is left
+    /// Sets mean_distances_: for each number of paths that stay, the distance in m from wood that is left
     /// out to its parent, as a mean over all wood. Each path counts as a quarter of its length
     /// away.
     void measure_paths() {
@@ -247,9 +246,10 @@ private:
             lengths[order_.path_ranks[i]] += static_cast<double>(segment.length);
             all += area;
         }
-        losses_.assign(order_.path_count() + 1, 0.0);
+        mean_distances_.assign(order_.path_count() + 1, 0.0);
         for (std::size_t rank = areas.size(); rank-- > 0 && all > 0.0;) {
-            losses_[rank] = losses_[rank + 1] + 0.25 * lengths[rank] * areas[rank] / all;
+            mean_distances_[rank] =
+                mean_distances_[rank + 1] + 0.25 * lengths[rank] * areas[rank] / all;
         }
     }
 
@@ -343,8 +343,8 @@ private:
 
     /// Scales wood and foliage until they cover the same areas as at the finest level, by Broyden's
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
-    /// the areas that they cover. `coarser_than`: the next finer level.
-    VisibleAreas fit_areas(const DetailLevel& coarser_than, DetailLevel& level) {
+    /// the areas that they cover. `finer`: the next finer level.
+    VisibleAreas fit_areas(const DetailLevel& finer, DetailLevel& level) {
         const bool is_fixed = !level.thinned && (level.options.method != MeshMethod::Tubes ||
                                                  skeleton_.l3d_compatible_surface);
         const DetailLevel planned = level;
@@ -363,7 +363,7 @@ private:
             tried.wood_scale = static_cast<float>(scales.x);
             tried.foliage_scale = static_cast<float>(scales.y);
             if (i > 0 && !is_fixed) {
-                restore(planned, coarser_than, tried);
+                restore(planned, finer, tried);
             }
             const VisibleAreas now = areas_of(tried, third);
             const VisibleAreas& fine = third ? third_ : areas_;
@@ -564,7 +564,7 @@ private:
     /// lacks too many branches.
     bool shows_loss(const DetailLevel& level) const {
         return !order_.foliage.empty() ||
-               losses_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
+               mean_distances_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
     }
 
     /// The impostor that follows the level `before`.
@@ -587,7 +587,8 @@ private:
 
     /// The factor by which the ratio of triangles from a level to the next is beyond its bounds,
     /// less 1: 0 within them. `safe`: margin within the bounds.
-    static double off_band(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
+    static double
+    ratio_excess(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
         const double most =
             before.options.method == MeshMethod::Boxes ? kMaxFactorOfBoxes : kMaxFactor;
         const double factor = static_cast<double>(before.triangles) /
@@ -637,7 +638,7 @@ private:
         double foliage = foliage_triangles(base);
         const auto is_done = [&](DetailLevel& level) {
             level.triangles = exact_triangles(level);
-            return off_band(before, level) == 0.0;
+            return ratio_excess(before, level) == 0.0;
         };
         if (wood + foliage < min) {
             // Leaving out joints leaves too few triangles: keep more joints, or all joints and
@@ -710,7 +711,7 @@ private:
                 level.options.level += fewer_sides ? 1 : 0;
                 level = thinner(level, wood, foliage, part * aim);
                 level.triangles = exact_triangles(level);
-                const double off = off_band(before, level, kSafeFactor);
+                const double off = ratio_excess(before, level, kSafeFactor);
                 if (off < least) {
                     least = off;
                     best = level;
@@ -785,12 +786,13 @@ private:
     /// the drawn wood from the plant.
     void straighten_for_paths(DetailLevel& level, double wanted) {
         const auto cost = [this](const DetailLevel& of) {
-            return losses_[of.paths] + kMeanErrorPart * static_cast<double>(of.options.axis_error);
+            return mean_distances_[of.paths] +
+                   kMeanErrorPart * static_cast<double>(of.options.axis_error);
         };
         DetailLevel tried = level;
-        for (int i = 0;
-             i < kStraighterTries && !stop_ &&
-             losses_[level.paths] > kMeanErrorPart * static_cast<double>(tried.options.axis_error);
+        for (int i = 0; i < kStraighterTries && !stop_ &&
+                        mean_distances_[level.paths] >
+                            kMeanErrorPart * static_cast<double>(tried.options.axis_error);
              ++i) {
             tried.options.axis_error *= 2.0F;
             tried.paths = most_paths_;
@@ -862,8 +864,8 @@ private:
     std::vector<FoliageShape> fine_;
     Mesh mesh_;
     LargeVector<std::uint32_t> numbers_;
-    std::vector<double> losses_;   // m, by number of paths; see measure_paths()
-    std::uint64_t most_paths_ = 0; // paths of the level before it is thinned
+    std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
+    std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_; // of the finest level
     VisibleAreas third_; // the same by AreaMeter::measure_third()
@@ -881,12 +883,12 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
                                   const MeshOptions& options,
                                   const DetailLevel& level,
                                   Mesh& mesh) {
-    MeshOptions baked = options;
-    baked.texture_coordinates = true;
-    baked.tangents = false;
-    baked.colours = true;
-    baked.segments = false;
-    if (const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, baked, mesh)) {
+    MeshOptions bake_options = options;
+    bake_options.texture_coordinates = true;
+    bake_options.tangents = false;
+    bake_options.colours = true;
+    bake_options.segments = false;
+    if (const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, bake_options, mesh)) {
         return stop;
     }
     return catch_out_of_memory(
@@ -952,11 +954,12 @@ std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
             }
             spread_levels(chain.count, levels.levels);
             const std::size_t last = levels.levels.size() - 1;
-            std::vector<bool> which(levels.levels.size());
+            std::vector<bool> fitted_levels(levels.levels.size());
             for (std::size_t k = 0; k <= last && chain.first_fitted != kNoDetailLevel; ++k) {
-                which[k] = k >= std::min<std::size_t>(chain.first_fitted, last);
+                fitted_levels[k] = k >= std::min<std::size_t>(chain.first_fitted, last);
             }
-            return fits_any(which) ? planner.fit(chain, which, levels) : std::nullopt;
+            return fits_any(fitted_levels) ? planner.fit(chain, fitted_levels, levels)
+                                           : std::nullopt;
         },
         [&] {
             levels = {};

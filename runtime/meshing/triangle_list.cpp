@@ -60,7 +60,7 @@ std::uint32_t TriangleList::operator[](std::uint64_t index) const {
     return value;
 }
 
-/// Writes the triangles of a patch other than bands.
+/// Writes the triangles of a patch whose shape is not Shape::Bands.
 void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uint32_t* to) {
     const std::uint32_t sides = patch.sides;
     const std::uint32_t low = vertex + patch.first;

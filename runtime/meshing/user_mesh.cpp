@@ -457,7 +457,8 @@ private:
     std::vector<glm::vec3> positions_;
     std::vector<glm::vec3> normals_;
     std::vector<glm::vec2> texture_coordinates_;
-    std::vector<glm::dvec3> area_sums_; // sums of twice the areas of faces, by vertex
+    std::vector<glm::dvec3>
+        area_sums_; // by vertex: sum of the normals of its faces, each of length 2 * area
     CornerNumbers numbers_;
     ObjName material_; // of the next faces
     std::string last_material_;

@@ -90,26 +90,26 @@ constexpr std::uint32_t kFallingRounds = 12;
 constexpr std::size_t kStageWork = 8;
 constexpr std::size_t kMaxStageRounds = 200;
 
-/// 1 - Forces::exactness for the rounds of settle(). Falls after steps that were taken whole, and
-/// rises after a shortened step. If a fall was followed by a shortened step, the next fall waits
-/// for more whole steps.
-class Doubt {
+/// Weight of the upper bounds of the second derivatives in a round of settle(), from 0 to 1:
+/// 1 - Forces::exactness. Lowered after steps that were taken whole, raised after a shortened step.
+/// If the step after a lowering was shortened, the next lowering waits for more whole steps.
+class BoundWeight {
 public:
     [[nodiscard]] double value() const { return value_; }
 
     /// `whole`: whether the step of the last round was taken whole.
     void update(bool whole) {
         if (whole) {
-            patience_ = sank_ ? 1 : patience_;
-            sank_ = ++in_a_row_ >= patience_;
-            if (sank_) {
-                in_a_row_ = 0;
+            patience_ = was_lowered_ ? 1 : patience_;
+            was_lowered_ = ++whole_steps_ >= patience_;
+            if (was_lowered_) {
+                whole_steps_ = 0;
                 value_ = value_ > kMin ? 0.5 * value_ : 0.0;
             }
         } else {
-            patience_ = sank_ ? std::min(2 * patience_, kMaxPatience) : patience_;
-            sank_ = false;
-            in_a_row_ = 0;
+            patience_ = was_lowered_ ? std::min(2 * patience_, kMaxPatience) : patience_;
+            was_lowered_ = false;
+            whole_steps_ = 0;
             value_ = std::clamp(4.0 * value_, kMin, 1.0);
         }
     }
@@ -118,9 +118,9 @@ private:
     static constexpr double kMin = 1e-3; // min value other than 0
     static constexpr int kMaxPatience = 16;
     double value_ = 1.0;
-    int in_a_row_ = 0;  // steps taken whole since the value changed
-    int patience_ = 1;  // steps taken whole before the value falls
-    bool sank_ = false; // whether the value fell in the last round
+    int whole_steps_ = 0;      // steps taken whole since the value changed
+    int patience_ = 1;         // steps taken whole before the value is lowered
+    bool was_lowered_ = false; // whether the value was lowered in the last round
 };
 
 /// Energy lost in the last rounds of settle() against the friction of the ground.
@@ -309,7 +309,7 @@ struct PlantPhysics::State {
         double share = 0.0; // part of the solved motion that was taken
         double turn = 0.0;  // rad, max of the whole solved motion
         double fall = 0.0;  // J, energy lost, with the work of the wind
-        double slide = 0.0; // J, see Energies
+        double slide = 0.0; // J, work of the ground friction
     };
     /// Moves the plant to rest where each joint bears its own segment only: joint by joint, from
     /// the root to the tips.
@@ -375,7 +375,7 @@ struct PlantPhysics::State {
     };
     /// Makes rounds of settle() and subtracts them from `rounds.most`.
     End make_rounds(Forces now, double tolerance, Rounds& rounds) {
-        Doubt doubt;
+        BoundWeight bound_weight;
         now.exactness = 0.0;
         RecentRounds recent(rounds.in_stage && plant.poses.size() >= kManyBodies, rounds.is_last);
         for (std::uint32_t round = 0; rounds.most > 0; ++round) {
@@ -391,8 +391,8 @@ struct PlantPhysics::State {
             if (rounds.stop_falling && (made.turn > kFallingTurn || round >= kFallingRounds)) {
                 return End::Falling;
             }
-            doubt.update(made.share == 1.0);
-            now.exactness = 1.0 - doubt.value();
+            bound_weight.update(made.share == 1.0);
+            now.exactness = 1.0 - bound_weight.value();
         }
         return End::OutOfRounds;
     }

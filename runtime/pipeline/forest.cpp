@@ -42,11 +42,11 @@ using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 /// Removes NoVariety notes from `diagnostics`: all if the species has one hero or `is_wanted` is
 /// false, else those at places in `noted`. Adds the places of the notes it keeps to `noted`.
 /// Returns whether `diagnostics` had such notes.
-bool drop_notes(const SceneSpecies& species,
-                bool is_wanted,
-                const std::string& path,
-                NotedAxioms& noted,
-                Diagnostics& diagnostics) {
+bool drop_variety_notes(const SceneSpecies& species,
+                        bool is_wanted,
+                        const std::string& path,
+                        NotedAxioms& noted,
+                        Diagnostics& diagnostics) {
     Diagnostics left;
     bool found = false;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -200,7 +200,7 @@ struct GrownStage {
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool may_take = false;            // some branch can be replaced by a recorded one
+    bool can_reuse_branches = false;  // some branch can be replaced by a recorded one
     std::vector<std::string> origins; // by instance; empty unless grow_stage() is asked for them
 };
 
@@ -254,7 +254,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     Diagnostics diagnostics;
     std::optional<InstancedSystem> system = compile_instanced(
         std::move(*grammar.program), grammar.names, *grammar.sources, species.rho, diagnostics);
-    grown.axiom.is_noted = drop_notes(species, is_first, path, noted, diagnostics);
+    grown.axiom.is_noted = drop_variety_notes(species, is_first, path, noted, diagnostics);
     if (!step.diagnose(std::move(diagnostics), grammar.sources) || !system) {
         return step.end(Stop::Diagnosed);
     }
@@ -293,7 +293,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
             return step.end_too_large(*stop, "the pipe model");
         }
     }
-    grown.may_take = system->kind_count != 0 && species.rho > 0.0F;
+    grown.can_reuse_branches = system->kind_count != 0 && species.rho > 0.0F;
     return step.done(std::move(grown));
 }
 
@@ -439,9 +439,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                            Error{fmt::format("there is no dialect `{}`", species.dialect.text)},
                            loaded, step);
         }
-        ForestSpecies& made = grown.forest.species.emplace_back();
-        made.name = species.name;
-        made.years_of_stage = years_of_stage(scene, grown.forest.species.size() - 1);
+        ForestSpecies& forest_species = grown.forest.species.emplace_back();
+        forest_species.name = species.name;
+        forest_species.years_of_stage = years_of_stage(scene, grown.forest.species.size() - 1);
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
         Messages& messages = grown.messages.emplace_back();
         const std::optional<std::size_t> reused =
@@ -450,8 +450,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             messages = previous.grown->messages[*reused];
             step.messages.append(messages);
             grown.axioms.push_back(previous.grown->axioms[*reused]);
-            made.stages = previous.grown->forest.species[*reused].stages;
-            made.height = previous.grown->forest.species[*reused].height;
+            forest_species.stages = previous.grown->forest.species[*reused].stages;
+            forest_species.height = previous.grown->forest.species[*reused].height;
             meshes = previous.grown->user_meshes[*reused];
             for (const UserMesh& mesh : meshes) {
                 const bool is_new =
@@ -480,11 +480,11 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 return step.end(stage.stop());
             }
             last = std::move(stage.value());
-            made.stages.push_back(std::move(last.stage));
+            forest_species.stages.push_back(std::move(last.stage));
             meshes = std::move(last.user_meshes);
         }
         AxiomPlace& axiom = grown.axioms.emplace_back(last.axiom);
-        if (last.may_take && !has_hits(made)) {
+        if (last.can_reuse_branches && !has_hits(forest_species)) {
             axiom.is_noted = true;
             Messages note;
             note.add_info(
@@ -496,9 +496,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         }
         const std::size_t index = grown.forest.species.size() - 1;
         const bool wants_height = scene.placement.species[index].max_height > 0.0F;
-        if (!size_heroes(last.settings, wants_height, made)) {
-            const std::string message =
-                fmt::format("{}: its plants are flat, so they cannot be given a height", made.name);
+        if (!size_heroes(last.settings, wants_height, forest_species)) {
+            const std::string message = fmt::format(
+                "{}: its plants are flat, so they cannot be given a height", forest_species.name);
             if (species.height_span.file != kNoFile) {
                 return fail_at(species.height_span, Error{message}, loaded, step);
             }
@@ -553,10 +553,10 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
     limited.max_bytes = project.limits.max_bytes;
     std::vector<std::vector<InstanceMeshes>> meshes;
     for (std::size_t s = 0; s < grown.forest.species.size(); ++s) {
-        std::vector<InstanceMeshes>& made = meshes.emplace_back();
+        std::vector<InstanceMeshes>& species_meshes = meshes.emplace_back();
         for (const ForestStage& stage : grown.forest.species[s].stages) {
             if (const std::optional<Stop> stop = make_instance_meshes(
-                    stage.cache, grown.user_meshes[s], limited, made.emplace_back())) {
+                    stage.cache, grown.user_meshes[s], limited, species_meshes.emplace_back())) {
                 return end_mesh_of_heroes(*stop, step);
             }
         }

@@ -22,7 +22,7 @@ LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
     LargeVector<Tree> trees(start.begin(), start.end());
     for (Tree& tree : trees) {
         if (tree.age != 0) { // age 0: a painted tree, which is in its last stage
-            constexpr auto kYears = static_cast<std::uint32_t>(kYearsOfFreeStage);
+            constexpr auto kYears = static_cast<std::uint32_t>(kYearsPerStage);
             const std::uint32_t last = species[tree.species].stages - 1;
             const std::uint32_t stage = std::min(tree.age / kYears + stages, last);
             tree.age = static_cast<std::uint16_t>(kYears * stage + 1);

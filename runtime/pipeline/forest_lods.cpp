@@ -252,10 +252,11 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
         only.cache.variants = cache.variants;
         only.cache.exits = cache.exits;
         only.cache.heroes = cache.heroes;
-        InstanceMeshes& made = result.meshes.emplace_back().emplace_back();
+        InstanceMeshes& instance_meshes = result.meshes.emplace_back().emplace_back();
         LargeVector<std::uint32_t> indices;
         for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
-            made.first_part.push_back(static_cast<std::uint32_t>(made.mesh.parts.size()));
+            instance_meshes.first_part.push_back(
+                static_cast<std::uint32_t>(instance_meshes.mesh.parts.size()));
             const auto found = hero_of.find({s, stage, i});
             if (found == hero_of.end()) {
                 continue;
@@ -268,13 +269,14 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                 continue;
             }
             const Mesh& mesh = hero.meshes[level];
-            if (made.mesh.positions.size() + mesh.positions.size() > kMaxVertices) {
+            if (instance_meshes.mesh.positions.size() + mesh.positions.size() > kMaxVertices) {
                 return end_mesh_of_heroes(Stop::Failed, step);
             }
-            add_instance(mesh, made, indices);
+            add_instance(mesh, instance_meshes, indices);
         }
-        made.first_part.push_back(static_cast<std::uint32_t>(made.mesh.parts.size()));
-        made.mesh.indices = TriangleList(std::move(indices));
+        instance_meshes.first_part.push_back(
+            static_cast<std::uint32_t>(instance_meshes.mesh.parts.size()));
+        instance_meshes.mesh.indices = TriangleList(std::move(indices));
     }
     for (std::size_t i = 0; i < forest.trees.size(); ++i) {
         Tree tree = forest.trees[i];

@@ -123,18 +123,19 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         if (found == overrides.species.end()) {
             continue;
         }
-        const SpeciesOverrides& own = found->second;
-        replace_if_set(own.heroes, species.cache.heroes);
-        replace_if_set(own.rho, species.rho);
-        note_written(own.heroes.has_value(), own.rho.has_value(), species);
+        const SpeciesOverrides& species_overrides = found->second;
+        replace_if_set(species_overrides.heroes, species.cache.heroes);
+        replace_if_set(species_overrides.rho, species.rho);
+        note_written(species_overrides.heroes.has_value(), species_overrides.rho.has_value(),
+                     species);
         PlacementSpecies& placed = scene.placement.species[i];
-        replace_if_set(own.share, placed.share);
-        replace_if_set(own.min_scale, placed.min_scale);
-        replace_if_set(own.max_scale, placed.max_scale);
+        replace_if_set(species_overrides.share, placed.share);
+        replace_if_set(species_overrides.min_scale, placed.min_scale);
+        replace_if_set(species_overrides.max_scale, placed.max_scale);
         placed.max_scale = std::max(placed.max_scale, placed.min_scale);
         if (placed.max_height > 0.0F) {
-            replace_if_set(own.min_height, placed.min_height);
-            replace_if_set(own.max_height, placed.max_height);
+            replace_if_set(species_overrides.min_height, placed.min_height);
+            replace_if_set(species_overrides.max_height, placed.max_height);
             placed.max_height = std::max(placed.max_height, placed.min_height);
         }
     }

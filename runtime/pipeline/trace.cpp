@@ -242,8 +242,8 @@ private:
                     ++trace_.matches;
                     if (positions.size() < max_rows) {
                         positions.push_back(i);
-                    } else if (trace_.next_like == 0) {
-                        trace_.next_like = i;
+                    } else if (trace_.next_untraced == 0) {
+                        trace_.next_untraced = i;
                     }
                 } else if (others.size() < 4) {
                     others.push_back(i);
@@ -421,7 +421,7 @@ private:
                 report(derivation, *stop);
                 return stop;
             }
-            TraceBack& back = place.back.emplace_back();
+            AncestorStep& back = place.back.emplace_back();
             back.generation = age;
             back.next_position = position;
             back.position = derivation.word().origins()[position].place;
@@ -444,7 +444,7 @@ private:
     }
 
     [[nodiscard]] std::optional<Stop>
-    trace_back_step(Word before, std::uint64_t target, TraceBack& back) {
+    trace_back_step(Word before, std::uint64_t target, AncestorStep& back) {
         StepTracer tracer(bytecode_, inputs_);
         tracer.begin({back.position}, before, back.generation, DerivationPass::Kind::Rewrite);
         back.module = modules_at(bytecode_, before, {back.position}).front();
@@ -499,12 +499,12 @@ std::vector<ProductionNames> production_names(const Grammar& grammar) {
     }
     const Program& program = *grammar.program;
     for (const Production& production : program.productions) {
-        ProductionNames& own = names.emplace_back();
+        ProductionNames& production_names = names.emplace_back();
         for (const NameId formal : production.formals) {
-            own.formals.emplace_back(grammar.names.text(formal));
+            production_names.formals.emplace_back(grammar.names.text(formal));
         }
         for (const LocalValue& local : production.locals) {
-            ProductionNames::Local& named = own.locals.emplace_back();
+            ProductionNames::Local& named = production_names.locals.emplace_back();
             named.name = grammar.names.text(local.name);
             const Value& value = program.value(local.value);
             if (value.left != kNoValue) {

@@ -40,7 +40,7 @@ struct TraceOrigin {
 
 /// One step of following a module back to the axiom: the step from the word of generation
 /// `generation` to the next word.
-struct TraceBack {
+struct AncestorStep {
     std::uint32_t generation = 0;
     std::uint64_t position = 0;      // of the ancestor in the word
     TracedModule module;             // the ancestor
@@ -64,18 +64,18 @@ struct TracedPlace {
     std::uint64_t first_next = 0;     // position of next[0] in the next word
     std::vector<ModuleTrace> drawing; // traces of #interpret, in the form of `step`
     std::vector<TracedModule> drawn;  // the modules it became; empty without `drawing`
-    std::vector<TraceBack> back;      // from the previous word back to the axiom
+    std::vector<AncestorStep> back;   // from the previous word back to the axiom
 };
 
 struct Trace {
     std::uint32_t generation = 0;  // of the modules
     std::uint32_t generations = 0; // of the derivation: steps()
     std::uint64_t seed = 0;
-    std::uint64_t modules = 0;   // number of modules in the word
-    std::uint64_t matches = 0;   // number of modules that the options ask for
-    std::uint64_t next_like = 0; // position of the first match that is not traced; 0: none
-    bool is_last = false;        // the word is that of the last generation, which is drawn
-    bool agrees = true;          // tracer and engine have written the same modules
+    std::uint64_t modules = 0;       // number of modules in the word
+    std::uint64_t matches = 0;       // number of modules that the options ask for
+    std::uint64_t next_untraced = 0; // position of the first match that is not traced; 0: none
+    bool is_last = false;            // the word is that of the last generation, which is drawn
+    bool agrees = true;              // tracer and engine have written the same modules
     /// Set if the next step failed. The traces are then incomplete, and messages say why.
     std::optional<Stop> stop;
     std::vector<TracedPlace> places;

@@ -22,7 +22,7 @@ inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
 inline constexpr std::uint32_t kMaxYears = 10'000;
 /// Years per stage for methods other than Domination. Stage s has age 2 s + 1, because age 0 means
 /// the last stage.
-inline constexpr float kYearsOfFreeStage = 2.0F;
+inline constexpr float kYearsPerStage = 2.0F;
 /// Limit of the years that all stages of a species take, so that ages have 16 bits.
 inline constexpr float kMaxStageYears = 40'000.0F;
 

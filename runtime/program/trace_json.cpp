@@ -199,7 +199,7 @@ private:
         if (trace.production != kNoProduction) {
             object["production"] = production(trace.production);
         }
-        if (trace.fate == Fate::Cut || trace.fate == Fate::UsedUp) {
+        if (trace.fate == Fate::Cut || trace.fate == Fate::Consumed) {
             object["cause"] = trace.cause;
         }
         if (!trace.fault.empty()) {
@@ -238,7 +238,7 @@ private:
         object["origin"] = origin(place.origin);
         if (!place.back.empty()) {
             object["back"] = Json::array();
-            for (const TraceBack& each : place.back) {
+            for (const AncestorStep& each : place.back) {
                 Json back;
                 back["generation"] = each.generation;
                 back["position"] = each.position;

@@ -427,7 +427,7 @@ private:
                      ? "it cuts off"
                      : fmt::format("the cut at position {} takes out", trace.cause));
             return;
-        case Fate::UsedUp:
+        case Fate::Consumed:
             line("used up by the match of {} that begins at position {}", name(trace.production),
                  trace.cause);
             return;
@@ -494,7 +494,7 @@ private:
         for (std::size_t i = 0; i < list.size(); ++i) {
             const ModuleTrace& trace = list[i];
             const bool is_later =
-                trace.parent != kNoTrace && trace.fate != Fate::UsedUp && !is_cause(list, trace);
+                trace.parent != kNoTrace && trace.fate != Fate::Consumed && !is_cause(list, trace);
             if (is_later && trace.fate == Fate::Copied) {
                 continue;
             }
@@ -535,7 +535,7 @@ private:
     /// predecessor.
     [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
                                        const ModuleTrace& trace) {
-        return trace.parent != kNoTrace && list[trace.parent].fate == Fate::UsedUp;
+        return trace.parent != kNoTrace && list[trace.parent].fate == Fate::Consumed;
     }
 
     void step(const TracedPlace& place) {
@@ -586,7 +586,7 @@ private:
         out_ += '\n';
         std::optional<std::uint32_t> copied; // last generation of a run of copies; unset: no run
         std::uint32_t first_copy = 0;
-        for (const TraceBack& each : place.back) {
+        for (const AncestorStep& each : place.back) {
             if (each.steps.empty()) {
                 copied = copied.value_or(each.generation + 1);
                 first_copy = each.generation + 1;
@@ -601,7 +601,7 @@ private:
         if (copied) {
             copies(first_copy, *copied);
         }
-        const TraceBack& last = place.back.back();
+        const AncestorStep& last = place.back.back();
         line("generation 0: {} at position {}, {}", module(last.module), last.position,
              origin_text(place.origin));
         if (place.origin.place && !grammar_.is_module_file) {
@@ -610,7 +610,7 @@ private:
         }
     }
 
-    void back_step(const TraceBack& each) {
+    void back_step(const AncestorStep& each) {
         for (std::size_t i = each.steps.size(); i-- > 0;) {
             const ModuleTrace& trace = each.steps[i];
             const bool is_last = i + 1 == each.steps.size();
@@ -668,7 +668,7 @@ private:
             const std::uint64_t more = trace_.matches - trace_.places.size();
             line("{} like it in generation {}, the next at position {}",
                  number_of(more, "more module is", "more modules are"), trace_.generation,
-                 trace_.next_like);
+                 trace_.next_untraced);
         }
     }
 

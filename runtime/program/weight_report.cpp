@@ -56,17 +56,18 @@ WeightReport weigh(const Skeleton& plant, const Settings& settings, const Physic
     if (report.stands()) {
         return report;
     }
-    const std::optional<double> stiffer = standing_factor(plant, options, Stiffening::Springs);
+    const std::optional<double> spring_factor =
+        standing_factor(plant, options, Stiffening::Springs);
     const auto elasticity = static_cast<double>(settings.elasticity);
     if (!settings.has_spring && has_automatic_springs(plant, elasticity)) {
-        if (stiffer && elasticity > 0.0) {
-            report.elasticity = rounded_up(elasticity * *stiffer);
+        if (spring_factor && elasticity > 0.0) {
+            report.elasticity = rounded_up(elasticity * *spring_factor);
         }
-        if (const auto wider = standing_factor(plant, options, Stiffening::Widths)) {
-            report.width_factor = rounded_up(*wider);
+        if (const auto width_factor = standing_factor(plant, options, Stiffening::Widths)) {
+            report.width_factor = rounded_up(*width_factor);
         }
-    } else if (stiffer && settings.has_spring && has_one_spring(plant)) {
-        report.spring = rounded_up(static_cast<double>(settings.spring) * *stiffer);
+    } else if (spring_factor && settings.has_spring && has_one_spring(plant)) {
+        report.spring = rounded_up(static_cast<double>(settings.spring) * *spring_factor);
     }
     return report;
 }

@@ -27,7 +27,7 @@ float years_of_stage(const Scene& scene, std::size_t index) {
         return 0.0F;
     }
     if (scene.placement.method != PlacementMethod::Domination) {
-        return kYearsOfFreeStage;
+        return kYearsPerStage;
     }
     return species.years_of_stage > 0.0F ? species.years_of_stage
                                          : std::max(static_cast<float>(scene.placement.years) /

@@ -173,23 +173,23 @@ void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton
     const auto scaled = [factor](float value) {
         return static_cast<float>(to_double(value) * factor);
     };
-    const auto place = [&](const glm::vec3& at) {
+    const auto scaled_point = [&](const glm::vec3& at) {
         return glm::vec3(scaled(at.x), scaled(at.y), scaled(at.z));
     };
     for (Segment& segment : skeleton.segments) {
         change_segment(segment, material, [&](Segment& each) {
-            each.base = place(each.base);
+            each.base = scaled_point(each.base);
             each.length = scaled(each.length);
             each.base_radius = scaled(each.base_radius);
             each.tip_radius = scaled(each.tip_radius);
         });
     }
     for (PlacedObject& object : skeleton.objects) {
-        object.position = place(object.position);
+        object.position = scaled_point(object.position);
         object.size = scaled(object.size);
     }
     for (glm::vec3& corner : skeleton.corners) {
-        corner = place(corner);
+        corner = scaled_point(corner);
     }
 }
 

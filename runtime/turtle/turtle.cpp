@@ -120,7 +120,8 @@ void Turtle::State::run_some(std::span<const C> codes,
     position = first + codes.size();
 }
 
-/// Walks over words that are texts. A command is executed one or more modules after it is read.
+/// Walks over words of L3D, whose parameters are characters in parentheses. A command is executed
+/// when its parameter has been read, one or more modules later.
 template <typename C>
 void Turtle::State::run_text(std::span<const C> codes,
                              const float*& parameters,

@@ -24,14 +24,14 @@ export function lods(THREE, view = VIEW) {
             const levels = [parser.loadNode(index), ...ids.map(id => parser.getDependency('node', id))];
             return Promise.all(levels).then(objects => {
                 const size = new THREE.Box3().setFromObject(objects[0]).getSize(new THREE.Vector3());
-                const face = size.y * Math.max(size.x, size.z);
+                const faceArea = size.y * Math.max(size.x, size.z);
                 // A level begins at the distance where the box covers less of the screen than the
                 // coverage of the level before it.
                 const coverages = node.extras.MSFT_screencoverage;
                 const lod = new THREE.LOD();
                 lod.name = node.name;
                 objects.forEach((object, i) => lod.addLevel(
-                    object, i === 0 ? 0 : cotangent * Math.sqrt(face / (ASPECT * coverages[i - 1]))));
+                    object, i === 0 ? 0 : cotangent * Math.sqrt(faceArea / (ASPECT * coverages[i - 1]))));
                 return lod;
             });
         },

@@ -76,9 +76,9 @@ bool write_forest(const fs::path& path,
            complain(path.string() + ": not written");
 }
 
-std::string facts_of(const ForestScene& scene, const Mesh& baked) {
+std::string facts_of(const ForestScene& scene, const Mesh& baked_mesh) {
     Bounds bounds;
-    for (const glm::vec3& at : baked.positions) {
+    for (const glm::vec3& at : baked_mesh.positions) {
         bounds.add(at);
     }
     std::uint64_t branches = 0;
@@ -93,8 +93,8 @@ std::string facts_of(const ForestScene& scene, const Mesh& baked) {
     return fmt::format(R"({{"trees":{},"branches":{},"triangles":{},"vertices":{},)"
                        R"("ground_triangles":{},"low":[{},{},{}],"high":[{},{},{}]}})"
                        "\n",
-                       scene.forest.trees.size(), branches, baked.indices.size() / 3,
-                       baked.positions.size(), scene.ground->indices.size() / 3, bounds.low.x,
+                       scene.forest.trees.size(), branches, baked_mesh.indices.size() / 3,
+                       baked_mesh.positions.size(), scene.ground->indices.size() / 3, bounds.low.x,
                        bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z);
 }
 
@@ -187,20 +187,20 @@ int main(int argument_count, char** arguments) {
         std::ofstream(folder / picture.name, std::ios::binary) << picture.bytes;
     }
     const Outcome<Mesh> bake = bake_forest(scene, ~std::uint64_t{0}, 0);
-    const Mesh& baked = bake.value();
+    const Mesh& baked_mesh = bake.value();
     for (const char* extension : {"ply", "glb", "gltf"}) {
         std::ofstream file(folder / (std::string("baked.") + extension), std::ios::binary);
         const auto format = format_of_path(std::string("baked.") + extension);
-        all = export_mesh(baked, {}, *format, {}, into(file)).ok() && all;
+        all = export_mesh(baked_mesh, {}, *format, {}, into(file)).ok() && all;
     }
-    const std::string facts = facts_of(scene, baked);
+    const std::string facts = facts_of(scene, baked_mesh);
     std::ofstream(folder / "facts.json") << facts;
     std::ofstream(folder / "stats.json")
         << forest_stats_json(scene, {.different_trees = true, .threads = 0}) << '\n';
     std::ofstream counts(folder / "counts.txt");
     for (const char* name : {"expanded", "baked"}) {
-        counts << name << ' ' << baked.positions.size() << ' ' << baked.indices.size() / 3 << ' '
-               << baked.parts.size() << '\n';
+        counts << name << ' ' << baked_mesh.positions.size() << ' ' << baked_mesh.indices.size() / 3
+               << ' ' << baked_mesh.parts.size() << '\n';
     }
     return all && counts.good() ? 0 : 1;
 }

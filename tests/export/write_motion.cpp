@@ -1,7 +1,7 @@
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
-// motion, and a PLY for every frame. Usage: write_motion FOLDER counts.txt in it has a line `NAME
-// FRAMES FPS METRES` for each plant. METRES: max error of a vertex that a light skeleton moves; 0
-// for a skin of all segments. FOLDER/growth has plants that grow, in the same form.
+// motion, and a PLY for every frame. Usage: write_motion FOLDER. FOLDER/counts.txt gets a line `NAME
+// FRAMES FPS METRES` for each plant. METRES: max vertex error of a reduced skeleton; 0 if every
+// segment is a joint. FOLDER/growth gets plants that grow, with a counts.txt of the same columns.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 

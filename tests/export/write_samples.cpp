@@ -1,6 +1,6 @@
-// Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER
-// counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants with more
-// than kMaxVertices are exported after the largest number of generations that does not exceed it.
+// Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER.
+// FOLDER/counts.txt gets a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants are exported
+// at the last generation with at most kMaxVertices vertices.
 #include "runtime/export/export.h"
 #include "tests/support/lsc_run.h"
 

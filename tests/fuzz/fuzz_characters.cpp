@@ -55,10 +55,10 @@ void put_characters(std::string& text, Choices& choices) {
 }
 
 void try_text(const std::string& text) {
-    const CompiledText made = compile_text(text, lsys::Dialect::Lsys, "");
-    if (made.bytecode) {
-        static_cast<void>(derived_text(*made.bytecode));
-        const lsys::SourceFile file("fuzz", text); // without a byte order mark
+    const CompiledText compiled = compile_text(text, lsys::Dialect::Lsys, "");
+    if (compiled.bytecode) {
+        static_cast<void>(derived_text(*compiled.bytecode));
+        const lsys::SourceFile file("fuzz", text); // removes a byte order mark
         const std::string formatted = lsys::format_text(file.text());
         if (compile_text(formatted, lsys::Dialect::Lsys, "").has_errors) {
             std::abort();

@@ -38,9 +38,9 @@ void try_view(const std::string& text) {
             grammar += " + " + lsys::curve_at(curve, "x");
         }
     }
-    const CompiledText made = compile_text(grammar + ");\n", lsys::Dialect::Lsys, "");
-    if (made.bytecode) {
-        static_cast<void>(derived_text(*made.bytecode));
+    const CompiledText compiled = compile_text(grammar + ");\n", lsys::Dialect::Lsys, "");
+    if (compiled.bytecode) {
+        static_cast<void>(derived_text(*compiled.bytecode));
     }
 }
 

@@ -451,17 +451,17 @@ TEST_CASE("levels fitted later are those fitted at once", "[levels]") {
     REQUIRE(plan_detail_levels(plant.skeleton, plant.user_meshes, options, kLater, later) ==
             std::nullopt);
     REQUIRE(later.levels.size() == all.levels.size());
-    std::vector<bool> which(later.levels.size());
-    which[2] = true;
-    which.back() = true;
-    REQUIRE(fit_detail_levels(plant.skeleton, plant.user_meshes, options, kLater, which, later) ==
-            std::nullopt);
-    for (std::size_t k = 0; k < which.size(); ++k) {
+    std::vector<bool> fitted_levels(later.levels.size());
+    fitted_levels[2] = true;
+    fitted_levels.back() = true;
+    REQUIRE(fit_detail_levels(plant.skeleton, plant.user_meshes, options, kLater, fitted_levels,
+                              later) == std::nullopt);
+    for (std::size_t k = 0; k < fitted_levels.size(); ++k) {
         const DetailLevel& level = later.levels[k];
         CHECK(level.pixels == all.levels[k].pixels);
-        CHECK(level.wood_scale == (which[k] ? all.levels[k].wood_scale : 1.0F));
-        CHECK(level.tint == (which[k] ? all.levels[k].tint : glm::vec3(1.0F)));
-        if (which[k]) {
+        CHECK(level.wood_scale == (fitted_levels[k] ? all.levels[k].wood_scale : 1.0F));
+        CHECK(level.tint == (fitted_levels[k] ? all.levels[k].tint : glm::vec3(1.0F)));
+        if (fitted_levels[k]) {
             CHECK(level.triangles == all.levels[k].triangles);
             CHECK(level.cover == all.levels[k].cover);
         }
@@ -593,14 +593,15 @@ TEST_CASE("leaves that stay have the area of all leaves", "[levels]") {
         LargeVector<std::uint32_t> segments;
         thin_skeleton(skeleton, order, {.foliage = kept}, shapes, shapes, thin, segments);
         REQUIRE(thin.objects.size() == kept);
-        double left = 0.0;
+        double kept_area = 0.0;
         std::map<std::uint16_t, double> by_colour;
         for (const PlacedObject& leaf : thin.objects) {
-            const double own = static_cast<double>(leaf.size) * static_cast<double>(leaf.size);
-            left += own;
-            by_colour[leaf.colour] += own;
+            const double leaf_area =
+                static_cast<double>(leaf.size) * static_cast<double>(leaf.size);
+            kept_area += leaf_area;
+            by_colour[leaf.colour] += leaf_area;
         }
-        CHECK(left == Approx(area).epsilon(1e-4));
+        CHECK(kept_area == Approx(area).epsilon(1e-4));
         if (kept >= 3) { // each colour keeps its share of the area
             CHECK(by_colour.size() == 3);
             for (const auto& [colour, part] : by_colour) {

@@ -176,8 +176,8 @@ TEST_CASE("levels of detail are a file each where a format holds one mesh, or is
     // The largest extent takes screen_height of a view of 60 degrees at the distance.
     const nlohmann::json list = nlohmann::json::parse(read_text(folder / "tree.lods.json"));
     const nlohmann::json& level = list["levels"][2];
-    const double seen = 2.0 * 0.57735026918962573 * level["distance"].get<double>();
-    CHECK(list["extent"].get<double>() / seen ==
+    const double view_height = 2.0 * 0.57735026918962573 * level["distance"].get<double>();
+    CHECK(list["extent"].get<double>() / view_height ==
           Approx(level["screen_height"].get<double>()).epsilon(1e-6));
 }
 

@@ -98,7 +98,8 @@ std::vector<SessionStep> steps_of(const std::vector<std::string>& lines) {
     return steps;
 }
 
-bool shows(const std::vector<std::string>& expected, const std::vector<std::string>& output) {
+bool matches_output(const std::vector<std::string>& expected,
+                    const std::vector<std::string>& output) {
     // reached[k]: the lines of `expected` so far match the first k lines of the output.
     std::vector<bool> reached(output.size() + 1);
     reached[0] = true;
@@ -178,13 +179,15 @@ std::string Session::show_file(const SessionStep& step, const std::string& name)
         return {};
     }
     const std::string text = read_text(path);
-    return shows(step.output, split_lines(text)) ? "" : last_ + "the file holds\n" + text;
+    return matches_output(step.output, split_lines(text)) ? "" : last_ + "the file holds\n" + text;
 }
 
 std::string Session::run_lsc(const SessionStep& step, const std::vector<std::string>& arguments) {
     const Result result = result_of(arguments);
     status_ = result.status;
-    return shows(step.output, split_lines(result.output)) ? "" : last_ + "prints\n" + result.output;
+    return matches_output(step.output, split_lines(result.output))
+               ? ""
+               : last_ + "prints\n" + result.output;
 }
 
 Session::Result Session::result_of(const std::vector<std::string>& arguments) const {

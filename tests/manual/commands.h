@@ -53,7 +53,7 @@ private:
 [[nodiscard]] std::string check_options(const std::vector<std::string>& words);
 
 /// Whether `expected` of a document matches `output`; a line `...` matches any lines.
-[[nodiscard]] bool shows(const std::vector<std::string>& expected,
-                         const std::vector<std::string>& output);
+[[nodiscard]] bool matches_output(const std::vector<std::string>& expected,
+                                  const std::vector<std::string>& output);
 
 } // namespace lsys::tests

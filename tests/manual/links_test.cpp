@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxLineLength = 120; // characters
 
-bool is_elsewhere(std::string_view target) {
+bool is_external(std::string_view target) {
     return target.find("://") != std::string_view::npos || target.starts_with("mailto:");
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("the links of the documents lead somewhere") {
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {
         for (const Link& link : links_of(read_text(source_root() / document))) {
-            if (is_elsewhere(link.target)) {
+            if (is_external(link.target)) {
                 continue;
             }
             ++count;

@@ -37,8 +37,8 @@ struct Wood {
         ForestStage& stage = species.stages.emplace_back();
         stage.generations = generations;
         stage.cache = plant(grammar, generations, rho, options).cache;
-        InstanceMeshes& made = meshes.emplace_back().emplace_back();
-        REQUIRE(make_instance_meshes(stage.cache, {}, {}, made) == std::nullopt);
+        InstanceMeshes& instance_meshes = meshes.emplace_back().emplace_back();
+        REQUIRE(make_instance_meshes(stage.cache, {}, {}, instance_meshes) == std::nullopt);
     }
     void add_trees(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -441,17 +441,17 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     CHECK(nested > 20);
     // Nested instances share their vertices in the file: the file has few more than the heroes
     // have.
-    std::uint64_t in_file = 0;
-    std::uint64_t of_heroes = 0;
+    std::uint64_t vertices_in_file = 0;
+    std::uint64_t vertices_of_heroes = 0;
     for (const json& view : file.document["bufferViews"]) {
-        in_file +=
+        vertices_in_file +=
             view.value("byteStride", 0) == 8 ? view["byteLength"].get<std::uint64_t>() / 8 : 0;
     }
     for (const auto& species : wood.meshes) {
-        of_heroes += species[0].mesh.positions.size();
+        vertices_of_heroes += species[0].mesh.positions.size();
     }
-    CHECK(in_file < vertices);
-    CHECK(static_cast<double>(in_file) < 1.05 * static_cast<double>(of_heroes));
+    CHECK(vertices_in_file < vertices);
+    CHECK(static_cast<double>(vertices_in_file) < 1.05 * static_cast<double>(vertices_of_heroes));
 }
 
 TEST_CASE("transforms of more instances than are held at once are all there") {

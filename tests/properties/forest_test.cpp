@@ -13,7 +13,7 @@
 #include <vector>
 
 using namespace lsys;
-using test::count_strangers;
+using test::count_unmatched;
 using test::heroes;
 using test::plain_plant;
 using test::plant;
@@ -112,8 +112,8 @@ TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
         const std::vector<TreeSegment> tree = segments_of(planted.cache, tree_of(number), 1);
         INFO(grammar << " rho " << rho << " tree " << number);
         CHECK(tree.size() == plain.size());
-        CHECK(count_strangers(tree, plain, 1e-4) == 0);
-        CHECK(count_strangers(plain, tree, 1e-4) == 0);
+        CHECK(count_unmatched(tree, plain, 1e-4) == 0);
+        CHECK(count_unmatched(plain, tree, 1e-4) == 0);
     }
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("without taking, what is drawn in place of modules is drawn with the d
         });
         const std::vector<TreeSegment> plain = segments_of(plain_plant(grammar, 5, 9 + hero));
         CHECK(tree.size() == plain.size());
-        CHECK(count_strangers(tree, plain, 1e-4) == 0);
+        CHECK(count_unmatched(tree, plain, 1e-4) == 0);
     }
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("Carey's twisted tree is the same whichever way it is put together") {
     for (std::uint32_t number = 0; number < 50; ++number) {
         const std::vector<TreeSegment> tree = segments_of(planted.cache, tree_of(number), 1);
         CHECK(tree.size() == 168);
-        CHECK(count_strangers(tree, plain, 1e-4) == 0);
+        CHECK(count_unmatched(tree, plain, 1e-4) == 0);
     }
 }
 

@@ -56,11 +56,11 @@ std::vector<std::string> comments_of(const std::string& text) {
 }
 
 /// Destroys the layout of a text: puts random blanks, line ends and comments between tokens.
-class Vandal {
+class LayoutDestroyer {
 public:
     enum class Manner { Blanks, Lines, Mixed };
 
-    Vandal(Manner manner, std::uint64_t seed) : manner_(manner), state_(seed * 2 + 1) {}
+    LayoutDestroyer(Manner manner, std::uint64_t seed) : manner_(manner), state_(seed * 2 + 1) {}
 
     /// `repeats`: count of copies of the modules of every production.
     std::string run(const std::string& text, int repeats) {
@@ -159,10 +159,10 @@ std::size_t check_layouts_of(std::string text, std::uint64_t seed) {
         ++tried;
     };
     check(text);
-    using Manner = Vandal::Manner;
+    using Manner = LayoutDestroyer::Manner;
     for (const Manner manner : {Manner::Blanks, Manner::Lines, Manner::Mixed}) {
         for (const int repeats : {1, 2, 9}) {
-            check(Vandal(manner, seed).run(text, repeats));
+            check(LayoutDestroyer(manner, seed).run(text, repeats));
         }
     }
     return tried;

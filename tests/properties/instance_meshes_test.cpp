@@ -88,7 +88,7 @@ std::array<double, 9> sorted(const Triangle& triangle) {
 /// Count of triangles of `a` without a triangle of `b` within `distance` (m). Each triangle of `b`
 /// matches at most one.
 std::size_t
-count_strangers(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
+count_unmatched(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
     const double cell = 4.0 * distance;
     const auto middle = [](const Triangle& t) { return (t[0] + t[1] + t[2]) / 3.0; };
     const auto key = [cell](const glm::dvec3& p, int n) {
@@ -159,23 +159,23 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
             triangles_of(plain_mesh(plain_plant(kMeshedBush, 6, 40 + instance.hero), options));
         std::size_t found = 0;
         for (const MeshPart& part : meshes.parts_of(i)) {
-            std::vector<std::array<double, 9>> ours;
-            std::vector<std::array<double, 9>> theirs;
+            std::vector<std::array<double, 9>> found_triangles;
+            std::vector<std::array<double, 9>> expected_triangles;
             for (std::uint64_t t = 0; t < part.index_count; t += 3) {
                 Triangle triangle;
                 for (std::uint64_t c = 0; c < 3; ++c) {
                     triangle[c] = glm::dvec3(
                         meshes.mesh.positions[meshes.mesh.indices[part.first_index + t + c]]);
                 }
-                ours.push_back(sorted(triangle));
+                found_triangles.push_back(sorted(triangle));
             }
             for (const Triangle& triangle :
                  expected.at(meshes.mesh.materials[part.material].name)) {
-                theirs.push_back(sorted(triangle));
+                expected_triangles.push_back(sorted(triangle));
             }
-            std::sort(ours.begin(), ours.end());
-            std::sort(theirs.begin(), theirs.end());
-            CHECK(ours == theirs);
+            std::sort(found_triangles.begin(), found_triangles.end());
+            std::sort(expected_triangles.begin(), expected_triangles.end());
+            CHECK(found_triangles == expected_triangles);
             ++found;
         }
         CHECK(found == expected.size());
@@ -213,7 +213,7 @@ TEST_CASE("where nothing is left to chance, a tree has the surface of the plain 
             INFO(material);
             REQUIRE(plain.count(material) == 1);
             CHECK(triangles.size() == plain.at(material).size());
-            CHECK(count_strangers(triangles, plain.at(material), 1e-4) == 0);
+            CHECK(count_unmatched(triangles, plain.at(material), 1e-4) == 0);
             for (const Triangle& triangle : triangles) {
                 for (const glm::dvec3& corner : triangle) {
                     of_tree.add(glm::vec3(corner));

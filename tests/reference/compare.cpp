@@ -87,10 +87,10 @@ bool can_be_an_axiom(const Word& word) {
 // One case in one folder, run in several ways.
 class Comparison {
 public:
-    explicit Comparison(const Case& made)
-        : made_(made), derivation_(derive(made.grammar, made.request)),
-          expected_(all_generations(made.grammar, derivation_)),
-          file_(folder_.write(made.grammar, made.layout_seed)) {}
+    explicit Comparison(const Case& test_case)
+        : test_case_(test_case), derivation_(derive(test_case.grammar, test_case.request)),
+          expected_(all_generations(test_case.grammar, derivation_)),
+          file_(folder_.write(test_case.grammar, test_case.layout_seed)) {}
 
     std::string run() {
         const bool good = derivation_.error ? stops_alike() : derives_alike();
@@ -101,7 +101,7 @@ private:
     std::vector<std::string> command(const std::string& name,
                                      const std::vector<std::string>& more) const {
         std::vector<std::string> arguments = {name, file_};
-        const std::vector<std::string> options = options_of(made_.request);
+        const std::vector<std::string> options = options_of(test_case_.request);
         arguments.insert(arguments.end(), options.begin(), options.end());
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
@@ -121,11 +121,11 @@ private:
 
     bool fails(const std::vector<std::string>& arguments, const std::string& what) {
         report_ = joined(arguments) + "\n" + what + "\n";
-        for (const TextFile& file : print_grammar(made_.grammar, made_.layout_seed)) {
+        for (const TextFile& file : print_grammar(test_case_.grammar, test_case_.layout_seed)) {
             report_ += "---- " + file.path + "\n" + file.text + "\n";
         }
         report_ += "---- without layout\n";
-        for (const TextFile& file : print_grammar(made_.grammar, 0)) {
+        for (const TextFile& file : print_grammar(test_case_.grammar, 0)) {
             report_ += "---- " + file.path + "\n" + file.text + "\n";
         }
         return false;
@@ -138,16 +138,16 @@ private:
                gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
                gives(command("dump", {}), 0, last) &&
                gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
-               continues_alike() && traces_alike() && reads_its_word();
+               continues_alike() && traces_alike() && printed_word_parses();
     }
 
     // Checks the origins of all modules: by threads, streamed, from bytecode and from a saved
     // state.
     bool traces_alike() {
         const std::filesystem::path& folder = folder_.path();
-        const std::string all = all_origins(made_, derivation_, folder, 0, std::nullopt);
+        const std::string all = all_origins(test_case_, derivation_, folder, 0, std::nullopt);
         const std::string last =
-            all_origins(made_, derivation_, folder, derivation_.generations, std::nullopt);
+            all_origins(test_case_, derivation_, folder, derivation_.generations, std::nullopt);
         const std::string body = last.substr(last.find('\n') + 1);
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder / "half.state").string(); // written by continues_alike()
@@ -157,22 +157,23 @@ private:
                (!can_stream() || gives(command("dump", {"--origins", "--stream"}), 0, body)) &&
                gives(compiled_dump({"--all", "--origins"}), 0, all) &&
                gives(command("dump", {"--all", "--origins", "--from", state}), 0,
-                     all_origins(made_, derivation_, folder, half, half));
+                     all_origins(test_case_, derivation_, folder, half, half));
     }
 
     [[nodiscard]] bool can_stream() const {
         bool contexts = false;
-        for (const Statement* statement : statements_in_order(made_.grammar)) {
+        for (const Statement* statement : statements_in_order(test_case_.grammar)) {
             const Production& production = statement->production;
             contexts = contexts || production.left || production.right;
         }
-        return !contexts && setting(made_.grammar, "rewriting").value_or("parallel") == "parallel";
+        return !contexts &&
+               setting(test_case_.grammar, "rewriting").value_or("parallel") == "parallel";
     }
 
     // Command line that dumps the bytecode file made by compiles_alike().
     [[nodiscard]] std::vector<std::string>
     compiled_dump(const std::vector<std::string>& more) const {
-        Request rest = made_.request;
+        Request rest = test_case_.request;
         rest.definitions.clear();
         std::vector<std::string> dump = {"dump", (folder_.path() / "out.lsb").string()};
         const std::vector<std::string> options = options_of(rest);
@@ -210,7 +211,7 @@ private:
     bool compiles_alike() {
         const std::string module_file = (folder_.path() / "out.lsb").string();
         Request definitions_only;
-        definitions_only.definitions = made_.request.definitions;
+        definitions_only.definitions = test_case_.request.definitions;
         std::vector<std::string> compile = {"compile", file_, "-o", module_file};
         const std::vector<std::string> options = options_of(definitions_only);
         compile.insert(compile.end(), options.begin(), options.end());
@@ -230,22 +231,22 @@ private:
     }
 
     // "What is printed parses again as the axiom of the same file."
-    bool reads_its_word() {
+    bool printed_word_parses() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
         // An axiom is decomposed, so a word whose decomposition stopped at the depth limit would be
         // decomposed further.
-        const bool settled = !setting(made_.grammar, "decompose_depth");
+        const bool settled = !setting(test_case_.grammar, "decompose_depth");
         if (!settled || !can_be_an_axiom(word)) {
             return true;
         }
-        Case again = made_;
+        Case again = test_case_;
         again.request.generations = 0;
         for (File& file : again.grammar.files) {
             std::erase_if(file.statements, [](const Statement& statement) {
                 return statement.kind == StatementKind::Axiom;
             });
         }
-        const std::string text = print_word(word, made_.grammar.files[0].letters);
+        const std::string text = print_word(word, test_case_.grammar.files[0].letters);
         const std::string path = folder_.write(again.grammar, 0);
         std::ofstream(path, std::ios::app | std::ios::binary) << "\n#w :" << text << ";\n";
         return gives(with_file(options_of(again.request), path), 0, text + "\n");
@@ -257,7 +258,7 @@ private:
         return options;
     }
 
-    const Case& made_;
+    const Case& test_case_;
     TemporaryFolder folder_;
     Derivation derivation_;
     std::string expected_;
@@ -322,13 +323,13 @@ std::string all_generations(const Grammar& grammar, const Derivation& derivation
     return text;
 }
 
-std::string all_origins(const Case& made,
+std::string all_origins(const Case& test_case,
                         const Derivation& derivation,
                         const std::filesystem::path& folder,
                         std::uint32_t first,
                         std::optional<std::uint32_t> saved) {
     std::map<const ModuleUse*, std::string> places;
-    for (const TextFile& file : print_grammar(made.grammar, made.layout_seed)) {
+    for (const TextFile& file : print_grammar(test_case.grammar, test_case.layout_seed)) {
         for (const WrittenModule& written : file.modules) {
             places[written.module] = (folder / file.shown).string() + ":" +
                                      std::to_string(written.line) + ":" +
@@ -340,7 +341,7 @@ std::string all_origins(const Case& made,
         text += "generation " + std::to_string(i) + ":\n";
         for (const Module& module : derivation.words[i]) {
             const Origin& origin = module.origin;
-            text += print_word({module}, made.grammar.files[0].letters);
+            text += print_word({module}, test_case.grammar.files[0].letters);
             if (saved && origin.generation <= *saved) {
                 text += " origin unknown, in the saved state of generation " +
                         std::to_string(*saved) + "\n";
@@ -354,8 +355,8 @@ std::string all_origins(const Case& made,
     return text;
 }
 
-std::string difference(const Case& made) {
-    return Comparison(made).run();
+std::string difference(const Case& test_case) {
+    return Comparison(test_case).run();
 }
 
 } // namespace lsys::reference

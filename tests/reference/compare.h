@@ -45,14 +45,14 @@ std::string all_generations(const Grammar& grammar, const Derivation& derivation
 
 // Expected output of `dump --all --origins` from generation `first` on, for the files in `folder`.
 // `saved`: generation of a saved state, at most `first`; older modules have it as origin.
-std::string all_origins(const Case& made,
+std::string all_origins(const Case& test_case,
                         const Derivation& derivation,
                         const std::filesystem::path& folder,
                         std::uint32_t first,
                         std::optional<std::uint32_t> saved);
 
-// Derives `made` with the oracle and in several ways with `lsc`. Returns an empty text if all
+// Derives `test_case` with the oracle and in several ways with `lsc`. Returns an empty text if all
 // agree, else a message: the command, the grammar and the first difference.
-std::string difference(const Case& made);
+std::string difference(const Case& test_case);
 
 } // namespace lsys::reference

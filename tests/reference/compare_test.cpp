@@ -33,11 +33,11 @@ Production choice(const std::string& label, float probability, std::vector<Modul
 }
 
 Case one_step(const Grammar& grammar, std::uint64_t seed) {
-    Case made;
-    made.grammar = grammar;
-    made.request.seed = seed;
-    made.request.generations = 1;
-    return made;
+    Case test_case;
+    test_case.grammar = grammar;
+    test_case.request.seed = seed;
+    test_case.request.generations = 1;
+    return test_case;
 }
 
 } // namespace
@@ -88,9 +88,9 @@ TEST_CASE("choices at the edge of a weight") {
 
 TEST_CASE("words that become empty stay empty") {
     Grammar grammar = letter_system("A", {"A="});
-    Case made = one_step(grammar, 0);
-    made.request.generations = 4;
-    CHECK(difference(made) == "");
+    Case test_case = one_step(grammar, 0);
+    test_case.request.generations = 4;
+    CHECK(difference(test_case) == "");
 }
 
 TEST_CASE("every mode without productions keeps the axiom") {

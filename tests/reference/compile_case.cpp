@@ -12,9 +12,9 @@
 
 namespace lsys::reference {
 
-std::optional<Bytecode> compile_case(const Case& made, std::string& messages) {
+std::optional<Bytecode> compile_case(const Case& test_case, std::string& messages) {
     std::map<std::string, std::string> texts;
-    const std::vector<TextFile> files = print_grammar(made.grammar, made.layout_seed);
+    const std::vector<TextFile> files = print_grammar(test_case.grammar, test_case.layout_seed);
     for (const TextFile& file : files) {
         texts[file.path] = file.text;
     }
@@ -30,7 +30,7 @@ std::optional<Bytecode> compile_case(const Case& made, std::string& messages) {
     Diagnostics diagnostics;
     const FileId root = sources.add(files[0].path, files[0].text);
     CompileOptions options;
-    for (const auto& [name, value] : made.request.definitions) {
+    for (const auto& [name, value] : test_case.request.definitions) {
         options.definitions.push_back({name, value});
     }
     Ast ast = parse_lsys(root, ParseContext{sources, names, diagnostics, load});

@@ -10,6 +10,6 @@
 namespace lsys::reference {
 
 // Appends the compiler's messages to `messages`.
-std::optional<Bytecode> compile_case(const Case& made, std::string& messages);
+std::optional<Bytecode> compile_case(const Case& test_case, std::string& messages);
 
 } // namespace lsys::reference

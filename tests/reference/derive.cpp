@@ -410,7 +410,7 @@ private:
         return rules.size() - 1;
     }
 
-    // A range takes its number even if -D replaces the expression that contains it.
+    // A random range uses up its draw index even if -D replaces the expression that contains it.
     float value_of(const Statement& statement) {
         for (const auto& [name, number] : request_.definitions) {
             if (name == statement.name) {

@@ -11,12 +11,13 @@ namespace {
 
 class Finder {
 public:
-    Finder(const Case& made, const Derivation& derivation) : made_(made), derivation_(derivation) {}
+    Finder(const Case& test_case, const Derivation& derivation)
+        : test_case_(test_case), derivation_(derivation) {}
 
     std::set<std::string> find() {
         files();
         words();
-        for (const Statement* statement : statements_in_order(made_.grammar)) {
+        for (const Statement* statement : statements_in_order(test_case_.grammar)) {
             look_at(*statement);
         }
         groups();
@@ -26,7 +27,7 @@ public:
                 "error: unmatched bracket"};
             found_.insert(kErrors[static_cast<std::size_t>(derivation_.error->failure)]);
         }
-        if (!made_.request.definitions.empty()) {
+        if (!test_case_.request.definitions.empty()) {
             found_.insert("definition on the command line");
         }
         return found_;
@@ -34,7 +35,7 @@ public:
 
 private:
     void files() {
-        const std::vector<File>& files = made_.grammar.files;
+        const std::vector<File>& files = test_case_.grammar.files;
         if (files.size() > 1) {
             found_.insert("include");
         }
@@ -72,7 +73,7 @@ private:
             found_.insert("set " + statement.name + " " + statement.text);
         } else if (statement.kind == StatementKind::Define) {
             expression(statement.expr, "define: ");
-            for (const auto& definition : made_.request.definitions) {
+            for (const auto& definition : test_case_.request.definitions) {
                 if (definition.first == statement.name && ranges_ > 0) {
                     found_.insert("definition replaces a range");
                 }
@@ -104,7 +105,7 @@ private:
         if (derivation_.applications.count(production.label) == 0) {
             return;
         }
-        const std::string mode = setting(made_.grammar, "rewriting").value_or("parallel");
+        const std::string mode = setting(test_case_.grammar, "rewriting").value_or("parallel");
         if (production.stage == Stage::Decompose) {
             found_.insert("decompose, " + mode);
         }
@@ -134,7 +135,7 @@ private:
             if (is_computed(*production.probability)) {
                 found_.insert("computed weight");
             }
-            const std::string scope = setting(made_.grammar, "choice").value_or("module");
+            const std::string scope = setting(test_case_.grammar, "choice").value_or("module");
             found_.insert("choice " + scope + ", " + mode);
             found_.insert(production.condition ? "probability with condition"
                                                : "probability without condition");
@@ -218,7 +219,7 @@ private:
     // Finds groups in which some productions have a condition, or one has no `~`.
     void groups() {
         std::map<std::string, std::vector<const Production*>> groups;
-        for (const Statement* statement : statements_in_order(made_.grammar)) {
+        for (const Statement* statement : statements_in_order(test_case_.grammar)) {
             if (statement->kind == StatementKind::Production) {
                 groups[group_of(statement->production)].push_back(&statement->production);
             }
@@ -240,7 +241,7 @@ private:
         }
     }
 
-    const Case& made_;
+    const Case& test_case_;
     const Derivation& derivation_;
     std::set<std::string> found_;
     std::map<std::string, std::string> defined_; // functions of the grammar and their feature
@@ -249,8 +250,8 @@ private:
 
 } // namespace
 
-std::set<std::string> features_of(const Case& made, const Derivation& derivation) {
-    return Finder(made, derivation).find();
+std::set<std::string> features_of(const Case& test_case, const Derivation& derivation) {
+    return Finder(test_case, derivation).find();
 }
 
 const std::vector<std::string>& feature_names() {

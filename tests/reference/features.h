@@ -13,7 +13,7 @@
 
 namespace lsys::reference {
 
-std::set<std::string> features_of(const Case& made, const Derivation& derivation);
+std::set<std::string> features_of(const Case& test_case, const Derivation& derivation);
 
 // All names that `features_of` can give.
 const std::vector<std::string>& feature_names();

@@ -11,13 +11,14 @@ namespace lsys::reference {
 
 namespace {
 
-// Gives the number of generations to the command line if it has one, and to #n.
-void set_generations(Case& made, std::uint32_t generations, Random& random) {
-    const bool by_request = made.request.generations.has_value();
+// Sets the number of generations in -n if the case has -n, else in #n. Beside -n, #n gets a random
+// number.
+void set_generations(Case& test_case, std::uint32_t generations, Random& random) {
+    const bool by_request = test_case.request.generations.has_value();
     if (by_request) {
-        made.request.generations = generations;
+        test_case.request.generations = generations;
     }
-    for (File& file : made.grammar.files) {
+    for (File& file : test_case.grammar.files) {
         for (Statement& statement : file.statements) {
             if (statement.kind == StatementKind::Generations) {
                 const auto value = static_cast<float>(by_request ? random.below(9) : generations);
@@ -34,12 +35,12 @@ void set_generations(Case& made, std::uint32_t generations, Random& random) {
 }
 
 struct Sized {
-    Case made;
+    Case test_case;
     double score = -1;
 };
 
 // A score of the features that a case exercises; rare features count more.
-double score_of(const Case& made, const Derivation& derivation) {
+double score_of(const Case& test_case, const Derivation& derivation) {
     static const std::set<std::string> kRare = {"context []",
                                                 "context [ ]",
                                                 "range in a range",
@@ -53,14 +54,14 @@ double score_of(const Case& made, const Derivation& derivation) {
                                                 "choice generation, cyclic",
                                                 "empty word"};
     std::size_t productions = 0;
-    for (const Statement* statement : statements_in_order(made.grammar)) {
+    for (const Statement* statement : statements_in_order(test_case.grammar)) {
         productions += statement->kind == StatementKind::Production ? 1U : 0U;
     }
     const auto applied = static_cast<double>(derivation.applications.size());
     double score = productions == 0 ? 0.5 : applied / static_cast<double>(productions);
     score += derivation.words.back().size() > 20 ? 0.2 : 0;
     score += derivation.words.size() > 3 ? 0.2 : 0;
-    for (const std::string& feature : features_of(made, derivation)) {
+    for (const std::string& feature : features_of(test_case, derivation)) {
         score += kRare.count(feature) != 0 ? 0.25 : 0;
     }
     return score;
@@ -68,20 +69,20 @@ double score_of(const Case& made, const Derivation& derivation) {
 
 // Chooses the number of generations, at most `most`: words have at most `cap` modules, and an error
 // occurs only if `keep_error`.
-Sized size_up(Case made, std::size_t cap, std::uint32_t most, bool keep_error, Random random) {
+Sized size_up(Case test_case, std::size_t cap, std::uint32_t most, bool keep_error, Random random) {
     std::uint32_t generations = most;
     while (true) {
-        set_generations(made, generations, random);
-        Request limited = made.request;
+        set_generations(test_case, generations, random);
+        Request limited = test_case.request;
         limited.max_modules = cap;
-        const Derivation derivation = derive(made.grammar, limited);
+        const Derivation derivation = derive(test_case.grammar, limited);
         if (derivation.words.empty()) {
             return {};
         }
         const bool stopped = derivation.words.size() <= generations;
         const bool is_kept = derivation.error && (keep_error || !stopped);
         if (!stopped || is_kept) {
-            Sized sized{made, score_of(made, derivation)};
+            Sized sized{test_case, score_of(test_case, derivation)};
             return sized;
         }
         if (generations == 0) {
@@ -99,11 +100,11 @@ Case generate(std::uint64_t seed) {
     const std::size_t cap = random.percent(2) ? 20000 : random.pick(kCaps);
     Sized best;
     for (std::uint32_t attempt = 0; attempt < 16 || best.score < 0; ++attempt) {
-        Case made = make_case(seed, attempt);
-        const bool cyclic = setting(made.grammar, "rewriting").value_or("") == "cyclic";
+        Case test_case = make_case(seed, attempt);
+        const bool cyclic = setting(test_case.grammar, "rewriting").value_or("") == "cyclic";
         const int longest = cyclic || cap > 5000 ? 24 : 9;
         const auto most = static_cast<std::uint32_t>(random.between(2, longest));
-        Sized sized = size_up(made, cap, most, random.percent(45), Random(seed, 3 + attempt));
+        Sized sized = size_up(test_case, cap, most, random.percent(45), Random(seed, 3 + attempt));
         if (sized.score > best.score) {
             best = sized;
         }
@@ -111,8 +112,8 @@ Case generate(std::uint64_t seed) {
             break;
         }
     }
-    best.made.layout_seed = seed * 2 + 1;
-    return best.made;
+    best.test_case.layout_seed = seed * 2 + 1;
+    return best.test_case;
 }
 
 } // namespace lsys::reference

@@ -110,7 +110,7 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
 
 // A decimal number so close to the middle of two binary32 numbers that rounding to binary64 first
 // gives the wrong one.
-Expr ExpressionMaker::trap() {
+Expr ExpressionMaker::double_rounding_literal() {
     const auto mantissa = static_cast<float>(random_.below(1U << 23U));
     const float below = 1 + mantissa * 0x1p-23F;
     const float above = std::nextafter(below, 4.0F);
@@ -144,7 +144,7 @@ Expr ExpressionMaker::literal() {
         return number(random_.pick(kSpecial));
     }
     if (random_.percent(25)) {
-        return trap();
+        return double_rounding_literal();
     }
     // Random digits with a decimal point between them.
     std::string text;

@@ -55,7 +55,7 @@ private:
     // Whether a function of the grammar is called.
     [[nodiscard]] bool calls_user(const Expr& expr) const;
     Expr leaf(const Scope& scope);
-    Expr trap();
+    Expr double_rounding_literal();
     Expr range_of(const Scope& scope, int depth);
     Expr comparison(const Scope& scope);
     // `expr` if it is legal, given that its parts are, else a literal.

@@ -17,15 +17,15 @@ bool can_be_rewritten(const std::string& name) {
     return std::string("[]{}").find(name) == std::string::npos;
 }
 
-// A random place of `length` adjacent modules in `names`; nullopt if there is none.
-std::optional<std::size_t> place_in(const Skeleton& names, std::size_t length, Random& random) {
+// A random place of `length` adjacent modules in `skeleton`; nullopt if there is none.
+std::optional<std::size_t> place_in(const Skeleton& skeleton, std::size_t length, Random& random) {
     std::vector<std::size_t> places;
-    for (std::size_t i = 0; i + length <= names.size(); ++i) {
-        const auto first = names.begin() + static_cast<std::ptrdiff_t>(i);
+    for (std::size_t i = 0; i + length <= skeleton.size(); ++i) {
+        const auto first = skeleton.begin() + static_cast<std::ptrdiff_t>(i);
         if (std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
                         [](const Species& one) { return can_be_rewritten(one.name); })) {
             places.push_back(i);
-            if (i + length < names.size() && names[i + length].name == "[") {
+            if (i + length < skeleton.size() && skeleton[i + length].name == "[") {
                 // More likely, because a context with branches fits here.
                 places.insert(places.end(), 3, i);
             }
@@ -42,26 +42,26 @@ ModulePattern pattern_of(const Species& species) {
 }
 
 // The last modules of the path that leads to `place`.
-Pattern cut_left(const Skeleton& names,
+Pattern cut_left(const Skeleton& skeleton,
                  std::size_t place,
                  int length,
                  const std::vector<std::string>& ignored) {
     Pattern pattern;
     int finished = 0; // depth of branches beside the path
     for (std::size_t i = place; i-- > 0 && static_cast<int>(pattern.size()) < length;) {
-        if (names[i].name == "]") {
+        if (skeleton[i].name == "]") {
             ++finished;
-        } else if (names[i].name == "[") {
+        } else if (skeleton[i].name == "[") {
             finished -= finished > 0 ? 1 : 0;
-        } else if (finished == 0 && !contains(ignored, names[i].name)) {
-            pattern.insert(pattern.begin(), pattern_of(names[i]));
+        } else if (finished == 0 && !contains(ignored, skeleton[i].name)) {
+            pattern.insert(pattern.begin(), pattern_of(skeleton[i]));
         }
     }
     return pattern;
 }
 
 // Some modules of the axis from `place` on, with some of its branches.
-Pattern cut_right(const Skeleton& names,
+Pattern cut_right(const Skeleton& skeleton,
                   std::size_t place,
                   int length,
                   const std::vector<std::string>& ignored,
@@ -69,26 +69,26 @@ Pattern cut_right(const Skeleton& names,
     Pattern pattern;
     bool skipped = false; // a branch was skipped, so a pattern with the next one would not match
     std::size_t i = place;
-    for (int taken = 0; taken < length && i < names.size() && names[i].name != "]"; ++i) {
-        if (names[i].name == "[") {
+    for (int taken = 0; taken < length && i < skeleton.size() && skeleton[i].name != "]"; ++i) {
+        if (skeleton[i].name == "[") {
             if (!skipped && random.percent(70)) {
                 const int inner_length = random.between(0, 2);
                 pattern.push_back({"[", {}});
-                const Pattern inner = cut_right(names, i + 1, inner_length, ignored, random);
+                const Pattern inner = cut_right(skeleton, i + 1, inner_length, ignored, random);
                 pattern.insert(pattern.end(), inner.begin(), inner.end());
                 pattern.push_back({"]", {}});
                 ++taken;
             } else {
                 skipped = true;
             }
-            for (int depth = 0; i < names.size(); ++i) {
-                depth += names[i].name == "[" ? 1 : names[i].name == "]" ? -1 : 0;
+            for (int depth = 0; i < skeleton.size(); ++i) {
+                depth += skeleton[i].name == "[" ? 1 : skeleton[i].name == "]" ? -1 : 0;
                 if (depth == 0) {
                     break;
                 }
             }
-        } else if (!contains(ignored, names[i].name)) {
-            pattern.push_back(pattern_of(names[i]));
+        } else if (!contains(ignored, skeleton[i].name)) {
+            pattern.push_back(pattern_of(skeleton[i]));
             skipped = false;
             ++taken;
         }
@@ -300,22 +300,22 @@ Production ProductionMaker::shape(bool letters) {
     const bool in_context = random_.percent(plan_.context_percent);
     const std::size_t sides = random_.below(10);
     const int size = random_.percent(60) ? 1 : random_.between(2, 3);
-    const Skeleton& names = common_skeleton(letters);
-    const std::optional<std::size_t> place = place_in(names, length, random_);
+    const Skeleton& skeleton = common_skeleton(letters);
+    const std::optional<std::size_t> place = place_in(skeleton, length, random_);
     const bool cut = place && random_.percent(in_context || length > 1 ? 85 : 25);
     for (std::size_t i = 0; i < length; ++i) {
-        const Species& species = cut ? names[*place + i] : active_species(letters);
+        const Species& species = cut ? skeleton[*place + i] : active_species(letters);
         shape.predecessor.push_back({species.name, std::vector<std::string>(species.count)});
     }
     if (in_context && sides < 6) {
-        shape.left = cut ? cut_left(names, *place, size, plan_.ignored) : Pattern{};
+        shape.left = cut ? cut_left(skeleton, *place, size, plan_.ignored) : Pattern{};
         if (shape.left->empty()) {
             shape.left = context(size, false, 0, letters);
         }
     }
     if (in_context && sides > 3) {
         const std::size_t end = cut ? *place + length : 0;
-        shape.right = cut ? cut_right(names, end, size, plan_.ignored, random_) : Pattern{};
+        shape.right = cut ? cut_right(skeleton, end, size, plan_.ignored, random_) : Pattern{};
         if (shape.right->empty()) {
             shape.right = context(size, plan_.brackets, 0, letters);
         }

@@ -16,15 +16,15 @@ TEST_CASE("random grammars exercise every feature") {
     std::size_t stopped = 0;
     std::size_t applied = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-        const Case made = generate(seed);
-        const Derivation derivation = derive(made.grammar, made.request);
+        const Case test_case = generate(seed);
+        const Derivation derivation = derive(test_case.grammar, test_case.request);
         REQUIRE_FALSE(derivation.words.empty());
         for (const Word& word : derivation.words) {
             CHECK(word.size() <= 20000);
         }
         stopped += derivation.error ? 1U : 0U;
         applied += derivation.applications.size();
-        for (const std::string& feature : features_of(made, derivation)) {
+        for (const std::string& feature : features_of(test_case, derivation)) {
             ++counts[feature];
         }
     }

@@ -94,9 +94,9 @@ Rewritten rewritten(const Bytecode& bytecode,
 TEST_CASE("long random words give the same word in chunks of any size") {
     std::size_t rewrote = 0;
     for (std::uint64_t seed = 3001; seed <= 3300; ++seed) {
-        const Case made = generate(seed);
+        const Case test_case = generate(seed);
         std::string messages;
-        const std::optional<Bytecode> bytecode = compile_case(made, messages);
+        const std::optional<Bytecode> bytecode = compile_case(test_case, messages);
         INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         const Code usual = static_cast<Code>(seed * 7 % bytecode->code_count());
@@ -124,15 +124,15 @@ TEST_CASE("long random words give the same word in chunks of any size") {
 
 TEST_CASE("random grammars give the same word in pieces of any size") {
     for (std::uint64_t seed = 2001; seed <= 2300; ++seed) {
-        const Case made = generate(seed);
-        const Derivation derivation = derive(made.grammar, made.request);
+        const Case test_case = generate(seed);
+        const Derivation derivation = derive(test_case.grammar, test_case.request);
         std::string messages;
-        const std::optional<Bytecode> bytecode = compile_case(made, messages);
+        const std::optional<Bytecode> bytecode = compile_case(test_case, messages);
         INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         if (!derivation.error) {
             const std::string word =
-                print_word(derivation.words.back(), made.grammar.files[0].letters);
+                print_word(derivation.words.back(), test_case.grammar.files[0].letters);
             CHECK(test::derived_every_way(*bytecode, derivation.generations, derivation.seed) ==
                   word);
         } else if (derivation.error->failure != Failure::UnmatchedBracket) {

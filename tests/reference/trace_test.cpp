@@ -97,14 +97,15 @@ bool check_step(const Bytecode& bytecode,
 TEST_CASE("traces of random grammars agree with the engine, module by module") {
     Seen seen;
     for (std::uint64_t seed = 5001; seed <= 5120; ++seed) {
-        const Case made = generate(seed);
+        const Case test_case = generate(seed);
         std::string messages;
-        const std::optional<Bytecode> bytecode = compile_case(made, messages);
+        const std::optional<Bytecode> bytecode = compile_case(test_case, messages);
         INFO("seed " << seed << "\n" << messages);
         REQUIRE(bytecode);
         DeriveOptions options;
-        options.generations = made.request.generations.value_or(bytecode->generations.value_or(0));
-        options.seed = made.request.seed.value_or(bytecode->settings.seed);
+        options.generations =
+            test_case.request.generations.value_or(bytecode->generations.value_or(0));
+        options.seed = test_case.request.seed.value_or(bytecode->settings.seed);
         options.threads = 1;
         options.origins = true;
         lsys::Derivation derivation(*bytecode, options);

@@ -30,7 +30,7 @@ constexpr double kMaxSeconds = 20.0;
 // suffices for the others, also on a busy machine.
 constexpr double kInstrumentedFactor = 2.0;
 
-struct Ended {
+struct ProcessResult {
     int status = -1; // exit status, or -signal
     long peak_kib = 0;
     double seconds = 0.0; // processor time, which other processes do not lengthen
@@ -41,14 +41,15 @@ double seconds_of(const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-Ended run(const std::vector<std::string>& command, const std::string& folder, const char* out) {
+ProcessResult
+run(const std::vector<std::string>& command, const std::string& folder, const char* out) {
     const std::string error_path = folder + "/stderr." + std::to_string(getpid());
     std::vector<char*> arguments;
     for (const std::string& argument : command) {
         arguments.push_back(const_cast<char*>(argument.c_str()));
     }
     arguments.push_back(nullptr);
-    Ended ended;
+    ProcessResult result;
     const pid_t child = fork();
     if (child == 0) {
         const int out_file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -61,13 +62,13 @@ Ended run(const std::vector<std::string>& command, const std::string& folder, co
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);
-    ended.seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-    ended.peak_kib = usage.ru_maxrss;
-    ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    result.seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+    result.peak_kib = usage.ru_maxrss;
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     std::ifstream errors(error_path, std::ios::binary);
-    ended.errors.assign(std::istreambuf_iterator<char>(errors), std::istreambuf_iterator<char>());
+    result.errors.assign(std::istreambuf_iterator<char>(errors), std::istreambuf_iterator<char>());
     unlink(error_path.c_str());
-    return ended;
+    return result;
 }
 
 /// Writes `before`, then `unit` `count` times, then `after`.
@@ -195,19 +196,20 @@ std::map<std::string, Case> cases() {
                         "no space left",
                         "/dev/full"};
     const std::vector<std::string> format{"fmt", "--check", "%"};
-    const std::string unlike = "not formatted";
+    const std::string not_formatted = "not formatted";
     all["format-arguments-100mb"] = {repeated(head + "#w : ", "F(1)", 25'000'000, ";"), format, 1,
-                                     unlike};
+                                     not_formatted};
     all["format-statements-100mb"] = {
-        repeated(head + "#w : F;\n", "#ignore:+ -;// c\n", 5'800'000, ""), format, 1, unlike};
+        repeated(head + "#w : F;\n", "#ignore:+ -;// c\n", 5'800'000, ""), format, 1,
+        not_formatted};
     all["format-brackets"] = {
         repeated(head, "#p : F : * : " + std::string(5000, '[') + std::string(5000, ']') + ";\n",
                  100, ""),
-        format, 1, unlike};
+        format, 1, not_formatted};
     all["format-condition-10mb"] = {
         repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
-        unlike};
-    // More than the begin by which texts are told from other files.
+        not_formatted};
+    // Longer than the prefix in which recognise_no_text() looks for binary data, 4096 bytes.
     const std::string text(5000, ' ');
     const std::vector<std::string> carey{"check", "--dialect", "carey", "%"};
     all["carey-line-10mb"] = {repeated("generations: 1\naxiom: F\nF=", "F+[&F]", 1'700'000, "\n"),
@@ -278,12 +280,12 @@ int main(int argc, char** argv) {
     for (const std::string& word : wanted.command) {
         command.push_back(word == "%" ? path : word);
     }
-    const Ended ended = run(command, folder, wanted.out);
+    const ProcessResult result = run(command, folder, wanted.out);
     if (rmdir(path.c_str()) != 0) {
         unlink(path.c_str());
     }
-    std::printf("%s: status %d, %.2f s, peak %ld MiB\n%.600s\n", argv[2], ended.status,
-                ended.seconds, ended.peak_kib / 1024, ended.errors.c_str());
+    std::printf("%s: status %d, %.2f s, peak %ld MiB\n%.600s\n", argv[2], result.status,
+                result.seconds, result.peak_kib / 1024, result.errors.c_str());
     bool fine = true;
     const auto expect = [&](bool holds, const char* what) {
         if (!holds) {
@@ -291,9 +293,9 @@ int main(int argc, char** argv) {
             fine = false;
         }
     };
-    expect(ended.status == wanted.status, "exit status");
-    expect(ended.errors.find(wanted.says) != std::string::npos, wanted.says.c_str());
-    expect(kInstrumented || ended.peak_kib <= kMaxKib, "peak memory");
-    expect(ended.seconds <= kMaxSeconds * (kInstrumented ? kInstrumentedFactor : 1.0), "time");
+    expect(result.status == wanted.status, "exit status");
+    expect(result.errors.find(wanted.says) != std::string::npos, wanted.says.c_str());
+    expect(kInstrumented || result.peak_kib <= kMaxKib, "peak memory");
+    expect(result.seconds <= kMaxSeconds * (kInstrumented ? kInstrumentedFactor : 1.0), "time");
     return fine ? 0 : 1;
 }

@@ -17,7 +17,8 @@ namespace lsys::test {
 [[nodiscard]] std::string
 derived(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 
-/// Derives and checks that all other methods give the same word, and the same origins if asked for.
+/// Derives; checks that threads, chunks and streaming give the same word, with and without origins,
+/// and the same origins.
 [[nodiscard]] std::string
 derived_every_way(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t seed);
 

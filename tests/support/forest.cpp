@@ -109,17 +109,17 @@ std::vector<TreeSegment> segments_of(const Skeleton& skeleton) {
     return segments;
 }
 
-std::size_t count_strangers(const std::vector<TreeSegment>& a,
+std::size_t count_unmatched(const std::vector<TreeSegment>& a,
                             const std::vector<TreeSegment>& b,
                             double distance) {
     const double cell = 4.0 * distance;
     const auto key = [cell](const glm::dvec3& p, int x, int y, int z) {
-        const auto part = [cell](double v, int d) {
+        const auto cell_index = [cell](double v, int d) {
             return static_cast<std::int64_t>(std::floor(v / cell)) + d;
         };
-        return static_cast<std::uint64_t>(part(p.x, x) * 73856093) ^
-               static_cast<std::uint64_t>(part(p.y, y) * 19349663) ^
-               static_cast<std::uint64_t>(part(p.z, z) * 83492791);
+        return static_cast<std::uint64_t>(cell_index(p.x, x) * 73856093) ^
+               static_cast<std::uint64_t>(cell_index(p.y, y) * 19349663) ^
+               static_cast<std::uint64_t>(cell_index(p.z, z) * 83492791);
     };
     std::unordered_multimap<std::uint64_t, const TreeSegment*> cells;
     for (const TreeSegment& segment : b) {

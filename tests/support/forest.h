@@ -43,7 +43,7 @@ segments_of(const InstanceCache& cache, const Tree& tree, std::uint64_t key);
 [[nodiscard]] std::vector<TreeSegment> segments_of(const Skeleton& skeleton);
 
 /// The number of segments of `a` without an equal one of `b` within `distance` (m).
-[[nodiscard]] std::size_t count_strangers(const std::vector<TreeSegment>& a,
+[[nodiscard]] std::size_t count_unmatched(const std::vector<TreeSegment>& a,
                                           const std::vector<TreeSegment>& b,
                                           double distance);
 

@@ -80,7 +80,7 @@ inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
 }
 
 /// The number of corners of triangles whose normal points to the back of the triangle.
-inline std::size_t triangles_turned_over(const Mesh& mesh) {
+inline std::size_t corners_turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::dvec3 area =

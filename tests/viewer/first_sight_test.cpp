@@ -19,7 +19,7 @@ using namespace lsys::tests;
 namespace {
 
 /// Measures of the lower two thirds of a picture.
-struct Sight {
+struct PictureContrast {
     double contrast = 0.0; // RMS: standard deviation of the luma (Rec. 709), 0 to 1
     double trees = 0.0;    // fraction of pixels that trees or their shadows change
 };
@@ -28,7 +28,7 @@ struct Sight {
 constexpr int kTreeDifference = 24;
 
 /// `bare`: the picture without trees.
-Sight sight_of(const Picture& picture, const Picture& bare) {
+PictureContrast sight_of(const Picture& picture, const Picture& bare) {
     const std::size_t first = std::size_t{4} * picture.width * (picture.height / 3);
     double sum = 0.0;
     double squares = 0.0;
@@ -68,7 +68,8 @@ Shown shown(std::vector<std::string> arguments) {
 }
 
 /// `files`: a scene, or a grammar with options of the ground. `trees`: options of the placement.
-Sight first_sight(const std::vector<std::string>& files, const std::vector<std::string>& trees) {
+PictureContrast first_sight(const std::vector<std::string>& files,
+                            const std::vector<std::string>& trees) {
     std::vector<std::string> wooded = files;
     wooded.insert(wooded.end(), trees.begin(), trees.end());
     const Shown first = shown(wooded);
@@ -88,8 +89,8 @@ TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 10
     struct Ground {
         const char* size;
         const char* count;
-        double contrast; // min
-        double trees;    // min
+        double contrast; // min of PictureContrast::contrast
+        double trees;    // min fraction of the pixels that show trees
     };
     const Ground ground = GENERATE(values<Ground>({
         {"100", "204", 0.08, 0.2},
@@ -100,8 +101,8 @@ TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 10
         {"1000", "1000", 0.08, 0.25},      // the default count
     }));
     CAPTURE(ground.size, ground.count);
-    const Sight sight = first_sight({sample("carey-type-0"), "--forest-size", ground.size},
-                                    {"--count", ground.count});
+    const PictureContrast sight = first_sight(
+        {sample("carey-type-0"), "--forest-size", ground.size}, {"--count", ground.count});
     CHECK(sight.contrast > ground.contrast);
     CHECK(sight.trees > ground.trees);
 }
@@ -109,8 +110,8 @@ TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 10
 TEST_CASE("the default picture of each sample scene shows its trees with contrast") {
     struct Sample {
         const char* name;
-        double contrast; // min
-        double trees;    // min
+        double contrast; // min of PictureContrast::contrast
+        double trees;    // min fraction of the pixels that show trees
     };
     const Sample wood = GENERATE(values<Sample>({
         {"mixed-forest", 0.08, 0.3},
@@ -118,7 +119,7 @@ TEST_CASE("the default picture of each sample scene shows its trees with contras
         {"meadow", 0.045, 0.04}, // mostly ground
     }));
     CAPTURE(wood.name);
-    const Sight sight = first_sight({sample_scene(wood.name)}, {});
+    const PictureContrast sight = first_sight({sample_scene(wood.name)}, {});
     CHECK(sight.contrast > wood.contrast);
     CHECK(sight.trees > wood.trees);
 }
@@ -129,7 +130,7 @@ TEST_CASE("the default picture of a forest on mountains is not hidden by one") {
                "[terrain]\nkind = \"noise\"\nsize = 5000\nfeature = 900\nheight = 600\n"
                "[placement]\nmethod = \"uniform\"\ncount = 100000\n[[species]]\ngrammar = \"" +
                    sample("carey-type-0") + "\"\n");
-    const Sight sight = first_sight({folder / "wood.toml"}, {});
+    const PictureContrast sight = first_sight({folder / "wood.toml"}, {});
     CHECK(sight.contrast > 0.06);
     CHECK(sight.trees > 0.3);
 }

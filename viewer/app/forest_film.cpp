@@ -48,21 +48,21 @@ struct FilmState {
 ForestFilmMoment make_moment(FilmState& state,
                              const ForestFilmRequest& request,
                              const std::atomic<bool>& cancelled) {
-    ForestFilmMoment made;
-    made.document = request.document;
-    made.moment = request.moment;
+    ForestFilmMoment film_moment;
+    film_moment.document = request.document;
+    film_moment.moment = request.moment;
     const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads, {}};
     const auto work = [&] {
-        Outcome<void> outcome = state.make(request, project, made.trees);
-        made.messages = std::move(outcome.messages());
-        made.failed = !outcome;
+        Outcome<void> outcome = state.make(request, project, film_moment.trees);
+        film_moment.messages = std::move(outcome.messages());
+        film_moment.failed = !outcome;
         return true;
     };
     if (!catch_out_of_memory(work, [] { return false; })) {
-        made.messages.add_error("out of memory");
-        made.failed = true;
+        film_moment.messages.add_error("out of memory");
+        film_moment.failed = true;
     }
-    return made;
+    return film_moment;
 }
 
 } // namespace

@@ -24,10 +24,10 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
                           {}};
     const Stopwatch making;
     const auto work = [&] {
-        auto made = make_unpainted_forest(request.options, request.edits, known, project);
-        outcome.messages = std::move(made.messages());
-        if (made) {
-            outcome.document = std::move(made.value());
+        auto unpainted = make_unpainted_forest(request.options, request.edits, known, project);
+        outcome.messages = std::move(unpainted.messages());
+        if (unpainted) {
+            outcome.document = std::move(unpainted.value());
             outcome.document->files = outcome.files;
         }
         return true;

@@ -329,18 +329,18 @@ bool ForestView::plays_smoothly() const {
 
 /// Shows the trees that the film has made.
 void ForestView::take_moment() {
-    std::optional<ForestFilmMoment> made = film_->take();
-    if (!made || made->document != document_) {
+    std::optional<ForestFilmMoment> film_moment = film_->take();
+    if (!film_moment || film_moment->document != document_) {
         return;
     }
-    if (made->failed) {
-        take_messages(made->messages, false);
+    if (film_moment->failed) {
+        take_messages(film_moment->messages, false);
         settings.plays = false;
         grown_.reset();
         return;
     }
-    document_->grown.forest.trees = std::move(made->trees);
-    grown_ = made->moment;
+    document_->grown.forest.trees = std::move(film_moment->trees);
+    grown_ = film_moment->moment;
     ++stats_.moments;
     renderer_->show_trees();
     static_cast<void>(painting_.set_document(document_));

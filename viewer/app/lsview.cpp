@@ -60,22 +60,23 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     const Camera from = above_ground(with_parts(options.camera, first_view(document, aspect)),
                                      *document.grown.terrain);
-    HiddenRenderer made;
-    status = make_renderer(options, console, made);
+    HiddenRenderer hidden_renderer;
+    status = make_renderer(options, console, hidden_renderer);
     if (status != ExitStatus::Ok) {
         return status;
     }
-    made.renderer->colour_branches(options.colours);
+    hidden_renderer.renderer->colour_branches(options.colours);
     // The model is kept for a growing forest, which is shown anew for each picture, and for --pick,
     // which reads forms.
     const bool keeps_model = options.grow || options.pick;
-    if (const Result<void> shown =
-            made.renderer->show_forest(keeps_model ? document.model : std::move(document.model));
+    if (const Result<void> shown = hidden_renderer.renderer->show_forest(
+            keeps_model ? document.model : std::move(document.model));
         !shown) {
         return report_error(shown.error(), console);
     }
-    static_cast<void>(made.renderer->bake_impostors(std::numeric_limits<double>::infinity()));
-    return take_forest_pictures(options, from, document, *made.renderer, console);
+    static_cast<void>(
+        hidden_renderer.renderer->bake_impostors(std::numeric_limits<double>::infinity()));
+    return take_forest_pictures(options, from, document, *hidden_renderer.renderer, console);
 }
 
 ExitStatus
@@ -87,12 +88,12 @@ run_plant_pictures(const ViewOptions& options, const Camera& camera, const Conso
         return status;
     }
     const PlantDocument& document = *made_document;
-    HiddenRenderer made;
-    status = make_renderer(options, console, made);
+    HiddenRenderer hidden_renderer;
+    status = make_renderer(options, console, hidden_renderer);
     if (status != ExitStatus::Ok) {
         return status;
     }
-    Renderer& renderer = *made.renderer;
+    Renderer& renderer = *hidden_renderer.renderer;
     renderer.show_plant(document.mesh);
     renderer.show_lines(make_lines(document.plant.skeleton, options.lines));
     return take_pictures(options, camera, document, renderer, console);

@@ -61,22 +61,22 @@ struct FilmState {
 
 FilmMoment
 make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool>& cancelled) {
-    FilmMoment made;
-    made.moment = request.moment;
-    made.mesh_options = request.options.mesh;
+    FilmMoment film_moment;
+    film_moment.moment = request.moment;
+    film_moment.mesh_options = request.options.mesh;
     const Project project{
         make_file_host(&cancelled), request.options.run.limits, request.options.run.threads, {}};
     const auto work = [&] {
-        Outcome<void> outcome = state.make(request, project, made);
-        made.messages = std::move(outcome.messages());
-        made.failed = !outcome;
+        Outcome<void> outcome = state.make(request, project, film_moment);
+        film_moment.messages = std::move(outcome.messages());
+        film_moment.failed = !outcome;
         return true;
     };
     if (!catch_out_of_memory(work, [] { return false; })) {
-        made.messages.add_error("out of memory");
-        made.failed = true;
+        film_moment.messages.add_error("out of memory");
+        film_moment.failed = true;
     }
-    return made;
+    return film_moment;
 }
 
 } // namespace

@@ -46,7 +46,7 @@ struct PlantMotion::State {
     std::mutex mutex; // guards the members from here to `thread`
     std::condition_variable changed;
     std::optional<Bending> requested;
-    BentPlant made;
+    BentPlant bent_plant;
     bool is_made = false;
     bool stops = false;
     std::thread thread;
@@ -108,7 +108,7 @@ struct PlantMotion::State {
             next.seconds = std::chrono::duration<double>(Clock::now() - now).count();
             {
                 const std::lock_guard lock(mutex);
-                std::swap(made, next);
+                std::swap(bent_plant, next);
                 is_made = true;
             }
             done();
@@ -151,7 +151,7 @@ bool PlantMotion::take(BentPlant& plant) {
     if (!state_->is_made) {
         return false;
     }
-    std::swap(plant, state_->made);
+    std::swap(plant, state_->bent_plant);
     state_->is_made = false;
     state_->changed.notify_one();
     return true;

@@ -86,9 +86,9 @@ ViewOptions PlantView::wanted() const {
 }
 
 std::uint32_t PlantView::default_generations() const {
-    const std::uint32_t own =
+    const std::uint32_t of_grammar =
         document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);
-    return options_.grammar.generations.value_or(own);
+    return options_.grammar.generations.value_or(of_grammar);
 }
 
 std::uint32_t PlantView::generations() const {
@@ -244,16 +244,16 @@ void PlantView::widen_film_ground() {
 
 /// Shows the moment that the film has made.
 void PlantView::take_moment() {
-    std::optional<FilmMoment> made = film_->take();
-    if (!made) {
+    std::optional<FilmMoment> film_moment = film_->take();
+    if (!film_moment) {
         return;
     }
-    if (made->failed) {
-        take_messages(made->messages, false);
+    if (film_moment->failed) {
+        take_messages(film_moment->messages, false);
         settings.plays = false;
         return;
     }
-    grown_ = std::move(*made);
+    grown_ = std::move(*film_moment);
     shows_growth_ = true;
     ++stats_.moments;
     renderer_->show_plant(grown_.mesh);

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 // Time to wait for input, s.
 constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
 constexpr double kBusy = 0.02;
-// Limits the step of a flying camera after slow pictures, s.
+// Max time step of a flying camera, s, so that a slow picture does not make it jump.
 constexpr double kMaxFlightStep = 0.1;
 /// Pictures until ImGui settles after input.
 constexpr int kPicturesAfterInput = 3;

@@ -147,7 +147,7 @@ HeadlessContext::~HeadlessContext() {
 }
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
-    std::unique_ptr<HeadlessContext> made(new HeadlessContext());
+    std::unique_ptr<HeadlessContext> context(new HeadlessContext());
     struct Method {
         const char* name;
         std::string (State::*use)();
@@ -157,12 +157,12 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
                                                  {"a hidden window", &State::use_window}}};
     std::string reasons;
     for (const Method& method : kMethods) {
-        const std::string reason = (made->state_.get()->*method.use)();
+        const std::string reason = (context->state_.get()->*method.use)();
         if (reason.empty()) {
-            made->description_ = method.name;
-            return made;
+            context->description_ = method.name;
+            return context;
         }
-        made->state_->clear();
+        context->state_->clear();
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", method.name, reason);
     }
     return Error{fmt::format("there is no OpenGL 4.5 to draw with ({})", reasons)};

@@ -31,16 +31,19 @@ bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {
            stored.species != tree.species;
 }
 
-void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box) {
+void AddedTrees::put(std::uint32_t slot,
+                     const Tree& tree,
+                     const LodTree& lod_tree,
+                     const Bounds& box) {
     cells_.resize(std::size_t{kSide} * kSide);
     if (slot < added_.size()) {
         std::erase(cells_[cell_of(added_[slot].tree.position)].trees, slot);
     } else {
         Added removed;
-        removed.made.impostor = LodTree::kRemoved;
+        removed.lod_tree.impostor = LodTree::kRemoved;
         added_.resize(std::size_t{slot} + 1, removed);
     }
-    added_[slot] = {tree, made};
+    added_[slot] = {tree, lod_tree};
     const std::uint32_t number = cell_of(tree.position);
     Cell& cell = cells_[number];
     if (cell.trees.empty() && std::find(used_.begin(), used_.end(), number) == used_.end()) {
@@ -54,8 +57,8 @@ void AddedTrees::put(std::uint32_t slot, const Tree& tree, const LodTree& made, 
 }
 
 void AddedTrees::set_alive(std::uint32_t slot, bool alive) {
-    if (slot < added_.size() && added_[slot].made.is_removed() == alive) {
-        added_[slot].made.impostor ^= LodTree::kRemoved;
+    if (slot < added_.size() && added_[slot].lod_tree.is_removed() == alive) {
+        added_[slot].lod_tree.impostor ^= LodTree::kRemoved;
     }
 }
 

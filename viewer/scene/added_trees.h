@@ -41,13 +41,13 @@ public:
     /// Whether the slot is empty or holds another tree.
     [[nodiscard]] bool differs(std::uint32_t slot, const Tree& tree) const;
     /// Fills a slot; slots are used in order. `box`: bounding box of the tree.
-    void put(std::uint32_t slot, const Tree& tree, const LodTree& made, const Bounds& box);
+    void put(std::uint32_t slot, const Tree& tree, const LodTree& lod_tree, const Bounds& box);
     void set_alive(std::uint32_t slot, bool alive);
     [[nodiscard]] bool is_alive(std::uint32_t slot) const {
-        return slot < added_.size() && !added_[slot].made.is_removed();
+        return slot < added_.size() && !added_[slot].lod_tree.is_removed();
     }
 
-    [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].made; }
+    [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].lod_tree; }
     [[nodiscard]] const Tree& tree(std::uint32_t slot) const { return added_[slot].tree; }
 
     /// Calls visit(slot) for each living tree of the cells for which wants(cell) is true.
@@ -59,7 +59,7 @@ public:
                 continue;
             }
             for (const std::uint32_t slot : cell.trees) {
-                if (!added_[slot].made.is_removed()) {
+                if (!added_[slot].lod_tree.is_removed()) {
                     visit(slot);
                 }
             }
@@ -69,7 +69,7 @@ public:
 private:
     struct Added {
         Tree tree;
-        LodTree made;
+        LodTree lod_tree;
     };
 
     [[nodiscard]] std::uint32_t cell_of(const glm::vec3& place) const;

@@ -48,14 +48,14 @@ std::uint64_t ForestLod::cell_of(const glm::vec3& place) const {
 }
 
 LodTree ForestLod::make_lod_tree(const Tree& tree, std::uint32_t index) {
-    LodTree made;
-    made.position = tree.position;
-    made.scale = tree.scale;
-    made.tree = index;
-    made.form = static_cast<std::uint16_t>(model_.form_of(tree));
-    made.impostor = static_cast<std::uint16_t>(
-        model_.forms[made.form].impostor_of[expanders_[made.form].root_instance(tree)]);
-    return made;
+    LodTree lod_tree;
+    lod_tree.position = tree.position;
+    lod_tree.scale = tree.scale;
+    lod_tree.tree = index;
+    lod_tree.form = static_cast<std::uint16_t>(model_.form_of(tree));
+    lod_tree.impostor = static_cast<std::uint16_t>(
+        model_.forms[lod_tree.form].impostor_of[expanders_[lod_tree.form].root_instance(tree)]);
+    return lod_tree;
 }
 
 void ForestLod::sort_into_cells() {

@@ -266,9 +266,9 @@ PoolSpan ForestLod::branches_of(std::uint32_t number, const LodOptions& options)
     expanders_[form].expand(tree_of(number), [&](const BranchInstance& branch) {
         made_branches_.push_back(pool_branch(branch, cache.instances[branch.instance], number));
     });
-    const PoolSpan made = pool_.add(number, made_branches_);
-    lists_.expanded += made.count != 0 ? 1 : 0;
-    return made;
+    const PoolSpan pool_span = pool_.add(number, made_branches_);
+    lists_.expanded += pool_span.count != 0 ? 1 : 0;
+    return pool_span;
 }
 
 void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options) {

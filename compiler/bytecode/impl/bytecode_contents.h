@@ -4,12 +4,12 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
-//   rare_number   a number that is kNone in most programs; kNone leaves the digest as it is
-//   rare_table    a table that most programs lack; an empty one leaves the digest as it is
-//   implied       a truth that decides the derived word, computed from a field that as a whole does
-//                 not and therefore goes to beside_word(); only the digest uses it
-//   beside_word() returns the stream for fields that do not decide the derived word: itself, or an
-//                 IgnoringStream
+//   number_or_none a number that is kNone in most programs; kNone leaves the digest as it is
+//   table_or_none  a table that most programs lack; an empty one leaves the digest as it is
+//   implied        a truth that decides the derived word, computed from a field that as a whole does
+//                  not and therefore goes to beside_word(); only the digest uses it
+//   beside_word()  returns the stream for fields that do not decide the derived word: itself, or an
+//                  IgnoringStream
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
 // binding, so that a new field does not compile until it has a name here. Pass the field to the
 // stream: then it is written, read and digested. Only a field that decides drawing, printing or
@@ -28,7 +28,7 @@ struct IgnoringStream {
     template <typename Value>
     void number(const Value& /*value*/) {}
     template <typename Value>
-    void rare_number(const Value& /*value*/) {}
+    void number_or_none(const Value& /*value*/) {}
     void real(const float& /*value*/) {}
     void truth(const bool& /*value*/) {}
     template <typename Enum>
@@ -40,7 +40,7 @@ struct IgnoringStream {
     template <typename Row, typename Function>
     void table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
     template <typename Row, typename Function>
-    void rare_table(const std::vector<Row>& /*rows*/, Function /*row*/) {}
+    void table_or_none(const std::vector<Row>& /*rows*/, Function /*row*/) {}
 };
 
 // The describe functions: `Value` is the const type for a stream that only reads the fields.
@@ -110,7 +110,7 @@ template <typename Stream, typename Value>
 void describe_word(Stream& stream, Value& word) {
     auto& [codes, locals, arguments, parameter_count, draw_count] = word;
     describe_range(stream, codes);
-    stream.rare_number(locals);
+    stream.number_or_none(locals);
     stream.number(arguments);
     stream.number(parameter_count);
     stream.number(draw_count);
@@ -258,7 +258,7 @@ void describe(Stream& stream, Value& bytecode) {
     stream.number(group_count);
     stream.table(axioms, [](auto& s, auto& row) { describe_axiom(s, row); });
     stream.truth(uses_steps);
-    stream.rare_table(curves, [](auto& s, auto& row) { describe_curve(s, row); });
+    stream.table_or_none(curves, [](auto& s, auto& row) { describe_curve(s, row); });
     beside.number(stack_depth);
     beside.number(local_count);
 }

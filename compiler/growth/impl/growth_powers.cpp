@@ -90,7 +90,7 @@ const GrowthPowers::Power& GrowthPowers::power(std::size_t exponent) {
 }
 
 GrowthWalk
-GrowthPowers::times(const GrowthWalk& walk, const Power& power, std::uint32_t generations) {
+GrowthPowers::advanced_by(const GrowthWalk& walk, const Power& power, std::uint32_t generations) {
     std::vector<Count> low(size_);
     std::vector<Count> high(size_);
     for (std::size_t i = 0; i < size_; ++i) {
@@ -112,7 +112,7 @@ void GrowthPowers::advance_to(GrowthWalk& walk, std::uint32_t age) {
     std::uint32_t periods = (age - walk.age()) / period_;
     for (std::size_t exponent = 0; periods != 0; ++exponent, periods /= 2) {
         if (periods % 2 != 0) {
-            walk = times(walk, power(exponent), period_ << exponent);
+            walk = advanced_by(walk, power(exponent), period_ << exponent);
         }
     }
     while (walk.age() < age) {
@@ -147,7 +147,7 @@ void GrowthPowers::advance_while_fitting(GrowthWalk& walk,
         if (generations > age - walk.age()) {
             continue;
         }
-        GrowthWalk next = times(walk, power(e), static_cast<std::uint32_t>(generations));
+        GrowthWalk next = advanced_by(walk, power(e), static_cast<std::uint32_t>(generations));
         if (next.low().modules.at_most(max_modules)) {
             walk = std::move(next);
         }

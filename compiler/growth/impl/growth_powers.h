@@ -36,7 +36,7 @@ private:
     GrowthPowers() = default;
     const Power& power(std::size_t exponent); // the map of 2^exponent periods
     [[nodiscard]] GrowthWalk
-    times(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
+    advanced_by(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
     std::size_t size_ = 0;
     std::uint32_t period_ = 1; // generations; the number of rules in cyclic rewriting, else 1

@@ -96,8 +96,8 @@ public:
 
 private:
     void rewrite(const std::vector<ClassId>& ids) {
-        std::vector<std::pair<ClassId, Bounds>> made;
-        made.reserve(ids.size());
+        std::vector<std::pair<ClassId, Bounds>> new_bounds;
+        new_bounds.reserve(ids.size());
         for (const ClassId id : ids) {
             if (!classes_.expanded(id)) {
                 continue;
@@ -111,9 +111,9 @@ private:
                 best.high = first ? here.high : max_of(best.high, here.high);
                 first = false;
             }
-            made.emplace_back(id, best);
+            new_bounds.emplace_back(id, best);
         }
-        for (const auto& [id, bounds] : made) {
+        for (const auto& [id, bounds] : new_bounds) {
             values_[static_cast<std::size_t>(id)] = bounds;
         }
     }

@@ -254,7 +254,7 @@ void GrowthWalk::index_by_symbol() {
 }
 
 void GrowthWalk::drop_absent() {
-    const auto absent = [&](ClassId id) {
+    const auto clear_if_absent = [&](ClassId id) {
         const auto i = static_cast<std::size_t>(id);
         if (is_zero(high_[i])) {
             is_present_[i] = false;
@@ -262,7 +262,8 @@ void GrowthWalk::drop_absent() {
         }
         return false;
     };
-    present_.erase(std::remove_if(present_.begin(), present_.end(), absent), present_.end());
+    present_.erase(std::remove_if(present_.begin(), present_.end(), clear_if_absent),
+                   present_.end());
 }
 
 void GrowthWalk::advance() {
@@ -355,7 +356,7 @@ bool GrowthWalk::is_linear() const {
 }
 
 ProductionId GrowthWalk::dominant() {
-    std::map<ProductionId, double> made;
+    std::map<ProductionId, double> modules_written;
     if (!sequences_.empty()) {
         index_by_symbol();
     }
@@ -374,7 +375,7 @@ ProductionId GrowthWalk::dominant() {
             }
             const double times = decided_ && expansion.decided ? expected_[i] * outcome.probability
                                                                : as_double(high_[i]);
-            made[outcome.production] += times * modules;
+            modules_written[outcome.production] += times * modules;
         }
     }
     for (const SequenceRule& rule : sequences_) {
@@ -383,11 +384,12 @@ ProductionId GrowthWalk::dominant() {
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;
         }
-        made[rule.first] += as_double(max_matches(rule)) * modules;
+        modules_written[rule.first] += as_double(max_matches(rule)) * modules;
     }
-    const auto dominant = std::max_element(
-        made.begin(), made.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    return dominant == made.end() ? kNoProduction : dominant->first;
+    const auto dominant =
+        std::max_element(modules_written.begin(), modules_written.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return dominant == modules_written.end() ? kNoProduction : dominant->first;
 }
 
 void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<const Count> high) {

@@ -37,7 +37,7 @@ public:
           rules_of_(program.symbols.size()), effects_(program.symbols.size()) {}
 
     std::optional<Branches> run() {
-        refuse_system();
+        report_system_obstacles();
         for (const Production& production : program_.productions) {
             if (production.stage == Stage::Rewrite) {
                 rules_of_[first_of(production)].push_back(&production.predecessor);
@@ -118,7 +118,7 @@ private:
         return diagnostics_.add(DiagnosticCode::NotInstanceable, span, std::move(message));
     }
 
-    void refuse_system() {
+    void report_system_obstacles() {
         if (program_.settings.choice == ChoiceScope::Generation) {
             refuse(program_.axiom_span(), "a system with `choice generation` cannot be instanced")
                 .notes.emplace_back("the branches of one generation all choose alike, which "

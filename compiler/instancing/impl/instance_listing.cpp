@@ -131,9 +131,9 @@ private:
         std::vector<std::string> before(word.module_count);
         std::vector<std::string> after(word.module_count);
         for (const BranchSite& site : sites) {
-            const bool is_taken = takes(form, site.number);
-            before[site.open] += fmt::format("{}({},#)", is_taken ? '<' : '@', site.id);
-            after[site.close] = is_taken ? ">" : "$";
+            const bool uses_instance = takes(form, site.number);
+            before[site.open] += fmt::format("{}({},#)", uses_instance ? '<' : '@', site.id);
+            after[site.close] = uses_instance ? ">" : "$";
         }
         std::uint32_t end = word.span.begin; // end of the previous module
         for (std::uint32_t i = 0; i < word.module_count; ++i) {

@@ -46,7 +46,7 @@ Depth either(const Depth& a, const Depth& b) {
 class DepthAnalysis {
 public:
     explicit DepthAnalysis(const Program& program)
-        : program_(program), depth_(program.symbols.size()), rounds_(program.symbols.size(), 0) {
+        : program_(program), depth_(program.symbols.size()), visits_(program.symbols.size(), 0) {
         for (std::size_t s = 0; s < depth_.size(); ++s) {
             if (program.symbols[s].kind == SymbolKind::BranchOpen) {
                 depth_[s] = {1, 1, 0};
@@ -79,7 +79,7 @@ public:
             if (next == depth_[s]) {
                 continue;
             }
-            if (++rounds_[s] > kMaxVisits) { // assume that the bound moves without end
+            if (++visits_[s] > kMaxVisits) { // assume that the bound moves without end
                 next.low = next.low < depth_[s].low ? -kUnbounded : next.low;
                 next.high = next.high > depth_[s].high ? kUnbounded : next.high;
                 next.lowest = next.lowest < depth_[s].lowest ? -kUnbounded : next.lowest;
@@ -96,8 +96,8 @@ public:
 
 private:
     const Program& program_;
-    std::vector<Depth> depth_; // by symbol
-    std::vector<std::uint32_t> rounds_;
+    std::vector<Depth> depth_;          // by symbol
+    std::vector<std::uint32_t> visits_; // by symbol; changes of depth_, at most kMaxVisits
 };
 
 /// The number of `[` minus the number of `]`.

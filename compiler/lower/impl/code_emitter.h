@@ -48,7 +48,7 @@ private:
     std::uint32_t current_site_ = kNone;    // site of the next instruction
     bool overflowed_ = false;
 
-    /// A part of the code of a value, emitted after the parts above it in frames_.
+    /// A step of emitting the code of a value. frames_ is a stack: its last step is emitted first.
     enum class Step : std::uint8_t { Operands, Operation, Store, If, Else, EndIf };
     struct Frame {
         ValueId value;

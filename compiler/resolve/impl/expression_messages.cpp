@@ -385,8 +385,8 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
     const char* what = reaches_a_module ? "this parameter" : "this condition";
     if (reaches_a_module || place == ExpressionPlace::Condition) {
         if (constant && !std::isfinite(*constant)) {
-            const Culprit culprit = culprit_.value_or(
-                Culprit{resolution_.ast.expression(root).span(), "", std::nullopt});
+            const NonFiniteCause culprit = culprit_.value_or(
+                NonFiniteCause{resolution_.ast.expression(root).span(), "", std::nullopt});
             Diagnostic& error = resolution_.diagnostics.add(
                 DiagnosticCode::NotFinite, culprit.span,
                 fmt::format("{} is {}", what, std::isnan(*constant) ? "not a number" : "infinite"));

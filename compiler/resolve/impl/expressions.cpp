@@ -279,9 +279,9 @@ ValueId ExpressionResolver::apply(Opcode opcode,
     }
     if (const auto folded = constant_value(result);
         folded && !std::isfinite(*folded) && !culprit_) {
-        culprit_ =
-            Culprit{fault_place(opcode, y, expression),
-                    reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)), std::nullopt};
+        culprit_ = NonFiniteCause{fault_place(opcode, y, expression),
+                                  reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
+                                  std::nullopt};
     }
     return result;
 }
@@ -329,10 +329,10 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
         return values_.leaf(Opcode::Global, constant.global, expression.span());
     }
     if (!std::isfinite(constant.value) && !culprit_) {
-        culprit_ = Culprit{expression.span(),
-                           std::isnan(constant.value) ? "this constant is not a number"
-                                                      : "this constant is infinite",
-                           constant.span};
+        culprit_ = NonFiniteCause{expression.span(),
+                                  std::isnan(constant.value) ? "this constant is not a number"
+                                                             : "this constant is infinite",
+                                  constant.span};
     }
     return values_.literal(constant.value, expression.span());
 }

@@ -85,7 +85,7 @@ private:
         std::uint32_t next = 0; // index of the next operand to visit
     };
     /// The cause of a constant that is infinite or NaN.
-    struct Culprit {
+    struct NonFiniteCause {
         SourceSpan span;
         std::string reason;
         std::optional<SourceSpan> definition;
@@ -190,7 +190,7 @@ private:
 
     std::vector<Frame> frames_;
     std::vector<ValueId> operands_;
-    std::optional<Culprit> culprit_;
+    std::optional<NonFiniteCause> culprit_;
     std::vector<SourceSpan> zero_divisors_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxLabels = 8;
 /// Maximum of places in a fix; files with more are better fixed by `names letters`.
 constexpr std::size_t kMaxEdits = 10'000;
-constexpr std::size_t kMaxShown = 60;
+constexpr std::size_t kMaxQuotedBytes = 60;
 
 } // namespace
 
@@ -27,8 +27,8 @@ void SplitReport::add(SourceSpan name, SourceSpan module, std::span<const NamePa
         read += fmt::format("{}{}", read.empty() ? "" : " ", resolution_.text(part.name));
     }
     read += written.substr(name.end - name.begin);
-    if (read.size() > kMaxShown) {
-        read = read.substr(0, kMaxShown) + "...";
+    if (read.size() > kMaxQuotedBytes) {
+        read = read.substr(0, kMaxQuotedBytes) + "...";
     }
     if (!warning_) {
         warning_ = make_diagnostic(

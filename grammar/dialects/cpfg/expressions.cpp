@@ -148,13 +148,13 @@ CpfgTerm CpfgExpressions::name(const CpfgExpression& node) {
 
 /// A random number from 0 to 1.
 CpfgTerm CpfgExpressions::draw() {
-    const int index = needs_.draws++;
+    const int index = random_needs_.draws++;
     return draws_ == CpfgDraws::Bound ? CpfgTerm{draw_name(index), false, 0}
                                       : CpfgTerm{"{0, 1}", true, 0};
 }
 
 CpfgTerm CpfgExpressions::chosen_by_chance(SourceSpan span, const std::string& message) {
-    needs_.bound_draws = true;
+    random_needs_.bound_draws = true;
     if (draws_ == CpfgDraws::Inline) {
         static_cast<void>(unsupported(span, message));
     }

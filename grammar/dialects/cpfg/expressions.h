@@ -36,7 +36,7 @@ enum class CpfgDraws : std::uint8_t {
 };
 
 /// Random numbers that a production needs.
-struct CpfgNeeds {
+struct CpfgRandomNeeds {
     bool bound_draws = false; // a random number is used twice or decides a choice
     int draws = 0;            // count of bound random numbers
 };
@@ -52,7 +52,7 @@ public:
     /// to be written.
     void begin(std::set<std::string> formals, Stage stage, CpfgDraws draws = CpfgDraws::Inline);
     /// Sets the index of the next bound random number.
-    void draw_from(int index) { needs_.draws = index; }
+    void draw_from(int index) { random_needs_.draws = index; }
     /// Defines a variable of the production.
     void let(const std::string& name, const std::string& value);
     void run(const std::vector<int>& statements);
@@ -60,9 +60,9 @@ public:
     /// Constants that are drawn when the derivation begins, with their values.
     [[nodiscard]] const std::vector<CpfgConstant>& constants() const { return constants_; }
 
-    /// A copy that reports nothing, to find the needs of a production.
+    /// A copy that reports nothing, to find the random numbers that a production needs.
     [[nodiscard]] CpfgExpressions probe() const;
-    [[nodiscard]] const CpfgNeeds& needs() const { return needs_; }
+    [[nodiscard]] const CpfgRandomNeeds& random_needs() const { return random_needs_; }
     /// Name of the parameter that holds bound random number `index`.
     [[nodiscard]] std::string draw_name(int index) const;
     /// Notes that a decision depends on a random number, which must be bound; reports an error if
@@ -129,7 +129,7 @@ private:
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign
     std::set<std::string> warned_;
-    CpfgNeeds needs_;
+    CpfgRandomNeeds random_needs_;
     Stage stage_ = Stage::Rewrite;
     bool in_header_ = false;
     bool in_step_ = false; // in a block that runs in each step

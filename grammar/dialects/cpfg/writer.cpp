@@ -80,8 +80,8 @@ void CpfgWriter::find_bindings() {
         }
         const std::pair<Stage, std::string> module{production.stage, key_of(production)};
         by_module[module].push_back(i);
-        bindings_[i] = {probe.needs().bound_draws ? Binding::Own : Binding::None, 0,
-                        probe.needs().draws};
+        bindings_[i] = {probe.random_needs().bound_draws ? Binding::Own : Binding::None, 0,
+                        probe.random_needs().draws};
         if (drawn_test || weighted) {
             grouped.insert(module);
         }

@@ -19,7 +19,7 @@ class HoudiniWriter {
 public:
     HoudiniWriter(const HoudiniSession& session, Translation& translation);
 
-    /// `turtle`: the profile.
+    /// Writes the system as .lsys statements. `turtle`: name of the turtle profile in `#set turtle`.
     void write(std::string_view turtle);
 
 private:

@@ -88,12 +88,12 @@ bool SyntaxMessage::report_key() {
     const SourceSpan line = line_of(place_, context_.sources);
     const std::string_view text = context_.sources.text(line);
     const std::string_view word = trimmed(text.substr(0, text.find(':')));
-    const bool is_word = word.size() > 2 && std::all_of(word.begin(), word.end(), [](char c) {
-                             return is_word_character(c) || c == ' ';
-                         });
+    const bool may_be_key = word.size() > 2 && std::all_of(word.begin(), word.end(), [](char c) {
+                                return is_word_character(c) || c == ' ';
+                            });
     const std::vector<std::string_view> keys(words_->keys.begin(), words_->keys.end());
     const auto nearest =
-        is_word ? nearest_name(lowered(word), keys) : std::optional<std::string_view>();
+        may_be_key ? nearest_name(lowered(word), keys) : std::optional<std::string_view>();
     if (!nearest || *nearest == lowered(word)) {
         return false;
     }

@@ -33,7 +33,8 @@ namespace lsys_grammar {
 /// normalized form overwrites the end of its bytes; returns the bytes to skip. In the parse it is
 /// reported.
 int normalize_character(ParseSession& session, char* character, int length);
-/// Records a letter beyond ASCII that continues the current word: the `fi` of a PDF's `#define`.
+/// Records a letter beyond ASCII that continues the current word, for example the ligature U+FB01
+/// (fi) in a `#define` copied from a PDF.
 void normalize_behind_word(ParseSession& session);
 /// Records the confusables of the current name in back quotes. In a translation they are errors,
 /// because .lsys would read the name as a different one.

@@ -190,7 +190,7 @@ void report_missing_semicolon(ParseSession& session) {
     }
     SourceSpan place = session.insertion_place();
     if (comment) {
-        session.builder.forget_slashes(comment->begin);
+        session.builder.remove_slashes(comment->begin);
         const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
         place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
     }

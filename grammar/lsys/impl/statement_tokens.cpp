@@ -115,18 +115,19 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
 /// `#angle 30;`: reports the missing `set` and reads on after the `#`.
 Token setting_without_set(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
-    const std::uint32_t key = scan.end - static_cast<std::uint32_t>(word.size());
+    const std::uint32_t key_begin = scan.end - static_cast<std::uint32_t>(word.size());
     if (session.wants(DiagnosticCode::UnknownStatement)) {
         const SourceSpan span = session.match();
         const std::string name(word);
         Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
                                                 "there is no statement `#" + name + "`");
         add_fix(diagnostic, "a setting is written `#set " + name + "`",
-                {span.file, session.scanned.source_begin(key), session.scanned.source_begin(key)},
+                {span.file, session.scanned.source_begin(key_begin),
+                 session.scanned.source_begin(key_begin)},
                 "set ", true);
     }
     scan.keyword = Keyword::Set;
-    scan.end = key; // reads the key again
+    scan.end = key_begin; // reads the key again
     return begin_parts(session, spelling(Keyword::Set), word.front());
 }
 
@@ -239,11 +240,11 @@ Token start(ParseSession& session, std::string_view word) {
 
 bool is_hash_comment(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
-    const std::size_t name = text.find_first_not_of(" \t", 1);
-    const std::string_view word = text.substr(name);
+    const std::size_t name_begin = text.find_first_not_of(" \t", 1);
+    const std::string_view word = text.substr(name_begin);
     const std::string_view all = session.scanned.text;
     const char next = next_character(all, scan.end);
-    if (name == 1 || find_keyword(word) != Keyword::Label || next == ':' || next == '=') {
+    if (name_begin == 1 || find_keyword(word) != Keyword::Label || next == ':' || next == '=') {
         return false;
     }
     const std::string_view line = all.substr(scan.begin, all.find('\n', scan.begin) - scan.begin);
@@ -262,19 +263,19 @@ bool is_hash_comment(ParseSession& session, std::string_view text) {
 Token start_statement(ParseSession& session, std::string_view text) {
     session.scan.first_diagnostic = session.context.diagnostics.all().size();
     normalize_behind_word(session);
-    const std::size_t name = text.find_first_not_of(" \t", 1);
-    if (name > 1) {
+    const std::size_t name_begin = text.find_first_not_of(" \t", 1);
+    if (name_begin > 1) {
         const ScanState& scan = session.scan;
         if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::SplitOperator)) {
             Diagnostic& diagnostic = session.report(DiagnosticCode::SplitOperator,
                                                     "a blank stands between `#` and its word");
-            add_fix(
-                diagnostic, "remove the blank",
-                session.scanned.span(scan.begin + 1, scan.begin + static_cast<std::uint32_t>(name)),
-                "", true);
+            add_fix(diagnostic, "remove the blank",
+                    session.scanned.span(scan.begin + 1,
+                                         scan.begin + static_cast<std::uint32_t>(name_begin)),
+                    "", true);
         }
     }
-    return start(session, text.substr(name));
+    return start(session, text.substr(name_begin));
 }
 
 Token start_without_hash(ParseSession& session, std::string_view word) {
@@ -294,7 +295,9 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
     const bool after_modules =
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
-    // Text behind a statement may belong to the statement, whose `;` and fixes are then wrong.
+    // Text after a `;` may belong to the statement before it, whose `;` and fixes are then wrong. So
+    // first_diagnostic stays the index of the first diagnostic of that statement, whose fixes become
+    // offers if this text is an error.
     if (is_statement || !after_statement) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
@@ -628,7 +631,8 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // The `;` may belong to a statement that another `;` has ended too early.
+        // After a syntax error the fix is only an offer: another `;` may have ended the statement too
+        // early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;

@@ -52,26 +52,26 @@ std::string name_expected(const ScanState& scan) {
 
 std::vector<std::string> expected_in_words(const Unexpected& error, const ScanState& scan) {
     std::vector<std::string> words;
-    const bool value = error.expects(Kind::S_NUMBER);
-    const bool operators = error.expects(Kind::S_PLUS);
+    const bool expects_value = error.expects(Kind::S_NUMBER);
+    const bool expects_operator = error.expects(Kind::S_PLUS);
     const auto add = [&](bool holds, std::string text) {
         if (holds) {
             words.push_back(std::move(text));
         }
     };
     add(error.expects(Kind::S_NAMES), "a module");
-    add(value && error.part != Part::Setting, "a value");
-    add(value && error.part == Part::Setting, "a number or a word");
-    add(!value && error.expects(Kind::S_IDENTIFIER), name_expected(scan));
+    add(expects_value && error.part != Part::Setting, "a value");
+    add(expects_value && error.part == Part::Setting, "a number or a word");
+    add(!expects_value && error.expects(Kind::S_IDENTIFIER), name_expected(scan));
     add(error.expects(Kind::S_STRING), "a file name in quotes");
-    add(operators, "an operator");
-    add(!operators && error.expects(Kind::S_STAR), "`*`");
+    add(expects_operator, "an operator");
+    add(!expects_operator && error.expects(Kind::S_STAR), "`*`");
     add(error.expects(Kind::S_ASSIGN), "`=`");
     add(error.expects(Kind::S_TILDE), "`~` and a probability");
     add(error.expects(Kind::S_COMMA), "`,`");
     add(error.expects(Kind::S_RPAREN) || error.expects(Kind::S_CLOSE), "`)`");
     add(error.expects(Kind::S_RBRACE), "`}`");
-    add(!value && error.expects(Kind::S_LBRACE), "the bounds `{min, max}`");
+    add(!expects_value && error.expects(Kind::S_LBRACE), "the bounds `{min, max}`");
     add(error.expects(Kind::S_CLT), "`<`");
     add(error.expects(Kind::S_CGT), "`>`");
     if (error.expects(Kind::S_COLON)) {

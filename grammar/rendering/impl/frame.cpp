@@ -166,7 +166,7 @@ struct Preview {
     bool more_after = false;
 };
 
-/// The first edits of a fix, sorted by position.
+/// The first edits of a fix by position, at most kMaxPreviewEdits.
 std::vector<const Edit*> first_edits(const Fix& fix) {
     std::vector<const Edit*> edits;
     edits.reserve(fix.edits.size());

@@ -175,7 +175,7 @@ public:
         return result;
     }
 
-    [[gnu::always_inline]] bool draw(
+    [[gnu::always_inline]] bool random_draw(
         Opcode opcode, Lanes& x, const Lanes& y, std::uint32_t index, const std::uint32_t* /*at*/) {
         const Lanes& u = units(batch_.inputs.first_draw + batch_.program.choice_draws + index);
         if (opcode == Opcode::Range) {

@@ -18,7 +18,7 @@ CountResult count_modules(const Plan& plan,
     const Entry* const entries = plan.entries().data();
     const C* const codes = word.codes;
     const float* const parameters = word.parameters;
-    const bool several = plan.predecessor_count() > 1;
+    const bool matches_several = plan.predecessor_count() > 1;
     const std::uint64_t end = request.end;
     const std::uint64_t room_modules = request.room_modules;
     const std::uint64_t room_parameters = request.room_parameters;
@@ -57,7 +57,7 @@ CountResult count_modules(const Plan& plan,
         records += row.kind != RowKind::Fixed ? 1 : 0;
         parameter += row.stored;
         ++index;
-        if (record != 0 && several) {
+        if (record != 0 && matches_several) {
             const std::uint32_t replaced = plan.replaced_modules(entries[row.base + record]);
             for (std::uint32_t i = 1; i < replaced; ++i, ++index) {
                 parameter += rows[codes[index]].stored;

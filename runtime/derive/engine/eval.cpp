@@ -39,7 +39,7 @@ constexpr std::uint32_t kUsualSlots = 32;
 
 /// The Domain of interpret() whose values are numbers.
 struct Numbers : UnknownDomain<float> {
-    static constexpr bool kKnowsChoices = true;
+    static constexpr bool kRunsOneSide = true;
 
     const Bytecode& bytecode;
     const EvalFrame& frame;
@@ -75,7 +75,8 @@ struct Numbers : UnknownDomain<float> {
     }
     static float mix(float x, float y, float t) { return arithmetic::mix(x, y, t); }
     static bool holds(float x) { return x != 0.0F; }
-    bool draw(Opcode opcode, float& x, float y, std::uint32_t index, const std::uint32_t* at) {
+    bool
+    random_draw(Opcode opcode, float& x, float y, std::uint32_t index, const std::uint32_t* at) {
         const Fault kind = opcode == Opcode::Range ? check_range(x, y)
                            : check_distribution(opcode, x, y) == DistributionFault::None
                                ? Fault::None

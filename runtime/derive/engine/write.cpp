@@ -352,11 +352,11 @@ private:
             if constexpr (kInputs != TermInputs::None) {
                 const std::uint64_t before =
                     to == kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
-                const std::uint64_t stored = mask.stored(in, bits.stores & before);
+                const std::uint64_t parameter_count = mask.stored(in, bits.stores & before);
                 bits.stores &= ~before;
-                copy_parameters(own, stored, parameters, parameters_limit);
-                parameters += stored;
-                own += stored;
+                copy_parameters(own, parameter_count, parameters, parameters_limit);
+                parameters += parameter_count;
+                own += parameter_count;
             }
             if (bits.active == 0) {
                 break;

@@ -115,7 +115,7 @@ Binding tighter(Binding binding) {
 
 /// The Domain of interpret() whose values are numbers with their texts.
 struct ShownNumbers : UnknownDomain<Shown> {
-    static constexpr bool kKnowsChoices = true;
+    static constexpr bool kRunsOneSide = true;
 
     ShownNumbers(const TracedFrame& given, RangeDraws* from, std::uint64_t first)
         : frame(given), draws(from), first_draw(first), slots(given.bytecode.local_count) {}
@@ -123,7 +123,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
     const TracedFrame& frame;
     RangeDraws* draws;
     std::uint64_t first_draw;
-    bool has_locals = false; // the code is that of a successor
+    bool is_successor = false; // only successors have local values
     std::vector<Shown> slots;
     std::vector<TracedPart> parts;
     std::vector<TracedRange> ranges;
@@ -135,7 +135,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
     /// arguments of functions.
     bool enter() {
         const std::size_t named =
-            frame.names == nullptr || !has_locals ? 0 : frame.names->locals.size();
+            frame.names == nullptr || !is_successor ? 0 : frame.names->locals.size();
         for (std::size_t i = 0; i < slots.size(); ++i) {
             Shown& slot = slots[i];
             if (slot.is_new_slot && !slot.text.empty() && i < named) {
@@ -226,7 +226,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         }
         return x.number != 0.0F;
     }
-    bool draw(
+    bool random_draw(
         Opcode opcode, Shown& x, const Shown& y, std::uint32_t index, const std::uint32_t* /*at*/) {
         TracedRange range;
         range.opcode = opcode;
@@ -338,7 +338,7 @@ SuccessorTrace trace_successor(const TracedFrame& frame,
                                RangeDraws draws,
                                std::uint64_t first_draw) {
     ShownNumbers numbers(frame, &draws, first_draw);
-    numbers.has_locals = true;
+    numbers.is_successor = true;
     const bool ok = numbers.run(word.locals) && numbers.run(word.arguments);
     SuccessorTrace trace;
     numbers.add_leaves();

@@ -212,9 +212,9 @@ private:
             }
         }
         const std::uint32_t top = way[low];
-        const auto made = static_cast<std::uint32_t>(pieces_.size());
+        const auto new_piece = static_cast<std::uint32_t>(pieces_.size());
         pieces_.push_back({top, kNoSegment, 0.0});
-        measure(top, made);
+        measure(top, new_piece);
         remeasure(piece, root);
     }
 
@@ -322,7 +322,8 @@ public:
         for (std::uint32_t frame = 1; frame < animation.frame_count; ++frame) {
             for (std::uint32_t i = 0; i < animation.segment_count; ++i) {
                 const FitPoint end{i, false, 1.0};
-                way_ = std::max(way_, glm::length(place(end, frame) - place(end, 0)));
+                max_displacement_ =
+                    std::max(max_displacement_, glm::length(place(end, frame) - place(end, 0)));
             }
         }
     }
@@ -412,7 +413,8 @@ private:
             const bool other_side = frame > 0 && glm::dot(bone.rotations.back(), local) < 0.0F;
             bone.rotations.push_back(other_side ? -local : local);
         }
-        const double angle = std::min(kKeyTolerance * way_ / std::max(reach, 1e-30), kMaxKeyAngle);
+        const double angle =
+            std::min(kKeyTolerance * max_displacement_ / std::max(reach, 1e-30), kMaxKeyAngle);
         bone.keys = keys_of(bone.rotations, 0.5 * angle);
     }
 
@@ -551,7 +553,7 @@ private:
     const Skeleton& plant_;
     const Tree& tree_;
     const PlantAnimation& animation_;
-    double way_ = 0.0; // m, max displacement of a tip in the clip
+    double max_displacement_ = 0.0; // m, max displacement of a tip in the clip
     Bones bones_;
     std::vector<std::uint32_t> owners_; // joint of each segment
     std::vector<std::vector<FitPoint>> points_;

@@ -25,8 +25,8 @@ constexpr float kBendSize = 0.01F;
 /// always allowed.
 constexpr float kTaper = 1.6F;
 constexpr float kTaperSize = 0.002F;
-constexpr double kShare = 0.9; // of the area of all pieces, which shapes cover
-constexpr std::size_t kFewest = 10;
+constexpr double kCoveredShare = 0.9; // of the area of all pieces, which shapes cover
+constexpr std::size_t kMinShapes = 10;
 /// Engines take hulls of at most 255 triangles; one of 128 vertices has 2 * 128 - 4.
 constexpr std::size_t kMaxRings = 128 / kSides;
 
@@ -267,7 +267,7 @@ std::vector<BoughPiece> find_boughs(const Skeleton& skeleton) {
     double sum = 0.0;
     std::size_t count = 0;
     while (count < pieces.size() && count < kMaxCollisionShapes &&
-           (count < kFewest || sum < kShare * all)) {
+           (count < kMinShapes || sum < kCoveredShare * all)) {
         sum += pieces[count++].area;
     }
     pieces.resize(count);

@@ -155,17 +155,17 @@ ConvexHull convex_hull(std::span<const glm::vec3> points) {
     if (!triangles) {
         return hull;
     }
-    std::map<std::uint32_t, std::uint32_t> numbers;
+    std::map<std::uint32_t, std::uint32_t> hull_vertex_of_point;
     for (const Corners& triangle : *triangles) {
-        Corners& made = hull.triangles.emplace_back();
+        Corners& hull_triangle = hull.triangles.emplace_back();
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto [found, is_new] =
-                numbers.try_emplace(triangle[i], static_cast<std::uint32_t>(hull.vertices.size()));
+            const auto [found, is_new] = hull_vertex_of_point.try_emplace(
+                triangle[i], static_cast<std::uint32_t>(hull.vertices.size()));
             if (is_new) {
                 const Point& at = builder.point(triangle[i]);
                 hull.vertices.emplace_back(low + step * glm::dvec3(at[0], at[1], at[2]));
             }
-            made[i] = found->second;
+            hull_triangle[i] = found->second;
         }
     }
     return hull;

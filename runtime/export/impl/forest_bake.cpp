@@ -23,10 +23,10 @@ public:
     Baker(const ForestScene& scene, std::uint32_t threads)
         : scene_(scene), threads_(threads), plan_(scene, 0.0F, threads),
           materials_(find_forest_materials(scene, plan_)) {
-        for (const ForestKind& kind : plan_.kinds()) {
-            instance_vertices_.push_back(number_vertices(kind, plan_));
-            const Mesh& from = kind.meshes->mesh;
-            if (kind.trees > 0) {
+        for (const ExportedStage& stage : plan_.stages()) {
+            instance_vertices_.push_back(number_vertices(stage, plan_));
+            const Mesh& from = stage.meshes->mesh;
+            if (stage.trees > 0) {
                 drop_missing_arrays(from);
             }
         }
@@ -34,8 +34,8 @@ public:
             drop_missing_arrays(*scene.ground);
         }
         for (std::uint32_t s = 0; s < scene.meshes.size(); ++s) {
-            first_kind_.push_back(kind_count_);
-            kind_count_ += scene.meshes[s].size();
+            first_stage_.push_back(stage_count_);
+            stage_count_ += scene.meshes[s].size();
         }
     }
 
@@ -108,16 +108,16 @@ private:
         return count;
     }
 
-    /// Calls visit(number of the kind, branch) for each branch of the trees.
+    /// Calls visit(number of the stage, branch) for each branch of the trees.
     template <typename Visit>
     void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
         std::vector<TreeExpander> expanders;
-        expanders.reserve(kind_count_);
-        for (const ForestKind& kind : plan_.kinds()) {
-            expanders.emplace_back(*kind.cache, scene_.forest.key);
+        expanders.reserve(stage_count_);
+        for (const ExportedStage& stage : plan_.stages()) {
+            expanders.emplace_back(*stage.cache, scene_.forest.key);
         }
         for (const Tree& tree : trees) {
-            const std::size_t k = first_kind_[tree.species] + scene_.forest.stage_of(tree);
+            const std::size_t k = first_stage_[tree.species] + scene_.forest.stage_of(tree);
             expanders[k].expand(tree, [&](const BranchInstance& branch) { visit(k, branch); });
         }
     }
@@ -132,9 +132,9 @@ private:
                 Share& share = shares_[piece];
                 for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
                     share.vertices += instance_vertices_[k].of(branch.instance).size();
-                    const ForestKind& kind = plan_.kinds()[k];
-                    for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
-                        share.indices[materials_.of_kinds[k][part.material]] += part.index_count;
+                    const ExportedStage& stage = plan_.stages()[k];
+                    for (const MeshPart& part : stage.meshes->parts_of(branch.instance)) {
+                        share.indices[materials_.of_stages[k][part.material]] += part.index_count;
                     }
                 });
             });
@@ -175,9 +175,9 @@ private:
     }
 
     void put_branch(std::size_t k, const BranchInstance& branch, Share& share) {
-        const ForestKind& kind = plan_.kinds()[k];
-        const Mesh& from = kind.meshes->mesh;
-        const InstancePose pose = pose_of(branch, kind.cache->instances[branch.instance]);
+        const ExportedStage& stage = plan_.stages()[k];
+        const Mesh& from = stage.meshes->mesh;
+        const InstancePose pose = pose_of(branch, stage.cache->instances[branch.instance]);
         const glm::mat3 turn = glm::mat3_cast(pose.rotation);
         const glm::mat3 turn_and_scale = pose.scale * turn;
         std::uint64_t at = share.vertices;
@@ -197,8 +197,8 @@ private:
             ++at;
         }
         const auto base = static_cast<std::uint32_t>(share.vertices);
-        for (const MeshPart& part : kind.meshes->parts_of(branch.instance)) {
-            std::uint64_t& to = share.indices[materials_.of_kinds[k][part.material]];
+        for (const MeshPart& part : stage.meshes->parts_of(branch.instance)) {
+            std::uint64_t& to = share.indices[materials_.of_stages[k][part.material]];
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
                 indices_[to++] = base + instance_vertices_[k].indices[part.first_index + i];
             }
@@ -211,9 +211,9 @@ private:
     Mesh mesh_;
     ForestPlan plan_;
     ForestMaterials materials_;
-    std::vector<InstanceVertices> instance_vertices_; // of each kind
-    std::vector<std::size_t> first_kind_;             // of each species
-    std::size_t kind_count_ = 0;
+    std::vector<InstanceVertices> instance_vertices_; // of each stage
+    std::vector<std::size_t> first_stage_;            // of each species
+    std::size_t stage_count_ = 0;
     std::vector<Share> shares_;
     LargeVector<std::uint32_t> indices_;           // of the mesh, which takes them when complete
     std::vector<std::uint64_t> next_ground_index_; // by material

@@ -11,23 +11,23 @@ namespace lsys {
 
 namespace {
 
-constexpr int kVertices = 34962;
-constexpr int kIndices = 34963;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
 
 /// The view of an array of several slices, for which glTF asks for a stride; in buffer 0. That of a
 /// compressed array is in buffer 1, which holds decoded items.
 void put_array_view(JsonWriter& json, const ForestView& view) {
-    const bool indices = view.array == GltfArray::Indices;
+    const bool is_indices = view.array == GltfArray::Indices;
     const bool compressed = !view.compressed.empty();
     json.object().member("buffer", compressed ? 1 : 0);
     json.member("byteOffset", compressed ? view.decoded_offset : view.offset);
     json.member("byteLength", view.item_bytes());
-    if (!indices) {
+    if (!is_indices) {
         json.member("byteStride", view.type.stride);
     }
-    json.member("target", indices ? kIndices : kVertices);
+    json.member("target", is_indices ? kElementArrayBuffer : kArrayBuffer);
     if (compressed) {
-        put_packed_view(json, {view.offset, view.bytes, view.type.stride, view.count, indices});
+        put_packed_view(json, {view.offset, view.bytes, view.type.stride, view.count, is_indices});
     }
     json.end();
 }
@@ -53,12 +53,12 @@ void ForestDocument::put_extras(JsonWriter& json) const {
     json.object("extras").member("scene", info_.name).member("key", scene_.forest.key);
     json.member("trees", scene_.forest.trees.size()).member("branches", plan_.branches());
     json.member("triangles", plan_.triangles()).array("species");
-    for (const ForestKind& kind : plan_.kinds()) {
-        const ForestSpecies& species = scene_.forest.species[kind.species];
+    for (const ExportedStage& stage : plan_.stages()) {
+        const ForestSpecies& species = scene_.forest.species[stage.species];
         json.object().member("name", species.name);
-        json.member("n", species.stages[kind.stage].generations);
-        json.member("heroes", kind.cache->heroes);
-        json.member("instances", kind.cache->instances.size()).member("trees", kind.trees).end();
+        json.member("n", species.stages[stage.stage_index].generations);
+        json.member("heroes", stage.cache->heroes);
+        json.member("instances", stage.cache->instances.size()).member("trees", stage.trees).end();
     }
     json.end().end();
 }
@@ -141,12 +141,12 @@ std::uint64_t ForestDocument::node_count() const {
     return count;
 }
 
-std::string ForestDocument::mesh_name(const ForestKind& kind, std::uint32_t instance) const {
-    const ForestSpecies& species = scene_.forest.species[kind.species];
+std::string ForestDocument::mesh_name(const ExportedStage& stage, std::uint32_t instance) const {
+    const ForestSpecies& species = scene_.forest.species[stage.species];
     return species.stages.size() == 1
                ? fmt::format("{} {}", species.name, instance)
-               : fmt::format("{} n{} {}", species.name, species.stages[kind.stage].generations,
-                             instance);
+               : fmt::format("{} n{} {}", species.name,
+                             species.stages[stage.stage_index].generations, instance);
 }
 
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
@@ -154,14 +154,14 @@ void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
         1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() + plan_.branches();
     std::vector<bool> met(collisions_.size());
     for (const ForestCell& cell : plan_.cells()) {
-        plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
+        plan_.for_each_branch(cell, [&](const ExportedStage& stage, std::uint32_t instance,
                                         const BranchInstance& branch) {
             if (plan_.uses()[instance] == 0) {
                 return;
             }
-            const auto number = static_cast<std::size_t>(&kind - plan_.kinds().data());
+            const auto number = static_cast<std::size_t>(&stage - plan_.stages().data());
             const InstancePose pose = pose_of_items(
-                pose_of(branch, kind.cache->instances[branch.instance]), grids_[number]);
+                pose_of(branch, stage.cache->instances[branch.instance]), grids_[number]);
             const glm::vec3& t = pose.translation;
             const glm::quat& r = pose.rotation;
             json.object().member("mesh", mesh_of_instance_[instance]);
@@ -209,12 +209,12 @@ void ForestDocument::put_meshes(JsonWriter& json) const {
     if (ground_surface_ != kNoSurface) {
         put_mesh(json, "ground", surfaces_[ground_surface_], scene_.ground->parts, accessor);
     }
-    for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
-        const ForestKind& kind = plan_.kinds()[k];
-        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-            if (plan_.uses()[kind.first + i] > 0) {
-                put_mesh(json, mesh_name(kind, i), surfaces_[surface_of_kind_[k]],
-                         kind.meshes->parts_of(i), accessor);
+    for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
+        const ExportedStage& stage = plan_.stages()[k];
+        for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+            if (plan_.uses()[stage.first + i] > 0) {
+                put_mesh(json, mesh_name(stage, i), surfaces_[surface_of_stage_[k]],
+                         stage.meshes->parts_of(i), accessor);
             }
         }
     }

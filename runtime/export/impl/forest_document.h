@@ -23,7 +23,7 @@
 
 namespace lsys {
 
-inline constexpr std::size_t kNoKind = ~std::size_t{0};
+inline constexpr std::size_t kNoStage = ~std::size_t{0};
 
 /// An array of the vertices or indices of a block: a buffer view.
 struct ForestView {
@@ -50,9 +50,9 @@ struct ForestBlock {
     bool coloured = false;      // vertices have colours of their own
 };
 
-/// Arrays of a kind of tree, or of the ground.
+/// Arrays of a stage of a species, or of the ground.
 struct ForestSurface {
-    std::size_t kind = kNoKind; // of ForestPlan::kinds(); kNoKind: the ground
+    std::size_t stage = kNoStage; // index in ForestPlan::stages(); kNoStage: the ground
     const Mesh* mesh = nullptr;
     const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
     SlicedMesh sliced;
@@ -93,7 +93,7 @@ private:
     static constexpr std::size_t kNoSurface = ~std::size_t{0};
     [[nodiscard]] bool instanced() const { return form_ == ForestForm::Instanced; }
 
-    void add_surface(std::size_t kind,
+    void add_surface(std::size_t stage,
                      const Mesh& mesh,
                      const std::vector<std::uint32_t>& materials,
                      std::span<const PartList> lists);
@@ -106,8 +106,8 @@ private:
     [[nodiscard]] bool collides_once() const {
         return info_.collision_names == CollisionNames::Unreal;
     }
-    [[nodiscard]] std::string mesh_name(const ForestKind& kind, std::uint32_t instance) const;
-    /// Calls visit(instance among all kinds) for each tree that has shapes of its own, in the order
+    [[nodiscard]] std::string mesh_name(const ExportedStage& stage, std::uint32_t instance) const;
+    /// Calls visit(instance among all stages) for each tree that has shapes of its own, in the order
     /// of nodes.
     template <typename Visit>
     void for_each_collider(const Visit& visit) const;
@@ -148,14 +148,13 @@ private:
     const ForestExportInfo& info_;
     ForestMaterials materials_;
     std::vector<ForestSurface> surfaces_;
-    std::vector<ItemGrid> grids_;           // by kind
-    std::vector<GltfCollision> collisions_; // by instance among all kinds; empty: there are none
+    std::vector<ItemGrid> grids_;               // by stage
+    std::vector<GltfCollision> collisions_;     // by instance among all stages; empty: no collision
     std::vector<std::size_t> collision_meshes_; // number of the first mesh, by instance
     std::size_t first_collision_accessor_ = 0;
     std::size_t first_collision_view_ = 0;
-    std::uint64_t collisions_offset_ = 0;
     std::vector<GltfTextureForm> texture_forms_; // by material of the scene
-    std::vector<std::size_t> surface_of_kind_;
+    std::vector<std::size_t> surface_of_stage_;
     std::size_t ground_surface_ = kNoSurface;
     std::vector<std::uint32_t> mesh_of_instance_;
     /// Number in the file of each pair (material of the scene, vertices have colours).
@@ -209,7 +208,7 @@ void ForestDocument::for_each_collider(const Visit& visit) const {
     }
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(
-            cell, [&](const ForestKind&, std::uint32_t instance, const BranchInstance&) {
+            cell, [&](const ExportedStage&, std::uint32_t instance, const BranchInstance&) {
                 if (plan_.uses()[instance] > 0) {
                     take(instance);
                 }
@@ -222,11 +221,11 @@ void ForestDocument::for_each_mesh(const Visit& visit) const {
     if (ground_surface_ != kNoSurface) {
         visit(surfaces_[ground_surface_], std::span<const MeshPart>(scene_.ground->parts));
     }
-    for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
-        const ForestKind& kind = plan_.kinds()[k];
-        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-            if (plan_.uses()[kind.first + i] > 0) {
-                visit(surfaces_[surface_of_kind_[k]], kind.meshes->parts_of(i));
+    for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
+        const ExportedStage& stage = plan_.stages()[k];
+        for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+            if (plan_.uses()[stage.first + i] > 0) {
+                visit(surfaces_[surface_of_stage_[k]], stage.meshes->parts_of(i));
             }
         }
     }

@@ -38,7 +38,7 @@ struct ItemGrid {
 /// The pose that puts the items of a surface where `pose` puts its positions.
 [[nodiscard]] InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid);
 
-/// Hands over the transforms of all groups in order, until `write` returns false. `grids`: by kind.
+/// Hands over the transforms of all groups in order, until `write` returns false. `grids`: by stage.
 void write_transforms(const ForestPlan& plan,
                       std::span<const ItemGrid> grids,
                       const ForestExportInfo& info,

@@ -28,21 +28,22 @@ ForestDocument::ForestDocument(const ForestScene& scene,
       materials_(find_forest_materials(scene, plan)) {
     ExportInfo pictures;
     pictures.textures = info.textures;
-    grids_.resize(plan.kinds().size());
+    grids_.resize(plan.stages().size());
     pictures_ = find_pictures(materials_.samples, ExportPictures::Inside, pictures);
     images_ = encode_pictures(pictures_.list, info.threads);
     if (scene.ground != nullptr && triangle_count(*scene.ground) > 0) {
         ground_surface_ = 0;
         const PartList all{0, scene.ground->parts.size(), 0};
-        add_surface(kNoKind, *scene.ground, materials_.of_ground, std::span(&all, 1));
+        add_surface(kNoStage, *scene.ground, materials_.of_ground, std::span(&all, 1));
     }
-    for (std::size_t k = 0; k < plan.kinds().size(); ++k) {
-        const ForestKind& kind = plan.kinds()[k];
-        const auto uses = std::span(plan.uses()).subspan(kind.first, kind.cache->instances.size());
+    for (std::size_t k = 0; k < plan.stages().size(); ++k) {
+        const ExportedStage& stage = plan.stages()[k];
+        const auto uses =
+            std::span(plan.uses()).subspan(stage.first, stage.cache->instances.size());
         const bool used = std::any_of(uses.begin(), uses.end(), [](auto n) { return n > 0; });
-        surface_of_kind_.push_back(used ? surfaces_.size() : kNoSurface);
+        surface_of_stage_.push_back(used ? surfaces_.size() : kNoSurface);
         if (used) {
-            add_surface(k, kind.meshes->mesh, materials_.of_kinds[k], nested_lists(kind, plan));
+            add_surface(k, stage.meshes->mesh, materials_.of_stages[k], nested_lists(stage, plan));
         }
     }
     std::uint32_t meshes = ground_surface_ == kNoSurface ? 0 : 1;
@@ -100,17 +101,17 @@ void ForestDocument::add_collisions() {
     ExportInfo shapes;
     shapes.collision = info_.collision;
     shapes.collision_names = info_.collision_names;
-    for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
-        const ForestKind& kind = plan_.kinds()[k];
+    for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
+        const ExportedStage& stage = plan_.stages()[k];
         const ItemGrid& grid = grids_[k];
-        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-            if (plan_.uses()[kind.first + i] == 0) {
+        for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+            if (plan_.uses()[stage.first + i] == 0) {
                 continue;
             }
-            shapes.name = mesh_name(kind, i);
-            GltfCollision& made = collisions_[kind.first + i];
+            shapes.name = mesh_name(stage, i);
+            GltfCollision& made = collisions_[stage.first + i];
             made.shapes =
-                make_collision(skeleton_of(*kind.cache, kind.cache->instances[i]), shapes);
+                make_collision(skeleton_of(*stage.cache, stage.cache->instances[i]), shapes);
             for (CollisionShape& shape : made.shapes) { // to grid items, like positions
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
@@ -121,12 +122,12 @@ void ForestDocument::add_collisions() {
     }
 }
 
-void ForestDocument::add_surface(std::size_t kind,
+void ForestDocument::add_surface(std::size_t stage,
                                  const Mesh& mesh,
                                  const std::vector<std::uint32_t>& materials,
                                  std::span<const PartList> lists) {
     ForestSurface& surface = surfaces_.emplace_back();
-    surface.kind = kind;
+    surface.stage = stage;
     surface.mesh = &mesh;
     surface.materials = &materials;
     surface.sliced = slice_mesh(mesh, lists);
@@ -141,10 +142,10 @@ void ForestDocument::add_surface(std::size_t kind,
         bounds.add(surface.sliced.slices[part].bounds.high);
     }
     GltfForm form = form_of(info_.compression, bounds);
-    if (kind == kNoKind) {
+    if (stage == kNoStage) {
         form.step = 0.0F; // quantised heights of a wide ground would leave trees in the air
     } else if (form.step > 0.0F) {
-        grids_[kind] = {form.low, form.step};
+        grids_[stage] = {form.low, form.step};
     }
     for (ForestBlock& block : surface.blocks) {
         block.form = form;

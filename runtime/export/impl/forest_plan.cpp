@@ -23,17 +23,17 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threa
     LSYS_CHECK(scene.meshes.size() == forest.species.size(), scene.meshes.size());
     std::uint32_t instances = 0;
     for (std::uint32_t s = 0; s < forest.species.size(); ++s) {
-        first_kind_.push_back(static_cast<std::uint32_t>(kinds_.size()));
+        first_stage_.push_back(static_cast<std::uint32_t>(stages_.size()));
         LSYS_CHECK(scene.meshes[s].size() == forest.species[s].stages.size(), s);
         for (std::uint32_t i = 0; i < scene.meshes[s].size(); ++i) {
             const InstanceCache& cache = forest.species[s].stages[i].cache;
-            kinds_.push_back({s, i, instances, &cache, &scene.meshes[s][i], 0});
+            stages_.push_back({s, i, instances, &cache, &scene.meshes[s][i], 0});
             instances += static_cast<std::uint32_t>(cache.instances.size());
         }
     }
     uses_.assign(instances, 0);
     for (const Tree& tree : forest.trees) {
-        ++kinds_[first_kind_[tree.species] + forest.stage_of(tree)].trees;
+        ++stages_[first_stage_[tree.species] + forest.stage_of(tree)].trees;
     }
     sort_trees(cell);
     cut_cells();
@@ -71,11 +71,11 @@ void ForestPlan::sort_trees(float cell) {
     std::vector<std::uint64_t> next(counts.size());
     std::uint64_t first = 0;
     for (const auto& [at, number] : numbers) {
-        ForestCell& made = cells_.emplace_back();
-        made.x = at.second;
-        made.z = at.first;
-        made.first_tree = first;
-        made.tree_count = counts[number];
+        ForestCell& new_cell = cells_.emplace_back();
+        new_cell.x = at.second;
+        new_cell.z = at.first;
+        new_cell.first_tree = first;
+        new_cell.tree_count = counts[number];
         next[number] = first;
         first += counts[number];
     }
@@ -87,9 +87,9 @@ void ForestPlan::sort_trees(float cell) {
 
 std::vector<TreeExpander> ForestPlan::make_expanders() const {
     std::vector<TreeExpander> expanders;
-    expanders.reserve(kinds_.size());
-    for (const ForestKind& kind : kinds_) {
-        expanders.emplace_back(*kind.cache, scene_.forest.key);
+    expanders.reserve(stages_.size());
+    for (const ExportedStage& stage : stages_) {
+        expanders.emplace_back(*stage.cache, scene_.forest.key);
     }
     return expanders;
 }
@@ -113,15 +113,15 @@ void ForestPlan::count_pieces(std::uint32_t threads) {
         std::vector<std::uint32_t> counts(uses_.size(), 0);
         for (std::uint64_t i = 0; i < piece.tree_count; ++i) {
             const Tree& tree = tree_at(piece.first_tree + i);
-            const ForestKind& kind = kind_of(tree);
-            std::uint32_t* const of_kind = counts.data() + kind.first;
-            expanders[static_cast<std::size_t>(&kind - kinds_.data())].expand_instances(
-                tree, [of_kind](std::uint32_t instance) { ++of_kind[instance]; });
+            const ExportedStage& stage = stage_of(tree);
+            std::uint32_t* const of_stage = counts.data() + stage.first;
+            expanders[static_cast<std::size_t>(&stage - stages_.data())].expand_instances(
+                tree, [of_stage](std::uint32_t instance) { ++of_stage[instance]; });
         }
-        for (const ForestKind& kind : kinds_) {
-            for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-                if (counts[kind.first + i] > 0 && kind.meshes->triangle_count_of(i) > 0) {
-                    piece.counts_before.emplace_back(kind.first + i, counts[kind.first + i]);
+        for (const ExportedStage& stage : stages_) {
+            for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+                if (counts[stage.first + i] > 0 && stage.meshes->triangle_count_of(i) > 0) {
+                    piece.counts_before.emplace_back(stage.first + i, counts[stage.first + i]);
                 }
             }
         }
@@ -144,18 +144,18 @@ void ForestPlan::find_groups() {
             groups_.push_back({instance, branches_ + cell.branches, count});
             cell.branches += count;
             uses_[instance] += count;
-            const ForestKind& kind = kind_of_instance(instance);
-            triangles_ += kind.meshes->triangle_count_of(instance - kind.first) * count;
+            const ExportedStage& stage = stage_of_instance(instance);
+            triangles_ += stage.meshes->triangle_count_of(instance - stage.first) * count;
         }
         branches_ += cell.branches;
     }
     std::erase_if(cells_, [](const ForestCell& cell) { return cell.group_count == 0; });
 }
 
-const ForestKind& ForestPlan::kind_of_instance(std::uint32_t instance) const {
-    const auto after =
-        std::upper_bound(kinds_.begin(), kinds_.end(), instance,
-                         [](std::uint32_t i, const ForestKind& kind) { return i < kind.first; });
+const ExportedStage& ForestPlan::stage_of_instance(std::uint32_t instance) const {
+    const auto after = std::upper_bound(
+        stages_.begin(), stages_.end(), instance,
+        [](std::uint32_t i, const ExportedStage& stage) { return i < stage.first; });
     return *(after - 1);
 }
 
@@ -163,10 +163,10 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
     ForestMaterials materials;
     bool textured = true;
     bool tangents = true;
-    for (const ForestKind& kind : plan.kinds()) {
-        const Mesh& mesh = kind.meshes->mesh;
-        std::vector<std::uint32_t>& numbers = materials.of_kinds.emplace_back();
-        if (kind.trees == 0) {
+    for (const ExportedStage& stage : plan.stages()) {
+        const Mesh& mesh = stage.meshes->mesh;
+        std::vector<std::uint32_t>& numbers = materials.of_stages.emplace_back();
+        if (stage.trees == 0) {
             continue;
         }
         for (const Material& material : mesh.materials) {
@@ -185,34 +185,34 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
     return materials;
 }
 
-InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan) {
-    const Mesh& mesh = kind.meshes->mesh;
-    InstanceVertices own;
+InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& plan) {
+    const Mesh& mesh = stage.meshes->mesh;
+    InstanceVertices instance_vertices;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-    own.indices.resize(indices.size());
+    instance_vertices.indices.resize(indices.size());
     // For each vertex the last instance that uses it, and the vertex's number there.
     std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
-    for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-        own.first.push_back(own.vertices.size());
-        if (plan.uses()[kind.first + i] == 0) {
+    for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+        instance_vertices.first.push_back(instance_vertices.vertices.size());
+        if (plan.uses()[stage.first + i] == 0) {
             continue;
         }
-        for (const MeshPart& part : kind.meshes->parts_of(i)) {
+        for (const MeshPart& part : stage.meshes->parts_of(i)) {
             for (std::uint64_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
                 const std::uint32_t vertex = indices[k];
                 if (met_by[vertex] != i) {
                     met_by[vertex] = i;
-                    numbers[vertex] =
-                        static_cast<std::uint32_t>(own.vertices.size() - own.first[i]);
-                    own.vertices.push_back(vertex);
+                    numbers[vertex] = static_cast<std::uint32_t>(instance_vertices.vertices.size() -
+                                                                 instance_vertices.first[i]);
+                    instance_vertices.vertices.push_back(vertex);
                 }
-                own.indices[k] = numbers[vertex];
+                instance_vertices.indices[k] = numbers[vertex];
             }
         }
     }
-    own.first.push_back(own.vertices.size());
-    return own;
+    instance_vertices.first.push_back(instance_vertices.vertices.size());
+    return instance_vertices;
 }
 
 } // namespace lsys

@@ -11,11 +11,11 @@
 
 namespace lsys {
 
-/// Plants of one species and stage.
-struct ForestKind {
+/// A stage of a species: plants with one number of generations, see ForestSpecies::stages.
+struct ExportedStage {
     std::uint32_t species = 0;
-    std::uint32_t stage = 0;
-    std::uint32_t first = 0; // number of its first instance among all kinds
+    std::uint32_t stage_index = 0; // in ForestSpecies::stages
+    std::uint32_t first = 0;       // number of its first instance among all stages
     const InstanceCache* cache = nullptr;
     const InstanceMeshes* meshes = nullptr;
     std::uint64_t trees = 0;
@@ -23,7 +23,7 @@ struct ForestKind {
 
 /// All copies of one instance in one cell.
 struct ForestGroup {
-    std::uint32_t instance = 0; // number among all kinds
+    std::uint32_t instance = 0; // number among all stages
     std::uint64_t first = 0;    // instances in all groups before
     std::uint64_t count = 0;
 };
@@ -54,7 +54,7 @@ public:
     /// `cell`: side in m; 0: there is one cell. `threads`: 0: as many as the machine has.
     ForestPlan(const ForestScene& scene, float cell, std::uint32_t threads);
 
-    [[nodiscard]] std::span<const ForestKind> kinds() const { return kinds_; }
+    [[nodiscard]] std::span<const ExportedStage> stages() const { return stages_; }
     /// Cells with triangles, by z, then x.
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
     /// Groups of all cells, within a cell by rising number of the instance.
@@ -64,12 +64,12 @@ public:
     }
     /// Count of each instance in the forest; 0 for instances without triangles.
     [[nodiscard]] const std::vector<std::uint64_t>& uses() const { return uses_; }
-    [[nodiscard]] const ForestKind& kind_of_instance(std::uint32_t instance) const;
+    [[nodiscard]] const ExportedStage& stage_of_instance(std::uint32_t instance) const;
     /// Branch instances with triangles.
     [[nodiscard]] std::uint64_t branches() const { return branches_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-    /// Calls visit(kind, number of the instance among all kinds, branch) for all branches of a
+    /// Calls visit(stage, number of the instance among all stages, branch) for all branches of a
     /// cell, even without triangles, tree by tree in the order of the forest.
     template <typename Visit>
     void for_each_branch(const ForestCell& cell, const Visit& visit) const {
@@ -91,13 +91,13 @@ private:
     [[nodiscard]] const Tree& tree_at(std::uint64_t place) const {
         return scene_.forest.trees[tree_of_place_.empty() ? place : tree_of_place_[place]];
     }
-    [[nodiscard]] const ForestKind& kind_of(const Tree& tree) const {
-        return kinds_[first_kind_[tree.species] + scene_.forest.stage_of(tree)];
+    [[nodiscard]] const ExportedStage& stage_of(const Tree& tree) const {
+        return stages_[first_stage_[tree.species] + scene_.forest.stage_of(tree)];
     }
 
     const ForestScene& scene_;
-    std::vector<ForestKind> kinds_;
-    std::vector<std::uint32_t> first_kind_;    // of each species
+    std::vector<ExportedStage> stages_;
+    std::vector<std::uint32_t> first_stage_;   // of each species
     LargeVector<std::uint32_t> tree_of_place_; // empty: the order of the forest
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
@@ -114,19 +114,19 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
     std::vector<TreeExpander> expanders = make_expanders();
     for (std::uint64_t i = first; i < first + count; ++i) {
         const Tree& tree = tree_at(i);
-        const ForestKind& kind = kind_of(tree);
-        expanders[static_cast<std::size_t>(&kind - kinds_.data())].expand(
+        const ExportedStage& stage = stage_of(tree);
+        expanders[static_cast<std::size_t>(&stage - stages_.data())].expand(
             tree, [&](const BranchInstance& branch) {
-                visit(kind, kind.first + branch.instance, branch);
+                visit(stage, stage.first + branch.instance, branch);
             });
     }
 }
 
-/// Distinct materials of a scene, and the numbers of the kinds' and the ground's materials among
+/// Distinct materials of a scene, and the numbers of the stages' and the ground's materials among
 /// them.
 struct ForestMaterials {
     Mesh samples; // of material_samples.h: a part for each material
-    std::vector<std::vector<std::uint32_t>> of_kinds;
+    std::vector<std::vector<std::uint32_t>> of_stages;
     std::vector<std::uint32_t> of_ground;
 };
 [[nodiscard]] ForestMaterials find_forest_materials(const ForestScene& scene,
@@ -143,6 +143,6 @@ struct InstanceVertices {
         return std::span(vertices).subspan(first[instance], first[instance + 1] - first[instance]);
     }
 };
-[[nodiscard]] InstanceVertices number_vertices(const ForestKind& kind, const ForestPlan& plan);
+[[nodiscard]] InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& plan);
 
 } // namespace lsys

@@ -23,14 +23,14 @@ void for_each_run(const InstanceCache& cache, const Instance& instance, const Vi
 
 /// For each used instance the innermost used one around it, kNone if there is none. Instances are
 /// numbered in the order in which they begin, so enclosing instances have lower numbers.
-std::vector<std::uint32_t> find_parents(const ForestKind& kind, const ForestPlan& plan) {
-    const InstanceCache& cache = *kind.cache;
+std::vector<std::uint32_t> find_parents(const ExportedStage& stage, const ForestPlan& plan) {
+    const InstanceCache& cache = *stage.cache;
     const Skeleton& heroes = cache.skeleton;
     std::vector<std::uint32_t> parents(cache.instances.size(), kNone);
     LargeVector<std::uint32_t> owners; // of each item, the innermost instance so far
     owners.assign(heroes.segments.size() + heroes.polygons.size() + heroes.objects.size(), kNone);
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
-        if (plan.uses()[kind.first + i] == 0) {
+        if (plan.uses()[stage.first + i] == 0) {
             continue;
         }
         bool is_first = true;
@@ -116,10 +116,10 @@ private:
 
 } // namespace
 
-std::vector<PartList> nested_lists(const ForestKind& kind, const ForestPlan& plan) {
-    const std::vector<std::uint32_t> parents = find_parents(kind, plan);
+std::vector<PartList> nested_lists(const ExportedStage& stage, const ForestPlan& plan) {
+    const std::vector<std::uint32_t> parents = find_parents(stage, plan);
     const auto count = static_cast<std::uint32_t>(parents.size());
-    const auto is_used = [&](std::uint32_t i) { return plan.uses()[kind.first + i] > 0; };
+    const auto is_used = [&](std::uint32_t i) { return plan.uses()[stage.first + i] > 0; };
     // Children of each instance as linked lists, by rising number; the last entry: instances
     // without a parent.
     std::vector<std::uint32_t> first_child(count + std::size_t{1}, kNone);
@@ -146,9 +146,9 @@ std::vector<PartList> nested_lists(const ForestKind& kind, const ForestPlan& pla
         }
         path.pop_back();
         if (at.instance < count) {
-            const std::size_t first = kind.meshes->first_part[at.instance];
+            const std::size_t first = stage.meshes->first_part[at.instance];
             lists.push_back(
-                {first, kind.meshes->first_part[at.instance + 1] - first, at.first_nested});
+                {first, stage.meshes->first_part[at.instance + 1] - first, at.first_nested});
         }
     }
     return lists;

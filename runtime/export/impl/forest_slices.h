@@ -26,9 +26,10 @@ struct PartList {
     std::size_t first_nested = 0;
 };
 
-/// The used instances of a kind, each behind those nested in it. The triangles of a nested list are
+/// The used instances of a stage, each behind those nested in it. The triangles of a nested list are
 /// among those of the enclosing one; lists that are not nested share none.
-[[nodiscard]] std::vector<PartList> nested_lists(const ForestKind& kind, const ForestPlan& plan);
+[[nodiscard]] std::vector<PartList> nested_lists(const ExportedStage& stage,
+                                                 const ForestPlan& plan);
 
 /// The vertices and indices of one part.
 struct Slice {

@@ -55,26 +55,26 @@ void put_cache(JsonWriter& json, const InstanceCache& cache) {
     json.end();
 }
 
-std::uint64_t cache_bytes(const ForestKind& kind) {
-    return kind.cache->byte_count() + kind.cache->skeleton.byte_count();
+std::uint64_t cache_bytes(const ExportedStage& stage) {
+    return stage.cache->byte_count() + stage.cache->skeleton.byte_count();
 }
 
 void put_species(JsonWriter& json,
                  const ForestSpecies& species,
-                 std::span<const ForestKind> stages) {
+                 std::span<const ExportedStage> stages) {
     std::uint64_t trees = 0;
-    for (const ForestKind& kind : stages) {
-        trees += kind.trees;
+    for (const ExportedStage& stage : stages) {
+        trees += stage.trees;
     }
     json.object().member("name", species.name).member("trees", trees).array("stages");
-    for (const ForestKind& kind : stages) {
-        json.object().member("generations", species.stages[kind.stage].generations);
-        json.member("trees", kind.trees).member("heroes", kind.cache->heroes);
-        json.member("segments", kind.cache->skeleton.segments.size());
-        json.member("vertices", kind.meshes->mesh.positions.size());
-        json.member("cache_bytes", cache_bytes(kind));
-        json.member("mesh_bytes", kind.meshes->byte_count());
-        put_cache(json, *kind.cache);
+    for (const ExportedStage& stage : stages) {
+        json.object().member("generations", species.stages[stage.stage_index].generations);
+        json.member("trees", stage.trees).member("heroes", stage.cache->heroes);
+        json.member("segments", stage.cache->skeleton.segments.size());
+        json.member("vertices", stage.meshes->mesh.positions.size());
+        json.member("cache_bytes", cache_bytes(stage));
+        json.member("mesh_bytes", stage.meshes->byte_count());
+        put_cache(json, *stage.cache);
         json.end();
     }
     json.end().end();
@@ -87,8 +87,8 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
     const ForestPlan plan(scene, 0.0F, options.threads);
     const ForestCounts counts = count_forest(forest, options.threads);
     std::uint64_t bytes = 0;
-    for (const ForestKind& kind : plan.kinds()) {
-        bytes += cache_bytes(kind) + kind.meshes->byte_count();
+    for (const ExportedStage& stage : plan.stages()) {
+        bytes += cache_bytes(stage) + stage.meshes->byte_count();
     }
     return json_document([&](JsonWriter& json) {
         json.object().member("key", forest.key).member("trees", counts.trees);
@@ -100,10 +100,10 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
         json.member("polygons", counts.polygons).member("triangles", plan.triangles());
         json.member("bytes", bytes).member("digest", fmt::format("{:016x}", counts.digest));
         json.array("species");
-        std::span<const ForestKind> kinds = plan.kinds(); // sorted by species
+        std::span<const ExportedStage> stages = plan.stages(); // sorted by species
         for (const ForestSpecies& species : forest.species) {
-            put_species(json, species, kinds.first(species.stages.size()));
-            kinds = kinds.subspan(species.stages.size());
+            put_species(json, species, stages.first(species.stages.size()));
+            stages = stages.subspan(species.stages.size());
         }
         json.end().end();
     });

@@ -109,14 +109,14 @@ private:
                                     group->count, before};
             }
         }
-        plan_.for_each_branch(piece, [&](const ForestKind& kind, std::uint32_t instance,
+        plan_.for_each_branch(piece, [&](const ExportedStage& stage, std::uint32_t instance,
                                          const BranchInstance& branch) {
             Place& place = places[instance];
             if (place.base == nullptr) {
                 return;
             }
             const std::uint64_t i = place.next++;
-            put(pose(kind, branch), place.base + 3 * i, place.base + 3 * place.count + 4 * i,
+            put(pose(stage, branch), place.base + 3 * i, place.base + 3 * place.count + 4 * i,
                 place.base + 7 * place.count + 3 * i);
         });
     }
@@ -124,7 +124,7 @@ private:
     void write_large(const ForestCell& cell, const ForestGroup& group, const Write& write) {
         for (int array = 0; array < 3 && !stopped_; ++array) {
             floats_.clear();
-            plan_.for_each_branch(cell, [&](const ForestKind& kind, std::uint32_t instance,
+            plan_.for_each_branch(cell, [&](const ExportedStage& stage, std::uint32_t instance,
                                             const BranchInstance& branch) {
                 if (instance != group.instance || stopped_) {
                     return;
@@ -132,7 +132,7 @@ private:
                 std::array<float, 3> translation{};
                 std::array<float, 4> rotation{};
                 std::array<float, 3> scale{};
-                put(pose(kind, branch), translation.data(), rotation.data(), scale.data());
+                put(pose(stage, branch), translation.data(), rotation.data(), scale.data());
                 const auto append = [this](std::span<const float> values) {
                     floats_.insert(floats_.end(), values.begin(), values.end());
                 };
@@ -146,9 +146,10 @@ private:
         }
     }
 
-    [[nodiscard]] InstancePose pose(const ForestKind& kind, const BranchInstance& branch) const {
-        const auto number = static_cast<std::size_t>(&kind - plan_.kinds().data());
-        return pose_of_items(pose_of(branch, kind.cache->instances[branch.instance]),
+    [[nodiscard]] InstancePose pose(const ExportedStage& stage,
+                                    const BranchInstance& branch) const {
+        const auto number = static_cast<std::size_t>(&stage - plan_.stages().data());
+        return pose_of_items(pose_of(branch, stage.cache->instances[branch.instance]),
                              grids_[number]);
     }
 

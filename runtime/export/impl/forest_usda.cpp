@@ -37,12 +37,12 @@ public:
             put_ground(*scene_.ground);
         }
         std::vector<std::string> names{"Ground", "Materials"};
-        for (std::size_t k = 0; k < plan_.kinds().size(); ++k) {
-            const ForestKind& kind = plan_.kinds()[k];
+        for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
+            const ExportedStage& stage = plan_.stages()[k];
             names.push_back(
-                unique_name(names, identifier(scene_.forest.species[kind.species].name)));
-            if (count_used(kind) > 0) {
-                put_instancer(kind, materials_.of_kinds[k], names.back());
+                unique_name(names, identifier(scene_.forest.species[stage.species].name)));
+            if (count_used(stage) > 0) {
+                put_instancer(stage, materials_.of_stages[k], names.back());
             }
         }
         ExportInfo pictures;
@@ -53,8 +53,9 @@ public:
     }
 
 private:
-    [[nodiscard]] std::uint32_t count_used(const ForestKind& kind) const {
-        const auto uses = std::span(plan_.uses()).subspan(kind.first, kind.cache->instances.size());
+    [[nodiscard]] std::uint32_t count_used(const ExportedStage& stage) const {
+        const auto uses =
+            std::span(plan_.uses()).subspan(stage.first, stage.cache->instances.size());
         return static_cast<std::uint32_t>(
             std::count_if(uses.begin(), uses.end(), [](std::uint64_t n) { return n > 0; }));
     }
@@ -98,14 +99,14 @@ private:
             [&](std::uint64_t i) { return indices[mesh.parts[0].first_index + i]; });
     }
 
-    void put_instancer(const ForestKind& kind,
+    void put_instancer(const ExportedStage& stage,
                        const std::vector<std::uint32_t>& materials,
                        const std::string& name) {
         out_->put(fmt::format("    def PointInstancer \"{}\"\n    {{\n", name));
-        prototypes_.assign(kind.cache->instances.size(), 0);
+        prototypes_.assign(stage.cache->instances.size(), 0);
         std::vector<std::uint32_t> used;
-        for (std::uint32_t i = 0; i < kind.cache->instances.size(); ++i) {
-            if (plan_.uses()[kind.first + i] > 0) {
+        for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
+            if (plan_.uses()[stage.first + i] > 0) {
                 prototypes_[i] = static_cast<std::uint32_t>(used.size());
                 used.push_back(i);
             }
@@ -116,28 +117,28 @@ private:
                 fmt::format("{}</Forest/{}/Prototypes/I{}>", p == 0 ? "" : ", ", name, used[p]));
         }
         out_->put("]\n");
-        const InstanceVertices own = number_vertices(kind, plan_);
+        const InstanceVertices own = number_vertices(stage, plan_);
         std::vector<float> sizes; // of the prototypes
         for (const std::uint32_t i : used) {
             Bounds bounds;
             for (const std::uint32_t vertex : own.of(i)) {
-                bounds.add(kind.meshes->mesh.positions[vertex]);
+                bounds.add(stage.meshes->mesh.positions[vertex]);
             }
             const glm::vec3 extent = bounds.high - bounds.low;
             sizes.push_back(std::max({extent.x, extent.y, extent.z}));
         }
         const float largest = sizes.empty() ? 0.0F : *std::max_element(sizes.begin(), sizes.end());
-        put_branches(kind, place_digits(largest));
+        put_branches(stage, place_digits(largest));
         out_->put("        def Scope \"Prototypes\"\n        {\n");
         for (const std::uint32_t i : used) {
-            const Instance& instance = kind.cache->instances[i];
+            const Instance& instance = stage.cache->instances[i];
             const glm::dquat back = glm::conjugate(instance.frame);
             const std::span<const std::uint32_t> vertices = own.of(i);
-            const std::span<const MeshPart> parts = kind.meshes->parts_of(i);
+            const std::span<const MeshPart> parts = stage.meshes->parts_of(i);
             const std::vector<std::string> names = names_of(parts, materials);
             put_usda_surface(
                 *out_,
-                {kind.meshes->mesh,
+                {stage.meshes->mesh,
                  fmt::format("I{}", i),
                  vertices.size(),
                  parts,
@@ -158,17 +159,17 @@ private:
     /// Writes each part of the transforms as an array of its own, by one pass over the trees; no
     /// scales if all are 1, because the time to read text grows with its size. `place_digits`:
     /// digits behind the point of positions.
-    void put_branches(const ForestKind& kind, int place_digits) {
+    void put_branches(const ExportedStage& stage, int place_digits) {
         bool scaled = false;
-        put_array("int[] protoIndices", kind, [&](const BranchInstance& branch, char* at) {
+        put_array("int[] protoIndices", stage, [&](const BranchInstance& branch, char* at) {
             scaled = scaled || branch.scale != 1.0F;
             return put_number(at, std::uint64_t{prototypes_[branch.instance]});
         });
-        put_array("point3f[] positions", kind, [&](const BranchInstance& branch, char* at) {
+        put_array("point3f[] positions", stage, [&](const BranchInstance& branch, char* at) {
             const glm::vec3& p = branch.position;
             return put_tuple<3>(at, {p.x, p.y, p.z}, place_digits);
         });
-        put_array("quath[] orientations", kind, [this](const BranchInstance& branch, char* at) {
+        put_array("quath[] orientations", stage, [this](const BranchInstance& branch, char* at) {
             const glm::quat q = glm::normalize(branch.rotation);
             for (const auto& [before, part] :
                  {std::pair{"(", q.w}, {", ", q.x}, {", ", q.y}, {", ", q.z}}) {
@@ -179,7 +180,7 @@ private:
         if (!scaled) {
             return;
         }
-        put_array("float3[] scales", kind, [](const BranchInstance& branch, char* at) {
+        put_array("float3[] scales", stage, [](const BranchInstance& branch, char* at) {
             // Six significant digits: an error of at most 5 millionths.
             const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);
             const std::string_view digits(at + 1, static_cast<std::size_t>(end - at - 1));
@@ -192,13 +193,13 @@ private:
     }
 
     template <typename Put>
-    void put_array(std::string_view what, const ForestKind& kind, const Put& put) {
+    void put_array(std::string_view what, const ExportedStage& stage, const Put& put) {
         out_->put(fmt::format("        {} = [", what));
         std::uint64_t count = 0;
         for (const ForestCell& cell : plan_.cells()) {
-            plan_.for_each_branch(cell, [&](const ForestKind& of, std::uint32_t instance,
+            plan_.for_each_branch(cell, [&](const ExportedStage& of, std::uint32_t instance,
                                             const BranchInstance& branch) {
-                if (&of != &kind || plan_.uses()[instance] == 0 || out_->stopped()) {
+                if (&of != &stage || plan_.uses()[instance] == 0 || out_->stopped()) {
                     return;
                 }
                 char* at = out_->room(kUsdaItemBytes + kNumberBytes);
@@ -226,8 +227,8 @@ private:
 bool is_countable(const ForestPlan& plan) {
     constexpr std::uint64_t kMax = 0x7FFFFFFF;
     return plan.branches() <= kMax &&
-           std::all_of(plan.kinds().begin(), plan.kinds().end(), [](const ForestKind& kind) {
-               return kind.meshes->mesh.positions.size() <= kMax;
+           std::all_of(plan.stages().begin(), plan.stages().end(), [](const ExportedStage& stage) {
+               return stage.meshes->mesh.positions.size() <= kMax;
            });
 }
 

@@ -160,18 +160,18 @@ private:
     /// The children of the node of the plant: the shapes of a film or the node that decodes, and the
     /// shapes of collision, which are the last nodes.
     void put_children() {
-        std::size_t own = has_decoding_node() ? 1 : 0;
-        own = film_ != nullptr ? drawn_shapes(*film_).size() : own;
-        if (own + collision_.shapes.size() == 0) {
+        std::size_t shape_count = has_decoding_node() ? 1 : 0;
+        shape_count = film_ != nullptr ? drawn_shapes(*film_).size() : shape_count;
+        if (shape_count + collision_.shapes.size() == 0) {
             return;
         }
         json_.array("children");
-        for (std::size_t i = 0; i < own; ++i) {
+        for (std::size_t i = 0; i < shape_count; ++i) {
             json_.value(1 + i);
         }
         const std::size_t joints = motion_ != nullptr ? motion_->joint_count() : 0;
         for (std::size_t i = 0; i < collision_.shapes.size(); ++i) {
-            json_.value(1 + own + joints + i);
+            json_.value(1 + shape_count + joints + i);
         }
         json_.end();
     }

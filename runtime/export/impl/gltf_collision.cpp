@@ -70,14 +70,14 @@ void put_collision_views(JsonWriter& json, const GltfCollision& collision, std::
     if (collision.shapes.empty()) {
         return;
     }
-    constexpr int kVertices = 34962;
-    constexpr int kIndices = 34963;
+    constexpr int kArrayBuffer = 34962;
+    constexpr int kElementArrayBuffer = 34963;
     const std::uint64_t bytes = collision.position_bytes();
     json.object().member("buffer", 0).member("byteOffset", offset).member("byteLength", bytes);
     // Required where several accessors share a view of vertices.
-    json.member("byteStride", sizeof(glm::vec3)).member("target", kVertices).end();
+    json.member("byteStride", sizeof(glm::vec3)).member("target", kArrayBuffer).end();
     json.object().member("buffer", 0).member("byteOffset", offset + bytes);
-    json.member("byteLength", collision.index_bytes()).member("target", kIndices).end();
+    json.member("byteLength", collision.index_bytes()).member("target", kElementArrayBuffer).end();
 }
 
 void write_collision(const GltfCollision& collision, const GltfSink& write) {

@@ -43,7 +43,7 @@ struct GltfTextureTransform {
 /// The form of texture coordinates.
 struct GltfTextureForm {
     bool quantized = false;
-    unsigned bits = 0; // of a quantised coordinate; 0: no texture is read, and all are 0
+    unsigned bits = 0; // of a quantised coordinate; 0: no texture, and all coordinates are 0
     std::optional<GltfTextureTransform> transform; // none: coordinates are from 0 to 1
     glm::vec2 low{0.0F};                           // coordinates whose item is 0
     glm::vec2 extent{1.0F};

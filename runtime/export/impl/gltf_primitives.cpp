@@ -50,9 +50,9 @@ group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count
             continue;
         }
         const Material& material = mesh.materials[mesh.parts[i].material];
-        const bool own = has_vertex_colours(mesh, mesh.parts[i]);
+        const bool has_own_colours = has_vertex_colours(mesh, mesh.parts[i]);
         std::size_t group = groups.size();
-        if (!own && is_in_range(material.colour)) {
+        if (!has_own_colours && is_in_range(material.colour)) {
             for (group = 0; group < groups.size(); ++group) {
                 const MeshPart& first = mesh.parts[groups[group].front().part];
                 const Material& other = mesh.materials[first.material];
@@ -64,7 +64,7 @@ group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count
         }
         if (group == groups.size()) {
             groups.emplace_back();
-            coloured.push_back(own);
+            coloured.push_back(has_own_colours);
         }
         groups[group].push_back({i});
     }

@@ -366,8 +366,8 @@ void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, cons
 }
 
 void put_stream_view(JsonWriter& json, const GltfStream& stream) {
-    constexpr int kVertices = 34962;
-    constexpr int kIndices = 34963;
+    constexpr int kArrayBuffer = 34962;
+    constexpr int kElementArrayBuffer = 34963;
     const bool compressed = !stream.compressed.empty();
     const bool indices = stream.array == GltfArray::Indices;
     json.object().member("buffer", compressed ? 1 : 0);
@@ -377,7 +377,7 @@ void put_stream_view(JsonWriter& json, const GltfStream& stream) {
         json.member("byteStride", stream.type.stride);
     }
     if (stream.array <= GltfArray::Indices) {
-        json.member("target", indices ? kIndices : kVertices);
+        json.member("target", indices ? kElementArrayBuffer : kArrayBuffer);
     }
     if (compressed) {
         put_packed_view(json,

@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::uint64_t kAlignment = 64;
 constexpr std::uint64_t kHeaderBytes = 30; // of an entry, without name and padding
-constexpr std::uint64_t kListedBytes = 46; // of an entry of the central directory, without its name
-constexpr std::uint64_t kEndBytes = 22;    // of the end of central directory record
+constexpr std::uint64_t kDirectoryEntryBytes =
+    46;                                 // of an entry of the central directory, without its name
+constexpr std::uint64_t kEndBytes = 22; // of the end of central directory record
 constexpr std::uint64_t kExtraHeaderBytes = 4; // kind and size of an extra field
 constexpr std::uint16_t kPaddingKind = 0x1986; // as in OpenUSD's archives
 constexpr std::uint16_t kVersion = 10;         // of the format: 1.0, stored entries
@@ -74,7 +75,7 @@ bool StoredZip::holds(const std::vector<EntrySize>& sizes, std::uint64_t name_by
     std::uint64_t total = kEndBytes + 2 * name_bytes;
     for (const EntrySize& size : sizes) {
         constexpr std::uint64_t kMaxPadding = kAlignment + kExtraHeaderBytes;
-        total += kHeaderBytes + kListedBytes + kMaxPadding + size.bytes;
+        total += kHeaderBytes + kDirectoryEntryBytes + kMaxPadding + size.bytes;
     }
     return total < std::numeric_limits<std::uint32_t>::max() &&
            sizes.size() < std::numeric_limits<std::uint16_t>::max();

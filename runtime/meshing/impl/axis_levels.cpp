@@ -16,11 +16,11 @@ constexpr std::size_t kMaxLeftOut = 32;
 constexpr std::size_t kMaxLeftOutByError = 256;
 
 /// Whether the edge from joint `first` to joint `last` may replace the joints between.
-bool stands_for(const LargeVector<Joint>& joints,
-                std::size_t first,
-                std::size_t last,
-                float tolerance,
-                float error) {
+bool can_replace(const LargeVector<Joint>& joints,
+                 std::size_t first,
+                 std::size_t last,
+                 float tolerance,
+                 float error) {
     double whole = 0.0;
     for (std::size_t k = first; k < last; ++k) {
         whole += static_cast<double>(joints[k].length);
@@ -66,7 +66,7 @@ void leave_out_joints(LargeVector<Joint>& joints,
         scratch.push_back(joints[first]);
         std::size_t last = first + 1;
         while (last + 1 < joints.size() && last + 1 - first <= max_left_out &&
-               stands_for(joints, first, last + 1, tolerance, error)) {
+               can_replace(joints, first, last + 1, tolerance, error)) {
             ++last;
         }
         if (last > first + 1) {

@@ -242,7 +242,7 @@ private:
             for (std::size_t i = 0; i < here.size(); ++i) {
                 BoxSocket socket = sockets[i];
                 const glm::vec3 ahead = heading(skeleton_.segments[here[i]].frame);
-                socket.reach = way_out(joint.sides[side], side, {half, height}, ahead);
+                socket.reach = distance_to_side(joint.sides[side], side, {half, height}, ahead);
                 socket.continues =
                     here.size() == 1 && continues(joint.sides[side], side, half, here[i]);
                 assign_socket(here[i], socket);
@@ -257,10 +257,10 @@ private:
     };
 
     /// Distance from the middle of a joint to the plane of a side, along a direction.
-    static float way_out(const BoxSocket& side,
-                         std::size_t number,
-                         const JointSize& size,
-                         const glm::vec3& direction) {
+    static float distance_to_side(const BoxSocket& side,
+                                  std::size_t number,
+                                  const JointSize& size,
+                                  const glm::vec3& direction) {
         return (number == kTop ? size.height : size.half) / glm::dot(direction, side.normal);
     }
 
@@ -311,7 +311,7 @@ private:
                 (beside ? room.x : room.y) *= 0.5F;
             }
             const float fits = std::min({room.x / extent.x, room.y / extent.y, 1.0F});
-            const float out = way_out(side, number, size, on);
+            const float out = distance_to_side(side, number, size, on);
             // The opening of an unsmoothed box is centred on the axis of its segment.
             const glm::vec2 centre(out * std::abs(glm::dot(on, side.right)),
                                    out * std::abs(glm::dot(on, side.up)));
@@ -362,7 +362,7 @@ private:
     std::vector<bool> closed_; // no side of the parent's joint has room
     std::vector<std::uint32_t> first_child_;
     std::vector<std::uint32_t> children_;
-    std::vector<std::uint32_t> socket_of_; // in sockets_
+    std::vector<std::uint32_t> socket_of_; // by segment: index in sockets_
     std::vector<BoxSocket> sockets_;
     BoxWriter writer_;
 };

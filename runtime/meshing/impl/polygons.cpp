@@ -185,7 +185,8 @@ void write(const Job& job, const Piece& piece, std::uint16_t palette, const Mesh
 
 constexpr unsigned kPictureShift = 16;
 
-/// Number of the picture, from 1, and the colour, in the order of parts.
+/// Key of the part of a polygon; parts are sorted by it. Upper bits: index of the picture + 1, 0 for
+/// none. Lower 16 bits: colour, leaf green for a polygon with a picture.
 std::uint64_t key_of(const Polygon& polygon, const std::vector<UserMesh>& user_meshes) {
     if (polygon.picture < user_meshes.size() && user_meshes[polygon.picture].picture != nullptr) {
         return std::uint64_t{polygon.picture + 1U} << kPictureShift | 1U; // leaf green

@@ -28,16 +28,17 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
     std::vector<double> areas(count, 0.0);   // outline of a segment and all its descendants
     std::vector<double> reaches(count, 0.0); // of the longest path through a child
-    std::vector<std::uint32_t> heirs(count, kNoSegment); // the child that continues the path
+    std::vector<std::uint32_t> path_children(count,
+                                             kNoSegment); // the child that continues the path
     for (std::size_t i = count; i-- > 0;) {
         const Segment& segment = skeleton.segments[i];
         areas[i] += outline_area(segment);
         const double reach = reaches[i] + static_cast<double>(segment.length);
         if (segment.parent < i) {
             areas[segment.parent] += areas[i];
-            if (heirs[segment.parent] == kNoSegment || reach >= reaches[segment.parent]) {
+            if (path_children[segment.parent] == kNoSegment || reach >= reaches[segment.parent]) {
                 reaches[segment.parent] = reach;
-                heirs[segment.parent] = static_cast<std::uint32_t>(i);
+                path_children[segment.parent] = static_cast<std::uint32_t>(i);
             }
         }
     }
@@ -51,7 +52,7 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     order.path_ranks.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t parent = skeleton.segments[i].parent;
-        if (parent < i && heirs[parent] == i) {
+        if (parent < i && path_children[parent] == i) {
             order.path_ranks[i] = order.path_ranks[parent];
             continue;
         }
@@ -220,8 +221,8 @@ std::vector<float> growth_of(const Skeleton& skeleton,
                              std::uint64_t kept,
                              std::span<const FoliageShape> fine,
                              std::span<const FoliageShape> coarse) {
-    std::vector<double> all(order.groups.size(), 0.0);
-    std::vector<double> left(order.groups.size(), 0.0);
+    std::vector<double> total_area(order.groups.size(), 0.0);
+    std::vector<double> kept_area(order.groups.size(), 0.0);
     for (std::size_t rank = 0; rank < order.foliage.size(); ++rank) {
         const std::uint32_t item = order.foliage[rank];
         const std::uint32_t group = order.group_of[item];
@@ -237,20 +238,21 @@ std::vector<float> growth_of(const Skeleton& skeleton,
             area = size * size * fine[group].area;
             coarse_area = size * size * coarse[group].area;
         }
-        all[group] += area;
-        left[group] += rank < kept ? coarse_area : 0.0;
+        total_area[group] += area;
+        kept_area[group] += rank < kept ? coarse_area : 0.0;
     }
     // Groups of which no item stays give their area to all other groups.
-    const double sum = std::accumulate(all.begin(), all.end(), 0.0);
+    const double sum_of_areas = std::accumulate(total_area.begin(), total_area.end(), 0.0);
     double represented = 0.0;
-    for (std::size_t group = 0; group < all.size(); ++group) {
-        represented += left[group] > 0.0 ? all[group] : 0.0;
+    for (std::size_t group = 0; group < total_area.size(); ++group) {
+        represented += kept_area[group] > 0.0 ? total_area[group] : 0.0;
     }
-    const double share = represented > 0.0 ? sum / represented : 1.0;
+    const double share = represented > 0.0 ? sum_of_areas / represented : 1.0;
     std::vector<float> factors(order.groups.size(), 1.0F);
-    for (std::size_t group = 0; group < all.size(); ++group) {
-        if (left[group] > 0.0) {
-            factors[group] = static_cast<float>(std::sqrt(share * all[group] / left[group]));
+    for (std::size_t group = 0; group < total_area.size(); ++group) {
+        if (kept_area[group] > 0.0) {
+            factors[group] =
+                static_cast<float>(std::sqrt(share * total_area[group] / kept_area[group]));
         }
     }
     return factors;

@@ -24,7 +24,7 @@ constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
 // Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
 // for a reversal, whose bisector is 90 degrees away.
-constexpr float kThird = 0.57735F;
+constexpr float kOuterBisectorWeight = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // cosine of a bend
 // Number of grooves of a tube: the sides of its rings at level 0 over kSidesOfGroove, within
 // bounds.
@@ -253,7 +253,7 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
     // Turn of the first tangent from the edge before, and of the last one from the edge behind: a
     // quarter of the bend, or with three rings about a sixth.
-    const float share = joint.rings == 2 ? 1.0F : kThird;
+    const float share = joint.rings == 2 ? 1.0F : kOuterBisectorWeight;
     const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
     const float part_cosine = (1.0F + share * half_cosine) * whole;
     const float part_sine = share * half_sine * whole;

@@ -41,7 +41,7 @@ constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}
 
 constexpr std::uint32_t kRowBits = 0xFFFF; // of the number of a cell
 constexpr std::size_t kViews = kTurns.size() * kTilts.size();
-constexpr std::size_t kThird = 3; // step of views: these are level and from above by turns, too
+constexpr std::size_t kViewStep = 3; // step of views: these are level and from above by turns, too
 
 /// A part of a mesh, prepared for drawing.
 struct Surface {
@@ -218,7 +218,7 @@ VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, VisibleAr
     const std::vector<VisibleAreas> each = measure_views(wood, foliage, kViews, 1);
     if (third != nullptr) {
         *third = {};
-        for (std::size_t i = 0; i < each.size(); i += kThird) {
+        for (std::size_t i = 0; i < each.size(); i += kViewStep) {
             third->add(each[i]);
         }
     }
@@ -226,7 +226,7 @@ VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, VisibleAr
 }
 
 VisibleAreas AreaMeter::measure_third(const Mesh& wood, const Mesh& foliage) {
-    return sum_of(measure_views(wood, foliage, kViews / kThird, kThird));
+    return sum_of(measure_views(wood, foliage, kViews / kViewStep, kViewStep));
 }
 
 std::vector<VisibleAreas> AreaMeter::measure_views(const Mesh& wood,

@@ -221,9 +221,9 @@ void eliminate(const BodyForms& own,
     const glm::dvec3& bend = motion.bend;
     Symmetric inertia = own.spin_spin;
     inertia.add_diagonal(kMinInertia * std::max(inertia.trace(), 0.0));
-    Symmetric joint;
-    joint.add_diagonal(h * forces.damping + hooke);
-    Rows twist; // the joint's coupling is joint + twist
+    Symmetric joint_matrix; // damping and stiffness of the joint
+    joint_matrix.add_diagonal(h * forces.damping + hooke);
+    Rows twist; // joint_matrix + twist couples the spins of the parent and the body
     if (forces.exactness > 0.0) {
         // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
         // directions normal to the bend, with x = |bend| / 2. The twist comes from
@@ -233,36 +233,36 @@ void eliminate(const BodyForms& own,
             half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
         const double more =
             half > 1e-3 ? (1.0 - normal_stiffness) / (4.0 * half * half) : 1.0 / 12.0;
-        joint += scaled(point_inertia(-more, bend), forces.exactness * hooke);
+        joint_matrix += scaled(point_inertia(-more, bend), forces.exactness * hooke);
         twist = cross_rows(0.5 * forces.exactness * hooke * bend);
     }
     Symmetric sum = inertia;
-    sum += joint;
+    sum += joint_matrix;
     if (forces.exactness > 0.0 && !is_positive(sum)) {
         const Symmetric lift = lift_to_positive(sum);
         inertia += lift;
         sum += lift;
     }
     if (!(sum.trace() > 0.0)) { // no inertia, spring or force: the body moves with its parent
-        joint.add_diagonal(1.0);
+        joint_matrix.add_diagonal(1.0);
         sum.add_diagonal(1.0);
     }
     const Symmetric inverse_sum = inverse(sum);
     const glm::dvec3 torque = h * body.spring * bend;
     const glm::dvec3 known = own.spin - torque;
     const Rows from_velocity = product(inverse_sum, own.spin_velocity);
-    Rows from_parent = product(inverse_sum, rows_of(joint));
+    Rows from_parent = product(inverse_sum, rows_of(joint_matrix));
 
-    // joint - joint (inertia + joint)^-1 joint = joint (inertia + joint)^-1 inertia: the right side
+    // With J = joint_matrix and I = inertia: J - J (I + J)^-1 J = J (I + J)^-1 I, and the right side
     // has no cancellation.
     reduced.spin_spin = symmetric_product(from_parent, rows_of(inertia));
-    const glm::dvec3 bent = inverse_sum * torque;
-    reduced.spin = inertia * bent;
+    const glm::dvec3 spring_spin = inverse_sum * torque;
+    reduced.spin = inertia * spring_spin;
     if (forces.exactness > 0.0) {
         const Rows twisted = product(inverse_sum, twist);
         reduced.spin_spin += scaled(symmetric_product(from_parent, twist), -2.0);
         reduced.spin_spin += scaled(symmetric_product(twisted, twist), -1.0);
-        reduced.spin += twist * bent;
+        reduced.spin += twist * spring_spin;
         for (std::size_t i = 0; i < 3; ++i) {
             from_parent.row[i] += twisted.row[i];
         }

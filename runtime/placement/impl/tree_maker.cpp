@@ -72,7 +72,7 @@ Tree TreeMaker::make_appearance(std::uint32_t number,
     tree.number = number;
     tree.species = species;
     if (kind.stages > 1) {
-        constexpr auto kYears = static_cast<std::uint64_t>(kYearsOfFreeStage);
+        constexpr auto kYears = static_cast<std::uint64_t>(kYearsPerStage);
         const std::uint64_t last = kind.stages - 1;
         const std::uint64_t stage = std::min<std::uint64_t>(
             start_of(number, species) + std::uint64_t{options_.stages_passed}, last);

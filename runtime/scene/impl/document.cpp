@@ -139,7 +139,7 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
         value.real = node.as_floating_point()->get();
         break;
     case toml::node_type::boolean:
-        value.kind = SceneValueKind::Truth;
+        value.kind = SceneValueKind::Boolean;
         break;
     default:
         value.kind = SceneValueKind::Date;
@@ -149,14 +149,14 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
 }
 
 /// A message of toml++, "Error while parsing WHAT: REASON", with its 'x' written as `x`.
-struct Complaint {
+struct TomlMessage {
     std::string what; // a string, a key-value pair; may be empty
     std::string reason;
 };
 
-Complaint complaint_of(std::string_view description) {
+TomlMessage complaint_of(std::string_view description) {
     constexpr std::string_view kPrefix = "Error while parsing ";
-    Complaint complaint;
+    TomlMessage complaint;
     if (description.starts_with(kPrefix)) {
         const std::size_t colon = description.find(": ");
         if (colon != std::string_view::npos) {
@@ -173,7 +173,7 @@ Complaint complaint_of(std::string_view description) {
 }
 
 void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& diagnostics) {
-    const Complaint complaint = complaint_of(error.description());
+    const TomlMessage complaint = complaint_of(error.description());
     const bool at_end = complaint.reason == "encountered end-of-file";
     const std::string article =
         complaint.what.find_first_of("aeiou") == 0 ? std::string("an ") : std::string("a ");
@@ -278,7 +278,7 @@ std::string_view kind_text(SceneValueKind kind) {
         return "a whole number";
     case SceneValueKind::Real:
         return "a number with a fraction";
-    case SceneValueKind::Truth:
+    case SceneValueKind::Boolean:
         return "a truth value";
     case SceneValueKind::Date:
         return "a date or time";

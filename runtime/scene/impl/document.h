@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-enum class SceneValueKind : std::uint8_t { Table, List, Text, Integer, Real, Truth, Date };
+enum class SceneValueKind : std::uint8_t { Table, List, Text, Integer, Real, Boolean, Date };
 
 struct SceneEntry;
 

@@ -40,7 +40,7 @@ float float_of(double value) {
 struct SpeciesReader {
     TableReader reader;
     SceneSpecies& species;
-    PlacementSpecies& placed;
+    PlacementSpecies& placement;
 
     float number(std::string_view key, const NumberRange& range, float fallback) {
         const std::optional<double> value = reader.number(key, range);
@@ -215,17 +215,18 @@ void read_cache(SpeciesReader& from) {
                             from.reader.has("cache_cap")};
 }
 
-void read_place(SpeciesReader& from) {
-    PlacementSpecies& placed = from.placed;
-    placed.share = from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placed.share);
+void read_placement(SpeciesReader& from) {
+    PlacementSpecies& placement = from.placement;
+    placement.share =
+        from.reader.number("share", {0.0, 1.0e9, false, {}}).value_or(placement.share);
     if (const auto scale = from.reader.ordered_pair("scale", {1.0e-3, 1000.0, false, {}})) {
-        placed.min_scale = float_of((*scale)[0]);
-        placed.max_scale = float_of((*scale)[1]);
+        placement.min_scale = float_of((*scale)[0]);
+        placement.max_scale = float_of((*scale)[1]);
     }
     // The range of `#set height`, wider than any plant needs.
     if (const auto height = from.reader.ordered_pair("height", {1.0e-6, 1.0e6, false, "m"})) {
-        placed.min_height = float_of((*height)[0]);
-        placed.max_height = float_of((*height)[1]);
+        placement.min_height = float_of((*height)[0]);
+        placement.max_height = float_of((*height)[1]);
         from.species.height_span = from.reader.span_of("height");
     }
     if (from.reader.has("height")) {
@@ -234,17 +235,17 @@ void read_place(SpeciesReader& from) {
     }
     if (const auto altitude =
             from.reader.ordered_pair("altitude", {-kUnbounded, kUnbounded, false, "m"})) {
-        placed.lowest = float_of((*altitude)[0]);
-        placed.highest = float_of((*altitude)[1]);
+        placement.lowest = float_of((*altitude)[0]);
+        placement.highest = float_of((*altitude)[1]);
     }
     if (const auto slope = from.reader.number("slope", {0.0, 90.0, false, "degrees"});
         slope && *slope < 90.0) {
-        placed.steepest = float_of(std::tan(*slope * (std::numbers::pi / 180.0)));
+        placement.steepest = float_of(std::tan(*slope * (std::numbers::pi / 180.0)));
     }
 }
 
-void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics& diagnostics) {
-    SpeciesGrowth& growth = placed.growth;
+void read_growth(const SceneValue* table, PlacementSpecies& placement, Diagnostics& diagnostics) {
+    SpeciesGrowth& growth = placement.growth;
     TableReader reader(table, "[species.growth]", diagnostics);
     const auto number = [&](std::string_view key, const NumberRange& range, float& value) {
         if (const auto found = reader.number(key, range)) {
@@ -274,15 +275,15 @@ void read_growth(const SceneValue* table, PlacementSpecies& placed, Diagnostics&
 
 void read_one_species(const SceneValue& table, Scene& scene, Diagnostics& diagnostics) {
     SceneSpecies& species = scene.species.emplace_back();
-    PlacementSpecies& placed = scene.placement.species.emplace_back();
-    SpeciesReader from{TableReader(&table, "[[species]]", diagnostics), species, placed};
+    PlacementSpecies& placement = scene.placement.species.emplace_back();
+    SpeciesReader from{TableReader(&table, "[[species]]", diagnostics), species, placement};
     species.span = table.span;
     const bool has_ages = scene.placement.method == PlacementMethod::Domination;
     read_grammar(from);
     read_stages(from, has_ages);
     read_cache(from);
-    read_place(from);
-    read_growth(from.reader.table("growth"), placed, diagnostics);
+    read_placement(from);
+    read_growth(from.reader.table("growth"), placement, diagnostics);
     if (!has_ages) {
         from.reader.report_conflicting_key("growth",
                                            "plants grow with the method `domination` alone", {});

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kHalfDegree = std::numbers::pi / 360.0;
 
-constexpr bool fits_walk(TurtleOperation operation) {
+constexpr bool is_consistent(TurtleOperation operation) {
     const TurtleInfo& row = info(operation);
     return (row.quick != QuickAction::Forward || row.drawn == Drawn::Segment) &&
            (row.quick != QuickAction::Nothing || row.drawn == Drawn::Nothing) &&
            (!row.has(TurtleInfo::Inverse) || turns(operation)) &&
            (!row.has(TurtleInfo::HasNoLength) || row.drawn == Drawn::Object);
 }
-static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), fits_walk),
+static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_consistent),
               "a row of turtle_operations.def contradicts itself");
 
 /// The quick action of the operation; None for a turn whose angle is not constant.

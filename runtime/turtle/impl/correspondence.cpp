@@ -125,19 +125,20 @@ std::vector<SegmentPiece> find_pieces(const Followed& followed) {
     const ByModule old_items = followed.old_items(before.segment_origins);
     const ByModule new_items = followed.new_items(after.segment_origins);
     for (std::size_t module = 0; module < followed.modules; ++module) {
-        const std::span<const std::uint32_t> olds = old_items.of(module);
-        const std::span<const std::uint32_t> news = new_items.of(module);
-        if (olds.empty() || news.empty()) {
+        const std::span<const std::uint32_t> old_segments = old_items.of(module);
+        const std::span<const std::uint32_t> new_segments = new_items.of(module);
+        if (old_segments.empty() || new_segments.empty()) {
             continue;
         }
-        if (followed.is_copy(news.front()) || are_alike(olds, news, before, after)) {
-            for (std::size_t i = 0; i < std::min(olds.size(), news.size()); ++i) {
-                pieces[news[i]].of = olds[i];
+        if (followed.is_copy(new_segments.front()) ||
+            are_alike(old_segments, new_segments, before, after)) {
+            for (std::size_t i = 0; i < std::min(old_segments.size(), new_segments.size()); ++i) {
+                pieces[new_segments[i]].of = old_segments[i];
             }
             continue;
         }
-        const std::vector<std::uint32_t> old_axis = axis_of(olds, before);
-        const std::vector<std::uint32_t> new_axis = axis_of(news, after);
+        const std::vector<std::uint32_t> old_axis = axis_of(old_segments, before);
+        const std::vector<std::uint32_t> new_axis = axis_of(new_segments, after);
         if (old_axis.size() == 1) {
             divide(old_axis.front(), new_axis, after, pieces);
             continue;
@@ -160,15 +161,15 @@ std::vector<std::uint32_t> find_pairs(const Followed& followed,
     const ByModule old_items = followed.old_items(old_origins);
     const ByModule new_items = followed.new_items(new_origins);
     for (std::size_t module = 0; module < followed.modules; ++module) {
-        const std::span<const std::uint32_t> olds = old_items.of(module);
+        const std::span<const std::uint32_t> old_items_of_module = old_items.of(module);
         std::size_t next = 0;
         for (const std::uint32_t item : new_items.of(module)) {
             std::size_t found = next;
-            while (found < olds.size() && !fits(olds[found], item)) {
+            while (found < old_items_of_module.size() && !fits(old_items_of_module[found], item)) {
                 ++found;
             }
-            if (found < olds.size()) {
-                pairs[item] = olds[found];
+            if (found < old_items_of_module.size()) {
+                pairs[item] = old_items_of_module[found];
                 next = found + 1;
             }
         }

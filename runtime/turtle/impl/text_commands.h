@@ -1,4 +1,4 @@
-// Numbers in words that are texts (L3D).
+// Numbers in words of L3D, whose parameters are characters in parentheses.
 #pragma once
 
 #include <string_view>

@@ -11,7 +11,7 @@ SIZE = 128
 CELLS = 8  # stones along a side
 
 
-def draw(i, j, salt):
+def random_unit(i, j, salt):
     """A number in [0, 1)."""
     key = struct.pack("<iii", i, j, salt)
     return int.from_bytes(hashlib.blake2b(key, digest_size=4).digest(), "little") / 2**32
@@ -24,9 +24,9 @@ def stone_at(x, y):
     for j in range(int(v) - 1, int(v) + 2):
         for i in range(int(u) - 1, int(u) + 2):
             cell = (i % CELLS, j % CELLS)
-            dx = u - (i + 0.2 + 0.6 * draw(*cell, 1))
-            dy = v - (j + 0.2 + 0.6 * draw(*cell, 2))
-            radius = 0.25 + 0.35 * draw(*cell, 3)
+            dx = u - (i + 0.2 + 0.6 * random_unit(*cell, 1))
+            dy = v - (j + 0.2 + 0.6 * random_unit(*cell, 2))
+            radius = 0.25 + 0.35 * random_unit(*cell, 3)
             rise = 1 - (dx * dx + dy * dy) / (radius * radius)
             if rise > 0:
                 best = max(best, (radius * rise**0.5, (j % CELLS) * CELLS + i % CELLS))
@@ -34,16 +34,16 @@ def stone_at(x, y):
 
 
 def grain(x, y, salt):
-    return draw(x % SIZE * SIZE + y % SIZE, 0, salt)
+    return random_unit(x % SIZE * SIZE + y % SIZE, 0, salt)
 
 
-def stones(x, y):
+def colour_at(x, y):
     height, stone = HEIGHTS[y % SIZE][x % SIZE]
     if height == 0:
         shade = 0.75 + 0.5 * grain(x, y, 7)
         return tuple(round(shade * c) for c in (58, 74, 30))
-    grey = 78 + 56 * draw(stone, 0, 5) + 18 * (grain(x, y, 8) - 0.5)
-    warm = 14 * draw(stone, 1, 6)
+    grey = 78 + 56 * random_unit(stone, 0, 5) + 18 * (grain(x, y, 8) - 0.5)
+    warm = 14 * random_unit(stone, 1, 6)
     shade = 0.72 + 0.5 * height
     return tuple(min(255, round(shade * c)) for c in (grey + warm, grey + 0.4 * warm, grey - warm))
 
@@ -89,6 +89,6 @@ def write(name, size, texel):
 
 
 HEIGHTS = [[stone_at(x, y) for x in range(SIZE)] for y in range(SIZE)]
-write("stones.png", SIZE, stones)
+write("stones.png", SIZE, colour_at)
 write("stones-normals.png", SIZE, normals)
 write("blade.png", 64, blade)

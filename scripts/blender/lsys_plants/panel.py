@@ -47,22 +47,22 @@ def preferences():
 pending = set()  # names of collections with changes that wait for the timer
 
 
-class Silence:
+class PausedUpdates:
     """A `with` in which changes of settings do not update plants."""
 
     depth = 0
 
     def __enter__(self):
-        Silence.depth += 1
+        PausedUpdates.depth += 1
 
     def __exit__(self, *_):
-        Silence.depth -= 1
+        PausedUpdates.depth -= 1
 
 
 def changed(self, context):
     """Updates the plant: at once in background mode, else when no value has changed for DELAY seconds."""
     collection = self.id_data
-    if Silence.depth > 0 or not collection.lsys.is_live or collection.lsys.kind == "NONE":
+    if PausedUpdates.depth > 0 or not collection.lsys.is_live or collection.lsys.kind == "NONE":
         return
     if bpy.app.background:
         try:
@@ -91,7 +91,7 @@ def run_pending():
 
 def file_changed(self, context):
     collection = self.id_data
-    if Silence.depth > 0 or self.kind == "NONE":
+    if PausedUpdates.depth > 0 or self.kind == "NONE":
         return
     try:
         read_file(collection, keep=False)
@@ -166,7 +166,7 @@ def read_file(collection, keep):
         return
     told = compiler.read_parameters(lsc, path, seconds)
     values = {p.name: p.value for p in settings.parameters if p.value != p.default} if keep else {}
-    with Silence():
+    with PausedUpdates():
         settings.parameters.clear()
         for one in told["parameters"]:
             if "value" not in one:
@@ -228,7 +228,7 @@ def update(collection):
     if settings.is_scene and not settings.has_key and str(extras.get("key", "")).isdigit():
         key = int(extras["key"])
         if key <= MAX_INT:
-            with Silence():
+            with PausedUpdates():
                 settings.seed = key
                 settings.has_key = True
     return messages
@@ -274,7 +274,7 @@ class Creator(Runner, ImportHelper):
             context.scene.collection.children.link(collection)
             settings = collection.lsys
             try:
-                with Silence():
+                with PausedUpdates():
                     settings.kind = self.kind
                     settings.file = self.filepath
                 read_file(collection, keep=False)
@@ -379,7 +379,7 @@ class ResetValues(Runner, bpy.types.Operator):
             self.report({"ERROR"}, "no plant or forest of lsc is active")
             return {"CANCELLED"}
         settings = collection.lsys
-        with Silence():
+        with PausedUpdates():
             for parameter in settings.parameters:
                 parameter.value = parameter.default
         return self.attempt(lambda: update(collection))

@@ -18,7 +18,7 @@ public:
         std::size_t target = 0;
         std::size_t next = 0;
         bool changed = false;
-        bool beside_word = false; // the changed field is beside the word: it does not affect it
+        bool beside_word = false; // the changed field does not affect derived words
     };
 
     Change(Progress& progress, bool beside) : progress_(progress), beside_(beside) {}
@@ -31,7 +31,7 @@ public:
             value ^= 1;
         }
     }
-    void rare_number(std::uint32_t& value) { number(value); }
+    void number_or_none(std::uint32_t& value) { number(value); }
     void real(float& value) {
         if (is_target()) {
             value += 1.0F;
@@ -74,7 +74,7 @@ public:
         }
     }
     template <typename Row, typename Function>
-    void rare_table(std::vector<Row>& rows, Function row) {
+    void table_or_none(std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
     void codes(std::vector<Code>& codes, std::uint32_t /*width*/) {

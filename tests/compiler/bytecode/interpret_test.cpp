@@ -28,11 +28,11 @@ struct Formulas : UnknownDomain<std::string> {
     static std::string binary(Opcode opcode, const std::string& x, const std::string& y) {
         return "(" + x + " " + std::string(info(opcode).mnemonic) + " " + y + ")";
     }
-    static bool draw(Opcode /*opcode*/,
-                     std::string& x,
-                     const std::string& y,
-                     std::uint32_t index,
-                     const std::uint32_t* at) {
+    static bool random_draw(Opcode /*opcode*/,
+                            std::string& x,
+                            const std::string& y,
+                            std::uint32_t index,
+                            const std::uint32_t* at) {
         x = "{" + x + ", " + y + "}" + std::to_string(index);
         return opcode_of(*at) == Opcode::Range && index < 7;
     }

@@ -254,10 +254,10 @@ TEST_CASE("the largest fitting generation is found with the production that grow
     CHECK(limit->dominant == ProductionId{0});
 
     CHECK(!find_growth_limit(koch(), 13, std::uint64_t{1} << 32));
-    const std::optional<GrowthLimit> heavy = find_growth_limit(weed(), 30, 1'000'000);
-    REQUIRE(heavy);
-    CHECK(heavy->largest_fitting == 8);
-    CHECK(heavy->dominant == ProductionId{0}); // X: 18 modules each
+    const std::optional<GrowthLimit> weed_limit = find_growth_limit(weed(), 30, 1'000'000);
+    REQUIRE(weed_limit);
+    CHECK(weed_limit->largest_fitting == 8);
+    CHECK(weed_limit->dominant == ProductionId{0}); // X: 18 modules each
     const std::optional<GrowthLimit> axiom = find_growth_limit(ternary(), 3, 3);
     REQUIRE(axiom);
     CHECK(axiom->largest_fitting == 0);

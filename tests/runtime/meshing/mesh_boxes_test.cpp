@@ -311,7 +311,7 @@ TEST_CASE("a tree whose branches fit is one surface") {
     const Mesh smooth = meshed(plant.skeleton, boxes(2));
     const double volume = measure(plant.skeleton).volume;
     CHECK(test::volume_of(smooth) == Approx(volume).epsilon(0.15));
-    CHECK(test::triangles_turned_over(smooth) < smooth.indices.size() / 100);
+    CHECK(test::corners_turned_over(smooth) < smooth.indices.size() / 100);
     const Bounds box = test::bounds_of(smooth);
     CHECK(box.low.y == Approx(0.0).margin(0.03));
 }
@@ -331,7 +331,7 @@ TEST_CASE("a smoothed stem is round, of its radius and length") {
     const Bounds box = test::bounds_of(mesh);
     CHECK(box.low.y == Approx(0.0F).margin(0.05));
     CHECK(box.high.y == Approx(5.0F).margin(0.05));
-    CHECK(test::triangles_turned_over(mesh) == 0);
+    CHECK(test::corners_turned_over(mesh) == 0);
     // u goes from 0 to 1 and back around the stem; v rises along the stem.
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         CHECK(mesh.texture_coordinates[i].x >= 0.0F);
@@ -543,7 +543,7 @@ TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its r
     const Mesh grooved = meshed(plant.skeleton, options);
     REQUIRE(grooved.positions.size() == plain.positions.size());
     CHECK(test::topology_by_index(grooved).open_edges == 0);
-    CHECK(test::triangles_turned_over(grooved) < grooved.indices.size() / 300);
+    CHECK(test::corners_turned_over(grooved) < grooved.indices.size() / 300);
     float least = 1.0F;
     float most = 0.0F;
     for (std::size_t i = 0; i < plain.positions.size(); ++i) {

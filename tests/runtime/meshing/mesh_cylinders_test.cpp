@@ -18,7 +18,7 @@ Mesh meshed(const Skeleton& skeleton, const MeshOptions& options = {}) {
     append_cylinders(skeleton, options, builder);
     REQUIRE(builder.finish() == std::nullopt);
     test::check_mesh(mesh, options);
-    CHECK(test::triangles_turned_over(mesh) == 0);
+    CHECK(test::corners_turned_over(mesh) == 0);
     return mesh;
 }
 

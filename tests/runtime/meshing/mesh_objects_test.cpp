@@ -79,14 +79,14 @@ TEST_CASE("an object is moved, turned and scaled") {
     CHECK(glm::distance(bounds.low, glm::vec3(10, 19, 29)) < 1e-5F);
     CHECK(glm::distance(bounds.high, glm::vec3(12, 21, 31)) < 1e-5F);
     CHECK(test::volume_of(mesh) == Approx(8.0 * 0.2618).epsilon(0.06));
-    CHECK(test::triangles_turned_over(mesh) == 0);
+    CHECK(test::corners_turned_over(mesh) == 0);
 }
 
 TEST_CASE("a negative size mirrors an object and keeps its outside out") {
     const Mesh mesh = meshed(one({.kind = TurtleOperation::Cone, .size = -1.0F}));
     CHECK(test::bounds_of(mesh).low.y == -1.0F);
     CHECK(test::volume_of(mesh) > 0.2);
-    CHECK(test::triangles_turned_over(mesh) == 0);
+    CHECK(test::corners_turned_over(mesh) == 0);
     CHECK(meshed(one({.kind = TurtleOperation::Cone, .size = 0.0F})).positions.empty());
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("leaves droop to the ground, whatever their frame, and are not stretch
             MeshOptions options;
             options.droop = droop;
             const Mesh mesh = meshed(one({.kind = TurtleOperation::Leaf, .frame = frame}), options);
-            CHECK(test::triangles_turned_over(mesh) == 0);
+            CHECK(test::corners_turned_over(mesh) == 0);
             CHECK(test::area_of(mesh) == Approx(test::area_of(straight)).epsilon(0.12));
             float lowest = 0.0F;
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -251,7 +251,7 @@ TEST_CASE("the polygon of a turtle lies in its plane and faces its up") {
         skeleton.polygons[0].frame = frame;
         const Mesh mesh = meshed(skeleton);
         CHECK(test::area_of(mesh) == Approx(std::abs(shoelace(flat))).epsilon(1e-5));
-        CHECK(test::triangles_turned_over(mesh) == 0);
+        CHECK(test::corners_turned_over(mesh) == 0);
         for (const glm::vec3& n : mesh.normals) {
             CHECK(glm::distance(n, frame * glm::vec3(0, 0, 1)) < 1e-4F);
         }

@@ -61,7 +61,7 @@ TEST_CASE("objects of all levels are whole meshes that use their vertices") {
             const Mesh mesh = mesh_of(shape);
             REQUIRE_FALSE(mesh.indices.empty());
             test::check_mesh(mesh, {});
-            CHECK(test::triangles_turned_over(mesh) == 0);
+            CHECK(test::corners_turned_over(mesh) == 0);
             std::vector<bool> used(mesh.positions.size());
             for (const std::uint32_t index : mesh.indices.expanded()) {
                 used[index] = true;

@@ -1,4 +1,4 @@
-// The physics of plants at its limits: arbitrary numbers, numbers of threads and depths.
+// Edge cases of the physics of plants: arbitrary option values, thread counts, deep branching.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"
 

@@ -141,7 +141,7 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
     const GreyMap map = sloped_map(16, 16);
     const Terrain ground = flat_ground();
     constexpr std::uint32_t kStages = 5;
-    constexpr std::array<double, 2> kYears{static_cast<double>(kYearsOfFreeStage), 20.0};
+    constexpr std::array<double, 2> kYears{static_cast<double>(kYearsPerStage), 20.0};
     for (const PlacementMethod method : kAllMethods) {
         CAPTURE(static_cast<int>(method));
         const bool dominates = method == PlacementMethod::Domination;

@@ -357,7 +357,7 @@ TEST_CASE("stages say where plants start, with every method") {
     Scene scene = scene_of(species);
     CHECK(scene.placement.species[0].stages == 3);
     CHECK(scene.placement.species[0].start == lsys::StageStart::Random);
-    CHECK(lsys::years_of_stage(scene, 0) == lsys::kYearsOfFreeStage);
+    CHECK(lsys::years_of_stage(scene, 0) == lsys::kYearsPerStage);
     CHECK(lsys::last_year(scene) == 2);
     scene = scene_of(species + "starting_stage = \"first\"\n");
     CHECK(scene.placement.species[0].start == lsys::StageStart::First);
@@ -454,11 +454,12 @@ TEST_CASE("values out of range are named with their range") {
          "stages rise: 3 does not come after 3"},
     };
     for (const auto& [text, message] : cases) {
-        const Parsed all = parsed(with_species(text));
-        INFO(text << "\n" << all.messages);
-        CHECK(all.messages.empty() == message.empty());
-        CHECK(all.messages.find(message) != std::string::npos);
-        CHECK((message.empty() || all.messages.find("[bad-scene-value]\n") != std::string::npos));
+        const Parsed result = parsed(with_species(text));
+        INFO(text << "\n" << result.messages);
+        CHECK(result.messages.empty() == message.empty());
+        CHECK(result.messages.find(message) != std::string::npos);
+        CHECK(
+            (message.empty() || result.messages.find("[bad-scene-value]\n") != std::string::npos));
     }
     CHECK(parsed("[[species]]\ngrammar = \"a\"\nshare = 0\n").messages ==
           "3:9-10: the shares of all species are 0, so no tree can be of any "

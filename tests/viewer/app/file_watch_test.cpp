@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Collects the reports of a watch.
-class Told {
+class ReportLog {
 public:
     void add(const std::vector<std::string>& files) {
         const std::lock_guard lock(mutex_);
@@ -29,11 +29,11 @@ public:
     /// Waits for a report of `file` and removes it; returns false after a long time.
     bool waits_for(const std::string& file) {
         std::unique_lock lock(mutex_);
-        const bool told = changed_.wait_for(lock, 10s, [&] {
+        const bool is_reported = changed_.wait_for(lock, 10s, [&] {
             return std::find(files_.begin(), files_.end(), file) != files_.end();
         });
         files_.clear();
-        return told;
+        return is_reported;
     }
     int times() {
         const std::lock_guard lock(mutex_);
@@ -51,9 +51,9 @@ struct Watching {
     explicit Watching(const FileWatch::Options& options)
         : watch(options,
                 [this](const std::vector<std::string>& files, FileWatch::Clock::time_point) {
-                    told.add(files);
+                    reports.add(files);
                 }) {}
-    Told told;
+    ReportLog reports;
     FileWatch watch;
 };
 
@@ -88,18 +88,18 @@ TEST_CASE("a file that is written, replaced, removed or made is told") {
     watching.watch.watch({file, other});
     settle();
     write_text(file, "written");
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     write_text(folder / "plant.lsys~", "renamed");
     std::filesystem::rename(folder / "plant.lsys~", file);
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     write_text(file, "written again");
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     std::filesystem::remove(file);
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     write_text(file, "back");
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     write_text(other, "new");
-    CHECK(watching.told.waits_for(other));
+    CHECK(watching.reports.waits_for(other));
 }
 
 TEST_CASE("a link is watched where it leads") {
@@ -113,7 +113,7 @@ TEST_CASE("a link is watched where it leads") {
     watching.watch.watch({link});
     settle();
     write_text(real, "two");
-    CHECK(watching.told.waits_for(link));
+    CHECK(watching.reports.waits_for(link));
 }
 
 TEST_CASE("what follows at once is one change, and other files are none") {
@@ -129,8 +129,8 @@ TEST_CASE("what follows at once is one change, and other files are none") {
         write_text(folder / "other.lsys", "x");
         write_text(file, std::string(static_cast<std::size_t>(i), 'x'));
     }
-    CHECK(watching.told.waits_for(file));
-    CHECK(watching.told.times() == 1);
+    CHECK(watching.reports.waits_for(file));
+    CHECK(watching.reports.times() == 1);
 }
 
 TEST_CASE("a file that others are written beside is told in time") {
@@ -148,7 +148,7 @@ TEST_CASE("a file that others are written beside is told in time") {
         }
     });
     write_text(file, "two");
-    CHECK(watching.told.waits_for(file));
+    CHECK(watching.reports.waits_for(file));
     ends = true;
     noise.join();
 }

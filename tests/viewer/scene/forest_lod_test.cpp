@@ -112,13 +112,13 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
         for (std::uint32_t t = 0; t < lod.trees().size(); ++t) {
             const TreeForm& form = wood->model.forms[0];
             const LodTree& tree = lod.trees()[t];
-            bool seen = false;
+            bool is_in_view = false;
             for (const float height : {form.low, 0.5F * (form.low + form.high), form.high}) {
                 const glm::vec4 clip =
                     matrix *
                     glm::vec4(tree.position + glm::vec3(0.0F, tree.scale * height, 0.0F), 1.0F);
-                seen = seen ||
-                       (clip.w > 0.1F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w);
+                is_in_view = is_in_view || (clip.w > 0.1F && std::abs(clip.x) <= clip.w &&
+                                            std::abs(clip.y) <= clip.w);
             }
             CAPTURE(t, to_text(camera));
             REQUIRE(ranges[t].size() <= 2);
@@ -127,7 +127,7 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
                 CHECK(ranges[t][0].low == 0.0F);
                 CHECK(ranges[t][1].high == 1.0F);
                 REQUIRE(ranges[t][0].high == ranges[t][1].low);
-            } else if (seen) {
+            } else if (is_in_view) {
                 REQUIRE(ranges[t] == std::vector<BlendRange>{{}});
             }
         }
@@ -203,7 +203,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
                 const Instance& instance = cache.instances[branch.instance];
                 const InstancePose pose = pose_of(branch, instance);
                 const PoolBranch packed = pool_branch(branch, instance, number);
-                bool seen = false;
+                bool is_in_view = false;
                 for (const MeshPart& part : meshes.parts_of(branch.instance)) {
                     for (std::uint64_t k = 0; k < part.index_count; ++k) {
                         const glm::vec3& corner =
@@ -211,14 +211,14 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
                         const glm::vec3 at =
                             pose.translation + pose.rotation * (pose.scale * corner);
                         const glm::vec4 clip = matrix * glm::vec4(at, 1.0F);
-                        seen = seen || (clip.w > 0.1F && std::abs(clip.x) < clip.w &&
-                                        std::abs(clip.y) < clip.w);
+                        is_in_view = is_in_view || (clip.w > 0.1F && std::abs(clip.x) < clip.w &&
+                                                    std::abs(clip.y) < clip.w);
                     }
                 }
                 const bool listed =
                     drawn.count({packed.position.x, packed.position.y, packed.position.z,
                                  static_cast<float>(packed.mesh)}) != 0;
-                if (seen) {
+                if (is_in_view) {
                     REQUIRE(listed);
                 }
                 left_out += listed ? 0 : 1;

@@ -57,8 +57,8 @@ TEST_CASE("what the ground hides cannot be seen") {
     GroundHorizon horizon;
     std::mt19937 draws(4);
     std::uniform_real_distribution<float> part(0.0F, 1.0F);
-    std::size_t hidden = 0;
-    std::size_t seen = 0;
+    std::size_t hidden_boxes = 0;
+    std::size_t visible_boxes = 0;
     for (int view = 0; view < 24; ++view) {
         glm::vec3 eye(200.0F + 600.0F * part(draws), 0.0F, 200.0F + 600.0F * part(draws));
         eye.y = terrain.height(eye.x, eye.z) + (view % 4 == 3 ? 25.0F : 1.7F);
@@ -68,10 +68,10 @@ TEST_CASE("what the ground hides cannot be seen") {
         for (int i = 0; i < 300; ++i) {
             const Box box = box_on(terrain, draws, eye);
             if (!horizon.occludes(box.low, box.high)) {
-                ++seen;
+                ++visible_boxes;
                 continue;
             }
-            ++hidden;
+            ++hidden_boxes;
             for (int k = 0; k < 16; ++k) {
                 const glm::vec3 of_size =
                     k < 8 ? glm::vec3(static_cast<float>(k & 1), static_cast<float>(k >> 1 & 1),
@@ -83,8 +83,8 @@ TEST_CASE("what the ground hides cannot be seen") {
             }
         }
     }
-    CHECK(hidden > 500);
-    CHECK(seen > 1500);
+    CHECK(hidden_boxes > 500);
+    CHECK(visible_boxes > 1500);
 }
 
 TEST_CASE("level ground hides nothing, and from below there is none") {
