@@ -291,9 +291,9 @@ Bytecode BytecodeBuilder::build() const {
     }
     bytecode.rule_count = static_cast<std::uint32_t>(rules.size());
     bytecode.group_count = static_cast<std::uint32_t>(groups.size());
-    const CodeRoom room = room_of(bytecode.instructions);
-    bytecode.stack_depth = room.stack_depth;
-    bytecode.local_count = room.local_count;
+    const CodeNeeds needs = needs_of(bytecode.instructions);
+    bytecode.stack_depth = needs.stack_depth;
+    bytecode.local_count = needs.local_count;
     if (const std::optional<std::string> problem = verify(bytecode)) {
         mistake("does not verify", *problem);
     }

@@ -219,7 +219,7 @@ void CpfgExpressions::begin(std::set<std::string> formals, Stage stage, CpfgDraw
     formals_ = std::move(formals);
     variables_.clear();
     draws_ = draws;
-    needs_ = {};
+    random_needs_ = {};
 }
 
 void CpfgExpressions::let(const std::string& name, const std::string& value) {

@@ -327,7 +327,7 @@ batch_program(const Bytecode& bytecode, std::uint32_t production, bool gathers) 
         program.stack_rows =
             std::max(program.stack_rows, static_cast<std::uint32_t>(stack_room(words, code)));
         program.slot_rows =
-            std::max(program.slot_rows, static_cast<std::uint32_t>(slot_room(words, code)));
+            std::max(program.slot_rows, static_cast<std::uint32_t>(slot_count(words, code)));
     }
     std::sort(program.formals.begin(), program.formals.end());
     program.formals.erase(std::unique(program.formals.begin(), program.formals.end()),
