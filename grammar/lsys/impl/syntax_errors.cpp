@@ -167,14 +167,27 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                character_before(session.scanned.text, scan.begin) == ',') {
         diagnostic.help.emplace_back("no comma stands behind the last argument");
     } else if (error.text == "?") {
-        diagnostic.help.emplace_back("there is no conditional operator; a comparison is 1 or 0 and "
-                                     "can be a factor");
+        diagnostic.help.emplace_back("there is no operator `? :`: a choice is `if(condition, a, b)`");
     } else if (error.part == Part::ObjectValue && error.token == Kind::S_OTHER &&
                error.text == ".") {
         offer_quotes(session, diagnostic);
     } else if (error.token == Kind::S_COMMA && scan.open.empty()) {
         diagnostic.help.emplace_back("a comma stands only between arguments in parentheses");
     }
+}
+
+/// Whether a `)` closes each open bracket behind the current character.
+bool are_brackets_closed(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    std::uint32_t at = scan.end;
+    for (std::size_t level = 0; level < scan.open.size(); ++level) {
+        const std::optional<std::uint32_t> close = unmatched_parenthesis(session.scanned.text, at);
+        if (!close) {
+            return false;
+        }
+        at = *close + 1;
+    }
+    return true;
 }
 
 /// Reports `[` or another module in place of a value: the `(` before it is never closed.
@@ -185,6 +198,9 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
         std::string_view("[]$\"'\\").find(error.text[0]) == std::string_view::npos) {
         return false;
     }
+    if (are_brackets_closed(session)) {
+        return false; // the character is the mistake
+    }
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::uint32_t open = scan.open.front().begin;
         Diagnostic& diagnostic =
@@ -192,6 +208,12 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
                            session.scanned.span(open, open + 1), "`(` is never closed");
         diagnostic.labels.push_back(
             {error.place, "`" + std::string(error.text) + "` is no part of an argument"});
+        if (scan.open.size() == 1) {
+            const std::size_t last =
+                session.scanned.text.find_last_not_of(" \t\r\n", scan.begin - 1);
+            add_fix(diagnostic, "close it before that",
+                    session.scanned.after(static_cast<std::uint32_t>(last) + 1), ")", false);
+        }
     }
     return true;
 }
@@ -214,9 +236,61 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     return true;
 }
 
+/// Whether the current `+` is the second of `t++`; reports it.
+bool is_increment(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const char next = next_character(text, scan.end);
+    if (scan.begin == 0 || text[scan.begin - 1] != '+' ||
+        std::string_view("),;:").find(next) == std::string_view::npos) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const SourceSpan span = session.scanned.span(scan.begin - 1, scan.end);
+        std::size_t begin = scan.begin - 1;
+        while (begin > 0 && is_word_character(text[begin - 1])) {
+            --begin;
+        }
+        const std::string name(text.substr(begin, scan.begin - 1 - begin));
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span, "there is no operator `++`");
+        add_fix(diagnostic, "write `" + name + " + 1`", span, " + 1", false);
+    }
+    return true;
+}
+
+/// Reports `t--)`.
+bool report_decrement(ParseSession& session, const Unexpected& error) {
+    const std::string_view text = session.scanned.text;
+    const std::uint32_t end = session.scan.last_end;
+    if (error.token != Kind::S_RPAREN && error.token != Kind::S_CLOSE &&
+        error.token != Kind::S_COMMA) {
+        return false;
+    }
+    if (end < 3 || text.substr(end - 2, 2) != "--" || !is_word_character(text[end - 3])) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        std::size_t begin = end - 2;
+        while (begin > 0 && is_word_character(text[begin - 1])) {
+            --begin;
+        }
+        const SourceSpan span = session.scanned.span(end - 2, end);
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span, "there is no operator `--`");
+        add_fix(diagnostic,
+                "write `" + std::string(text.substr(begin, end - 2 - begin)) + " - 1`", span,
+                " - 1", false);
+    }
+    return true;
+}
+
 bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (error.token != Kind::S_PLUS || !error.expects(Kind::S_NUMBER)) {
         return false;
+    }
+    if (is_increment(session)) {
+        return true;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
@@ -267,7 +341,7 @@ void report_unexpected_token(ParseSession& session,
             report_modules_in_parentheses(session, error) ||
             report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
             (in_production && scan.open.empty() && !is_inserted && lacks_colon(session, "")) ||
-            report_unary_plus(session, error);
+            report_unary_plus(session, error) || report_decrement(session, error);
         if (!reported) {
             report_expected(session, error);
         }
