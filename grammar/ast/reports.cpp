@@ -58,7 +58,8 @@ void report_bad_range(Diagnostics& diagnostics,
         "inside parentheses braces are a random range; around modules they are a polygon");
     const std::string_view text = sources.file(span.file).text();
     const bool is_whole = span.begin > 1 && text[span.begin - 1] == '(' &&
-                          text.substr(span.end, 1) == ")" && span.end - span.begin > 2;
+                          text[span.begin - 2] == '\'' && text.substr(span.end, 1) == ")" &&
+                          span.end - span.begin > 2;
     if (count == 3 && is_whole) {
         const std::string inside(text.substr(span.begin + 1, span.end - span.begin - 2));
         add_fix(diagnostic,

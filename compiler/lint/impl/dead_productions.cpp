@@ -103,7 +103,8 @@ private:
     }
 
     /// Suggests the name in place of a module that does nothing, if `nearest` is one.
-    bool suggest_at_mention(Diagnostic& diagnostic, std::string_view name, std::string_view nearest) {
+    bool
+    suggest_at_mention(Diagnostic& diagnostic, std::string_view name, std::string_view nearest) {
         for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
             if (input_.name(SymbolId{s}) != nearest || !use_.reachable.occurs(SymbolId{s})) {
                 continue;

@@ -85,8 +85,8 @@ void check_width(const CheckInput& input,
         return;
     }
     const SourceSpan name{arguments[0].file, arguments[0].begin - 2, arguments[1].end + 1};
-    const std::string replacement = fmt::format("!({}) {}({})", second, command,
-                                                input.sources.text(arguments[0]));
+    const std::string replacement =
+        fmt::format("!({}) {}({})", second, command, input.sources.text(arguments[0]));
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::WidthAsSpring, arguments[1],
                         fmt::format("the second parameter of `{}` is a spring constant for the "

@@ -131,10 +131,11 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
         const std::string_view text = input.sources.text(span);
         const bool is_explained = synonym != nullptr || is_houdini;
         diagnostic.help.push_back(
-            is_explained ? fmt::format("if it is to do nothing, declare it with `#module {};`", text)
-            : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
-                        "nothing, declare it with `#module {0};`",
-                        text));
+            is_explained
+                ? fmt::format("if it is to do nothing, declare it with `#module {};`", text)
+                : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
+                              "nothing, declare it with `#module {0};`",
+                              text));
         for (const SymbolId other : use.same_name(input.program, symbol)) {
             use.reported[static_cast<std::size_t>(other)] = true;
         }

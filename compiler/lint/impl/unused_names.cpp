@@ -13,7 +13,7 @@ namespace {
 
 /// Whether a setting takes one number and has this name.
 bool is_setting_name(std::string_view name) {
-    constexpr std::array<std::string_view, 6> kNames{"angle", "step", "width",
+    constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
                                                      "seed",  "sides", "height"};
     return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }

@@ -54,17 +54,18 @@ void AttemptedStatements::read_lines(std::string_view text) {
         const std::string_view line = text.substr(at, end - at);
         const std::string_view word = leading_identifier(line);
         const std::size_t behind =
-            word.empty() ? 0
-                         : static_cast<std::size_t>(word.data() + word.size() - line.data());
+            word.empty() ? 0 : static_cast<std::size_t>(word.data() + word.size() - line.data());
         const std::size_t sign = line.find_first_not_of(" \t", behind);
-        const bool has_sign = sign != std::string_view::npos && (line[sign] == '=' || line[sign] == ':');
+        const bool has_sign =
+            sign != std::string_view::npos && (line[sign] == '=' || line[sign] == ':');
         if (has_sign && (word == "n" || word == "length" || word == "iterations")) {
             keywords_.emplace("n");
         }
         if (line.starts_with("derivation")) {
             keywords_.emplace("n");
         }
-        if (line.find("\u03c9") < 4 || (has_sign && (word == "axiom" || word == "Axiom" || word == "start"))) {
+        if (line.find("\u03c9") < 4 ||
+            (has_sign && (word == "axiom" || word == "Axiom" || word == "start"))) {
             keywords_.emplace("w");
         }
         at = end + 1;

@@ -70,15 +70,28 @@ std::string with_arguments(std::string_view spelling,
         } else {
             const std::string_view argument =
                 arguments[static_cast<std::size_t>(found - parameters.begin())];
-            const bool is_plain = word == spelling ||
-                                  std::all_of(argument.begin(), argument.end(), [](char c) {
-                                      return is_word_character(c) || c == '.';
-                                  });
+            const bool is_plain =
+                word == spelling || std::all_of(argument.begin(), argument.end(), [](char c) {
+                    return is_word_character(c) || c == '.';
+                });
             text += is_plain ? std::string(argument) : fmt::format("({})", argument);
         }
         at += word.size();
     }
-    // Terms of numbers alone read better without: `(k - 0) / (8 - 0)`.
+    // `(k - 0)` is `k`.
+    constexpr std::string_view kZero = " - 0)";
+    for (std::size_t at = text.find(kZero); at != std::string::npos; at = text.find(kZero, at)) {
+        const std::size_t open = text.rfind('(', at);
+        if (open == std::string::npos ||
+            !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(open) + 1,
+                         text.begin() + static_cast<std::ptrdiff_t>(at),
+                         [](char c) { return is_word_character(c) || c == '.'; })) {
+            ++at;
+            continue;
+        }
+        text.erase(at, kZero.size());
+        text.erase(open, 1);
+    }
     return text;
 }
 
@@ -165,8 +178,8 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
                                 "right, and serve the values after them and the successor");
         return;
     }
-    if (formals_incomplete_ || files_missing_ || attempted_.defines(text) ||
-        resolution_.options.part) {
+    if (formals_incomplete_ || files_missing_ ||
+        (attempted_.defines(text) && !user_functions_.contains(name)) || resolution_.options.part) {
         return;
     }
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownName, expression.span(),
@@ -270,9 +283,8 @@ void ExpressionResolver::explain_argument_count(const Expression& call,
     const std::vector<std::string_view> arguments = arguments_in(text);
     const std::string_view name = resolution_.text(call.name);
     const auto write = [&](const std::string& replacement) {
-        error.fixes.push_back({fmt::format("write `{}`", replacement),
-                               {{call.span(), replacement}},
-                               false});
+        error.fixes.push_back(
+            {fmt::format("write `{}`", replacement), {{call.span(), replacement}}, false});
     };
     if ((name == "max" || name == "min") && arguments.size() > 2 && arguments.size() <= 8) {
         std::string nested = fmt::format("{}({}, {})", name, arguments[0], arguments[1]);
@@ -281,7 +293,8 @@ void ExpressionResolver::explain_argument_count(const Expression& call,
         }
         write(nested);
     } else if ((name == "max" || name == "min") && arguments.size() == 1) {
-        error.help.push_back(fmt::format("it compares two values: `{}({}, 0)`", name, arguments[0]));
+        error.help.push_back(
+            fmt::format("it compares two values: `{}({}, 0)`", name, arguments[0]));
     } else if (name == "if" && arguments.size() == 1 && place == ExpressionPlace::Condition) {
         error.help.emplace_back("a condition needs no `if`: the production is used where it holds");
         write(std::string(arguments[0]));
@@ -350,9 +363,8 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
         if (shown.spelling == "x") {
             error.help.push_back(std::string(shown.advice) + ": leave it out");
         } else {
-            error.help.push_back(help_for(shown, shown.word.find('(') == std::string_view::npos
-                                                     ? text
-                                                     : shown.word));
+            error.help.push_back(help_for(
+                shown, shown.word.find('(') == std::string_view::npos ? text : shown.word));
         }
         if (!replacement.empty()) {
             error.fixes.push_back({fmt::format("write `{}`", replacement),

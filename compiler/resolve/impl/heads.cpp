@@ -1,7 +1,6 @@
 #include "compiler/resolve/impl/heads.h"
 
 #include "compiler/resolve/profiles.h"
-
 #include "grammar/base/characters.h"
 
 #include <fmt/format.h>
@@ -31,7 +30,6 @@ bool is_hyphenated(std::string_view text) {
 }
 
 } // namespace
-
 
 bool HeadResolver::resolve(const ProductionNode& node, Production& production) {
     node_ = &node;
@@ -79,8 +77,16 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
             error.notes.emplace_back("a name holds no `-`, which is a module that turns");
             std::string joined(written);
             std::replace(joined.begin(), joined.end(), '-', '_');
-            add_fix(error, fmt::format("write `{}`, wherever it stands", joined),
-                    node.predecessor.span, joined, false);
+            Fix fix{fmt::format("write `{}`, wherever it stands", joined), {}, false};
+            const FileId file = node.predecessor.span.file;
+            const std::string_view text = resolution_.sources.file(file).text();
+            for (std::size_t at = text.find(written); at != std::string_view::npos;
+                 at = text.find(written, at + written.size())) {
+                const auto begin = static_cast<std::uint32_t>(at);
+                fix.edits.push_back(
+                    {{file, begin, begin + static_cast<std::uint32_t>(written.size())}, joined});
+            }
+            error.fixes.push_back(std::move(fix));
             return false;
         }
         error.notes.emplace_back("in parallel rewriting every module is rewritten by itself");

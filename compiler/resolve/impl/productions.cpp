@@ -26,6 +26,9 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
     const std::string_view name = resolution_.text(node.name);
     Diagnostic& error = report_duplicate(resolution_, node.name_span, first,
                                          fmt::format("production {}", quoted(name)));
+    if (first.file != node.name_span.file || first.begin == node.name_span.begin) {
+        return false; // of a file that is included, perhaps twice
+    }
     std::string free(name);
     while (!free.empty() && free.back() >= '0' && free.back() <= '9') {
         free.pop_back();

@@ -154,9 +154,8 @@ void SetResolver::explain_tropism(const SetNode& node, Diagnostic& error) const 
             {span.file, node.key_span.begin, span.end}, values, false);
 }
 
-Diagnostic& SetResolver::report_bad_value(const SetNode& node,
-                                          SourceSpan span,
-                                          const std::string& message) {
+Diagnostic&
+SetResolver::report_bad_value(const SetNode& node, SourceSpan span, const std::string& message) {
     Diagnostic& error =
         resolution_.diagnostics.add(DiagnosticCode::BadSetting, span,
                                     fmt::format("`{}` {}", resolution_.text(node.key), message));
@@ -285,8 +284,8 @@ std::optional<float> SetResolver::read_one(const SetNode& node,
 void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressions) {
     Settings& settings = resolution_.program.settings;
     if (node.values.count != settings.tropism.size()) {
-        Diagnostic& error = report_bad_value(
-            node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
+        Diagnostic& error = report_bad_value(node, node.key_span,
+                                             "takes four numbers: x, y, z and the susceptibility");
         if (node.values.count == 1) {
             explain_tropism(node, error);
         } else {

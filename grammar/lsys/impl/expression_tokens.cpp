@@ -77,13 +77,19 @@ std::optional<float> percentage(ParseSession& session, std::string_view text) {
     }
     const double value = static_cast<double>(read_literal(text).value) / 100.0;
     if (session.wants(DiagnosticCode::MalformedNumber)) {
-        const SourceSpan span = session.scanned.span(scan.begin, static_cast<std::uint32_t>(at) + 1);
+        const SourceSpan span =
+            session.scanned.span(scan.begin, static_cast<std::uint32_t>(at) + 1);
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::MalformedNumber, span,
                            scan.part == Part::Condition || scan.part == Part::Chance
                                ? "there are no percentages: a probability is a number from 0 to 1"
                                : "there are no percentages");
-        add_fix(diagnostic, "write `" + number_text(value) + "`", span, number_text(value), false);
+        // In the place of the condition the `~` is missing as well.
+        const bool lacks_tilde = scan.part == Part::Condition && scan.open.empty() &&
+                                 all.substr(scan.part_begin, scan.begin - scan.part_begin)
+                                         .find_first_not_of(" \t\r\n") == std::string_view::npos;
+        const std::string replacement = (lacks_tilde ? "* ~ " : "") + number_text(value);
+        add_fix(diagnostic, "write `" + replacement + "`", span, replacement, false);
     }
     return static_cast<float>(value);
 }
@@ -94,11 +100,11 @@ struct Unit {
     double metres;
 };
 constexpr std::array<Unit, 22> kUnits{{
-    {"cm", 0.01},       {"mm", 0.001},   {"km", 1000},      {"metres", 1},  {"meters", 1},
-    {"metre", 1},       {"meter", 1},    {"inch", 0.0254},  {"inches", 0.0254},
-    {"deg", 0},         {"degree", 0},   {"degrees", 0},    {"years", 0},   {"year", 0},
-    {"days", 0},        {"weeks", 0},    {"months", 0},     {"generations", 0},
-    {"iterations", 0},  {"times", 0},    {"percent", 0},    {"px", 0},
+    {"cm", 0.01},   {"mm", 0.001},  {"km", 1000},       {"metres", 1},      {"meters", 1},
+    {"metre", 1},   {"meter", 1},   {"inch", 0.0254},   {"inches", 0.0254}, {"deg", 0},
+    {"degree", 0},  {"degrees", 0}, {"years", 0},       {"year", 0},        {"days", 0},
+    {"weeks", 0},   {"months", 0},  {"generations", 0}, {"iterations", 0},  {"times", 0},
+    {"percent", 0}, {"px", 0},
 }};
 
 const Unit* find_unit(std::string_view word) {
@@ -115,8 +121,8 @@ void explain_unit(Diagnostic& diagnostic,
     double value = static_cast<double>(read_literal(number).value);
     value *= unit.metres == 0 ? 1.0 : unit.metres;
     value /= unit.word == "percent" ? 100.0 : 1.0;
-    const std::string text = unit.metres == 0 && unit.word != "percent" ? std::string(number)
-                                                                        : number_text(value);
+    const std::string text =
+        unit.metres == 0 && unit.word != "percent" ? std::string(number) : number_text(value);
     if (unit.metres != 0) {
         diagnostic.help.emplace_back("lengths are in metres, or in another unit that is the same "
                                      "everywhere");
@@ -154,6 +160,14 @@ bool is_unit(ParseSession& session, std::string_view word) {
     return true;
 }
 
+namespace {
+
+std::string_view without_line_ends(std::string_view text) {
+    return text.substr(0, text.find_first_of("\r\n"));
+}
+
+} // namespace
+
 Token foreign_value(ParseSession& session, std::string_view text) {
     ScanState& scan = session.scan;
     if (session.wants(DiagnosticCode::UnknownName)) {
@@ -163,8 +177,7 @@ Token foreign_value(ParseSession& session, std::string_view text) {
             find_synonym(is_call ? SynonymKind::Function : SynonymKind::Name, name);
         Diagnostic& diagnostic = session.report(
             DiagnosticCode::UnknownName,
-            is_call ? "there are no channels and no texts in expressions: `" + std::string(name) +
-                          "(...)` has no value here"
+            is_call ? "there is no function `" + std::string(name) + "`, and no text in expressions"
                     : "there is no variable `" + std::string(text) + "`");
         if (synonym != nullptr) {
             diagnostic.help.push_back(help_for(*synonym, name));
@@ -175,9 +188,14 @@ Token foreign_value(ParseSession& session, std::string_view text) {
             diagnostic.help.emplace_back("the age of the word is `step()`, and the values of a "
                                          "module are its parameters");
         }
+        const std::string_view all = session.scanned.text;
+        const std::string statement(
+            without_line_ends(all.substr(scan.statement_begin, scan.begin - scan.statement_begin)));
         diagnostic.help.push_back(
             scan.part == Part::Setting
-                ? std::string("write a number: `#set angle 25;`")
+                ? "write a number, `" + statement +
+                      "25;`, or one that is set from outside: `#param " +
+                      "VALUE 25 {0, 90};` and `" + statement + "VALUE;`"
                 : std::string("a value that is set from outside is `#param NAME 1 {0, 10};`, and "
                               "`-D NAME=2` on the command line"));
     }
@@ -196,10 +214,9 @@ bool is_compound_assignment(ParseSession& session) {
         return false;
     }
     if (session.wants(DiagnosticCode::AssignmentInExpression)) {
-        Diagnostic& diagnostic =
-            session.report(DiagnosticCode::AssignmentInExpression,
-                           session.scanned.span(scan.begin - 1, scan.end),
-                           std::string("there is no `") + before + "=`: the new value is written");
+        Diagnostic& diagnostic = session.report(
+            DiagnosticCode::AssignmentInExpression, session.scanned.span(scan.begin - 1, scan.end),
+            std::string("there is no `") + before + "=`: the new value is written");
         add_fix(diagnostic, std::string("write `") + before + "`", session.match(), "", false);
     }
     return true;

@@ -62,11 +62,8 @@ std::size_t closing_of(std::string_view text, std::size_t at, std::size_t end) {
 
 /// The parts of [begin, end) between `separator` outside of parentheses. Square brackets and braces
 /// count only with `with_brackets`: among modules they are modules.
-std::vector<Piece> split(std::string_view text,
-                         std::size_t begin,
-                         std::size_t end,
-                         char separator,
-                         bool with_brackets) {
+std::vector<Piece> split(
+    std::string_view text, std::size_t begin, std::size_t end, char separator, bool with_brackets) {
     std::vector<Piece> pieces;
     int depth = 0;
     std::size_t first = begin;
@@ -93,8 +90,8 @@ bool is_word(std::string_view text) {
 
 bool is_number_text(std::string_view text) {
     const std::size_t first = text.starts_with('-') ? 1 : 0;
-    return text.size() > first && text.substr(first).find_first_not_of("0123456789.") ==
-                                      std::string_view::npos;
+    return text.size() > first &&
+           text.substr(first).find_first_not_of("0123456789.") == std::string_view::npos;
 }
 
 /// Whether a word is the name of a type in other languages.
@@ -195,7 +192,8 @@ private:
             const std::size_t word = has_brace ? skip_gaps(text(), at + 1) : at;
             return leading_word(text().substr(word)) == "return";
         }();
-        if (has_brace && has_return) {
+        const bool is_block = has_brace && (has_return || is_braced_expression(at));
+        if (is_block) {
             take(1);
         }
         if (has_return) {
@@ -206,7 +204,7 @@ private:
             return after();
         }
         std::size_t end = after();
-        if (has_brace && has_return) {
+        if (is_block) {
             std::size_t brace = skip_gaps(text(), end);
             if (statement_.end < text().size() && brace < text().size() && text()[brace] == '}') {
                 needless.push_back({brace, brace + 1});
@@ -223,13 +221,17 @@ private:
                 }
             }
         }
-        const Piece expression =
-            trimmed(text(), at, text().find_first_of(";}", at) == std::string_view::npos
-                                    ? statement_.end
-                                    : text().find_first_of(";}", at));
-        Diagnostic& diagnostic =
-            report({first, at == first ? at + 1 : needless[has_brace && has_return ? 1 : needless.size() - 1].end},
-                   "a function is a name, its parameters and one expression");
+        const Piece expression = trimmed(text(), at,
+                                         text().find_first_of(";}", at) == std::string_view::npos
+                                             ? statement_.end
+                                             : text().find_first_of(";}", at));
+        Diagnostic& diagnostic = report(
+            {first,
+             at == first
+                 ? at + 1
+                 : needless[is_block && has_return && needless.size() > 1 ? 1 : needless.size() - 1]
+                       .end},
+            "a function is a name, its parameters and one expression");
         const Piece head = trimmed(text(), statement_.begin, close + 1);
         Fix fix{"write `" + copy_of(text(), head) + " " + copy_of(text(), expression) + ";`",
                 {},
@@ -243,9 +245,19 @@ private:
         return end;
     }
 
+    /// Whether the braces at `at` hold one expression and are no random range.
+    [[nodiscard]] bool is_braced_expression(std::size_t at) const {
+        const std::size_t close = closing_of(text(), at, text().size());
+        return close != std::string_view::npos && close - at < 256 &&
+               skip_gaps(text(), close + 1) == statement_.end &&
+               split(text(), at + 1, close, ',', true).size() == 1 && close > at + 1;
+    }
+
     /// `A(float x)`, `A(x, w = 1)`: parameters with a type or a default value.
     void formals(std::size_t open, std::size_t close) {
+        std::size_t index = 0; // of the formal
         for (const Piece& formal : split(text(), open + 1, close, ',', true)) {
+            const std::size_t number = index++;
             const std::string_view first = leading_word(text_of(text(), formal));
             const Piece rest = trimmed(text(), formal.begin + first.size(), formal.end);
             if (first.empty() || rest.empty()) {
@@ -253,24 +265,24 @@ private:
             }
             const std::string_view name = leading_word(text_of(text(), rest));
             if (is_type(first) && !name.empty()) {
-                Diagnostic& diagnostic = report({formal.begin, formal.begin + first.size()},
-                                                "parameters have no types: every value is a number");
+                Diagnostic& diagnostic =
+                    report({formal.begin, formal.begin + first.size()},
+                           "parameters have no types: every value is a number");
                 add_fix(diagnostic, "write `" + std::string(name) + "`",
                         draft_.span(formal.begin, rest.begin), "", false);
                 draft_.blank(formal.begin, rest.begin);
             } else if (text()[rest.begin] == '=' && text().substr(rest.begin, 2) != "==") {
                 const Piece value = trimmed(text(), rest.begin + 1, rest.end);
                 Diagnostic& diagnostic = report(rest, "parameters have no default values");
-                diagnostic.help.push_back(
-                    "give the value where the module is written: a module that stands with fewer "
-                    "parameters is another one; the value is " +
-                    std::string("`") + copy_of(text(), value) + "`");
+                const std::string use = first_use(open, copy_of(text(), value), number);
+                diagnostic.help.push_back("a module has all its parameters wherever it stands" +
+                                          (use.empty() ? "" : ": write `" + use + "`"));
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
                 draft_.blank(rest.begin, rest.end);
-            } else if (text()[rest.begin] == ':' && is_type(without_blanks(
-                                                        text().substr(rest.begin + 1,
-                                                                      rest.end - rest.begin - 1)))) {
+            } else if (text()[rest.begin] == ':' &&
+                       is_type(without_blanks(
+                           text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
                 Diagnostic& diagnostic =
                     report(rest, "parameters have no types: every value is a number");
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
@@ -278,6 +290,27 @@ private:
                 draft_.blank(rest.begin, rest.end);
             }
         }
+    }
+
+    /// A place where the module before the parenthesis at `open` stands with fewer parameters, with
+    /// `value` added: `A(1, 0.1)`; empty: none.
+    [[nodiscard]] std::string
+    first_use(std::size_t open, const std::string& value, std::size_t count) const {
+        std::size_t begin = open;
+        while (begin > 0 && is_word_character(text()[begin - 1])) {
+            --begin;
+        }
+        const std::string name(text().substr(begin, open - begin));
+        const std::size_t at = text().find(name + "(");
+        if (name.empty() || at == std::string_view::npos || at == begin ||
+            (at > 0 && is_word_character(text()[at - 1]))) {
+            return {};
+        }
+        const std::size_t close = closing_of(text(), at + name.size(), text().size());
+        const bool fits = close != std::string_view::npos && close - at <= 64 &&
+                          split(text(), at + name.size() + 1, close, ',', true).size() == count;
+        return !fits ? std::string()
+                     : std::string(text().substr(at, close - at)) + ", " + value + ")";
     }
 
     // --- curves
@@ -340,15 +373,12 @@ private:
         const std::size_t key = skip_gaps(text(), body_);
         const std::string_view word = leading_word(text().substr(key));
         Piece all = trimmed(text(), key + word.size(), statement_.end);
-        if (!all.empty() && (text()[all.begin] == '=' || text()[all.begin] == ':')) {
-            all = trimmed(text(), all.begin + 1, all.end);
-        }
         const std::string_view written = text_of(text(), all);
         if (word != "tropism" || written.find_first_of("([{,\"") == std::string_view::npos) {
             return;
         }
         std::vector<std::string> numbers;
-        for (std::size_t at = written.find_first_not_of("()[]{}, \"\t\r\n");
+        for (std::size_t at = written.find_first_not_of("()[]{}, \"\t\r\n=:");
              at != std::string_view::npos;) {
             const std::size_t end =
                 std::min(written.find_first_of("()[]{}, \"\t\r\n", at), written.size());
@@ -379,7 +409,8 @@ private:
     void object() {
         const std::size_t name = skip_gaps(text(), body_);
         const std::string_view module = leading_word(text().substr(name));
-        const std::size_t object = skip_gaps(text(), name + std::max<std::size_t>(module.size(), 1));
+        const std::size_t object =
+            skip_gaps(text(), name + std::max<std::size_t>(module.size(), 1));
         if (object >= statement_.end || module.empty()) {
             return;
         }
@@ -393,8 +424,7 @@ private:
         }
         const Piece rest = trimmed(text(), end, statement_.end);
         const std::string_view extra = text_of(text(), rest);
-        if (extra.empty() || !(is_letter(extra[0]) || is_digit(extra[0]) || extra[0] == '.' ||
-                               (extra[0] == '(' && text()[object] != '"'))) {
+        if (extra.empty() || rest.begin == end || !(is_letter(extra[0]) || is_digit(extra[0]))) {
             return;
         }
         const std::size_t digit = extra.find_first_of("0123456789.");
@@ -402,8 +432,8 @@ private:
             report(rest, "nothing follows the object: it has no size or colour of its own");
         if (digit != std::string_view::npos) {
             const std::string size(extra.substr(
-                digit, std::min(extra.find_first_not_of("0123456789.", digit), extra.size()) -
-                           digit));
+                digit,
+                std::min(extra.find_first_not_of("0123456789.", digit), extra.size()) - digit));
             diagnostic.help.push_back("the size is the first parameter of the module: write `" +
                                       std::string(module) + "(" + size + ")` where it stands");
         }
@@ -462,8 +492,17 @@ private:
         Diagnostic& diagnostic =
             report({begin, close + 1}, "there are no lists: a constant is one number");
         if (!first.empty()) {
-            diagnostic.help.push_back("a table of numbers is a curve: `#curve " + word + " " + points +
-                                      ";`, and its value at `k` is `" + word + "(k)`");
+            const std::size_t use = text().find(word + "[", close);
+            const std::size_t last = use == std::string_view::npos
+                                         ? use
+                                         : closing_of(text(), use + word.size(), text().size());
+            std::string index = "k";
+            if (last != std::string_view::npos && last - use < 64) {
+                index = text().substr(use + word.size() + 1, last - use - word.size() - 1);
+            }
+            diagnostic.help.push_back("a table of numbers is a curve: `#curve " + word + " " +
+                                      points + ";`, and its value there is `" + word + "(" + index +
+                                      ")`");
         }
         static_cast<void>(draft_.replace(begin, close + 1, first.empty() ? "1" : first));
         // Its uses are consequences.
@@ -584,8 +623,8 @@ private:
             }
             plain += (i == 0 ? "" : ", ") + copy_of(text(), names[i]) + " = " +
                      copy_of(text(), values[i]);
-            dense += (i == 0 ? " " : ",") + copy_of(text(), names[i]) + "=" +
-                     copy_of(text(), values[i]);
+            dense +=
+                (i == 0 ? " " : ",") + copy_of(text(), names[i]) + "=" + copy_of(text(), values[i]);
         }
         const Piece all = trimmed(text(), let + 3, end);
         Diagnostic& diagnostic = report(all, "each local value has its own `=`");
@@ -647,6 +686,7 @@ private:
         }
         Diagnostic* diagnostic = nullptr;
         Fix fix{"", {}, false};
+        std::optional<Edit> value_edit; // of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
         bool begins_part = true; // or follows a module that was mended
@@ -676,28 +716,33 @@ private:
             const std::size_t name = skip_gaps(text(), at + 1);
             const std::string word(leading_word(text().substr(name)));
             const std::size_t comma = skip_gaps(text(), name + word.size());
-            if (word.empty() || (comma != close && text()[comma] != ',')) {
+            if (word.empty() || comma == close || text()[comma] != ',') {
                 return;
             }
-            const Piece arguments =
-                comma == close ? Piece{} : trimmed(text(), comma + 1, close);
+            const Piece arguments = comma == close ? Piece{} : trimmed(text(), comma + 1, close);
             const std::string inside = copy_of(text(), arguments);
             const std::string module = inside.empty() ? word : word + "(" + inside + ")";
             if (diagnostic == nullptr) {
-                diagnostic = &report({at, close + 1},
-                                     "the name of a module stands before its parentheses");
+                diagnostic =
+                    &report({at, close + 1}, "the name of a module stands before its parentheses");
             }
             const bool is_head = is_production && colons == 1;
             const bool is_value = is_head && is_number_text(inside);
-            fix.edits.push_back(
-                {draft_.span(at, close + 1), is_value ? word + "(t)" : module});
+            fix.edits.push_back({draft_.span(at, close + 1), is_value ? word + "(t)" : module});
             if (is_value) {
                 diagnostic->help.push_back("parameters of a predecessor are names, and their value "
                                            "is a condition: `" +
                                            word + "(t) : t >= " + inside + "`");
+                const std::size_t star = text().find_first_not_of(
+                    " \t\r\n", std::min(text().find(':', close), statement_.end) + 1);
+                if (star < statement_.end && text()[star] == '*') {
+                    value_edit = Edit{draft_.span(star, star + 1), "t >= " + inside};
+                }
             }
-            static_cast<void>(
-                draft_.replace(at, close + 1, is_value ? word + "(t)" : module));
+            if (value_edit) {
+                fix.edits.push_back(*std::exchange(value_edit, std::nullopt));
+            }
+            static_cast<void>(draft_.replace(at, close + 1, is_value ? word + "(t)" : module));
             at = close;
             begins_part = true;
         }
@@ -730,7 +775,8 @@ private:
             without_blanks(text().substr(statement_.begin, colon - statement_.begin)));
         const std::string head = copy_of(text(), parts[0]);
         const std::string condition = copy_of(text(), trimmed(text(), open + 1, close));
-        const auto production = [&](const std::string& suffix, const std::string& test, Piece body) {
+        const auto production = [&](const std::string& suffix, const std::string& test,
+                                    Piece body) {
             return label + suffix + " : " + head + " : " + test + " : " + copy_of(text(), body) +
                    ";";
         };
@@ -786,7 +832,8 @@ private:
                     break;
                 }
             } else if (depth == 0 && (c == ',' || c == ':' || c == '=')) {
-                const bool compares = c == '=' && begin >= 2 &&
+                const bool compares =
+                    c == '=' && begin >= 2 &&
                     std::string_view("=<>!").find(text()[begin - 2]) != std::string_view::npos;
                 const bool is_first = c == '=' && begin < text().size() && text()[begin] == '=';
                 if (!compares && !is_first) {
@@ -824,9 +871,9 @@ private:
         if (call.empty()) {
             return;
         }
-        Diagnostic& diagnostic =
-            report({question, question + 1}, "there is no operator `? :`: a choice is `if(condition, "
-                                             "a, b)`");
+        Diagnostic& diagnostic = report({question, question + 1},
+                                        "there is no operator `? :`: a choice is `if(condition, "
+                                        "a, b)`");
         add_fix(diagnostic, "write `" + call + "`", draft_.span(all.begin, all.end), call, false);
         // The value does not count: the statement is in error.
         draft_.blank(all.begin, all.end);

@@ -213,7 +213,8 @@ bool explain_parameters_or_object(const ParseSession& session,
         }
         const std::string angle(rest.substr(1, close - 1));
         const bool is_plain =
-            angle.find_first_not_of("0123456789.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") ==
+            angle.find_first_not_of(
+                "0123456789.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") ==
             std::string::npos;
         const std::string range =
             "({-" + (is_plain ? angle : "(" + angle + ")") + ", " + angle + "})";

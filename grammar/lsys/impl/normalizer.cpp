@@ -165,9 +165,9 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
 /// Whether a Greek letter is a word of its own; reports its first occurrence.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
-        "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta",     "theta", "iota",
-        "kappa", "lambda",  "mu",    "nu",    "xi",      "omicron", "pi",    "rho",   "sigma",
-        "sigma", "tau",     "upsilon", "phi", "chi",     "psi",   "omega"};
+        "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
+        "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",   "rho",   "sigma",
+        "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega"};
     constexpr char32_t kFirst = 0x3B1;
     if (point.value < kFirst || point.value >= kFirst + kGreek.size() || word.begin != begin ||
         word.end != begin + point.length) {

@@ -91,7 +91,7 @@ namespace {
 /// A line that does not begin inside a statement or a comment.
 struct FreeLine {
     std::size_t begin = 0;
-    std::size_t end = 0; // without the line end
+    std::size_t end = 0;   // without the line end
     std::string_view text; // without blanks at its ends
 };
 
@@ -116,7 +116,7 @@ std::size_t end_of_content(std::string_view text, std::size_t at, std::size_t en
         } else if (text[at] == '#') {
             const StatementText statement = statement_at(text, at);
             at = statement.end < text.size() && text[statement.end] == ';' ? statement.end + 1
-                                                                          : statement.end;
+                                                                           : statement.end;
         } else {
             ++at;
         }
@@ -128,17 +128,19 @@ std::size_t end_of_content(std::string_view text, std::size_t at, std::size_t en
 std::vector<FreeLine> free_lines(std::string_view text) {
     std::vector<FreeLine> lines;
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t begin = at;
-        const std::size_t end = end_of_line(text, at);
-        const std::string_view line = without_blanks(text.substr(begin, end - begin));
-        lines.push_back({begin, end, line});
-        const std::size_t next = end_of_content(text, begin, end);
-        at = next <= end ? end + 1 : start_of_line(text, next);
-        if (next > end && !without_blanks(text.substr(at, next - at)).empty() &&
-            !(next < text.size() && text[next] == '#')) {
-            at = end_of_line(text, next) + 1; // the rest of the last line of a statement
+        std::size_t end = end_of_line(text, at);
+        lines.push_back({at, end, without_blanks(text.substr(at, end - at))});
+        std::size_t next = end_of_content(text, at, end);
+        while (next > end && next < text.size()) {
+            const std::size_t begin = start_of_line(text, next);
+            if (without_blanks(text.substr(begin, next - begin)).empty()) {
+                end = begin - 1; // the next statement begins this line
+                break;
+            }
+            end = end_of_line(text, next); // further content of the line where the last one ends
+            next = end_of_content(text, next, end);
         }
-        at = std::max(at, end + 1);
+        at = std::max(end, std::min(next, text.size()) == text.size() ? text.size() : end) + 1;
     }
     return lines;
 }
@@ -188,13 +190,11 @@ void mend_merge(DraftText& draft) {
             middle = line.begin;
         } else if (middle != std::string::npos && line.text.starts_with(">>>>>>>")) {
             if (!std::exchange(is_reported, true)) {
-                Diagnostic& diagnostic =
-                    draft.report(DiagnosticCode::PastedText,
-                                 draft.span(begin, end_of_line(draft.text, begin)),
-                                 "this is a mark of a merge conflict, as Git writes it");
-                diagnostic.labels.push_back(
-                    {draft.span(middle, end_of_line(draft.text, middle)),
-                     "the other version begins here"});
+                Diagnostic& diagnostic = draft.report(
+                    DiagnosticCode::PastedText, draft.span(begin, end_of_line(draft.text, begin)),
+                    "this is a mark of a merge conflict, as Git writes it");
+                diagnostic.labels.push_back({draft.span(middle, end_of_line(draft.text, middle)),
+                                             "the other version begins here"});
                 diagnostic.labels.push_back({draft.span(line.begin, line.end), "it ends here"});
                 diagnostic.help.emplace_back(
                     "keep one of the two versions, and remove the other one and the three marks");
@@ -228,10 +228,9 @@ void mend_fences(DraftText& draft) {
             prose.push_back(&line);
         }
     }
-    Diagnostic& diagnostic =
-        draft.report(DiagnosticCode::PastedText,
-                     draft.span(fences.front()->begin, fences.front()->end),
-                     "this is the fence of a code block in Markdown, no part of a grammar");
+    Diagnostic& diagnostic = draft.report(
+        DiagnosticCode::PastedText, draft.span(fences.front()->begin, fences.front()->end),
+        "this is the fence of a code block in Markdown, no part of a grammar");
     for (std::size_t i = 1; i < fences.size(); ++i) {
         diagnostic.labels.push_back(
             {draft.span(fences[i]->begin, fences[i]->end), "and so is this"});
@@ -271,7 +270,8 @@ std::size_t number_length(std::string_view line, std::uint32_t& number) {
         return 0;
     }
     const std::size_t digits = at;
-    while (at < line.size() && std::string_view(" \t.:|)").find(line[at]) != std::string_view::npos) {
+    while (at < line.size() &&
+           std::string_view(" \t.:|)").find(line[at]) != std::string_view::npos) {
         ++at;
     }
     return at == line.size() || at > digits ? at : 0;
@@ -283,12 +283,12 @@ void mend_line_numbers(DraftText& draft) {
     std::uint32_t number = 0;
     for (const FreeLine& line : lines) {
         const std::size_t length = number_length(line.text, number);
-        if (length != 0 && (is_statement_start(line.text, length) ||
-                            is_comment(line.text.substr(length)))) {
+        if (length != 0 &&
+            (is_statement_start(line.text, length) || is_comment(line.text.substr(length)))) {
             first = line.begin;
             break;
         }
-        if (!line.text.empty() && length == 0) {
+        if (!line.text.empty() && length == 0 && !is_comment(line.text)) {
             return; // the first line that is not empty has none
         }
     }
@@ -300,8 +300,7 @@ void mend_line_numbers(DraftText& draft) {
     SourceSpan place;
     for (std::size_t at = first; at < draft.text.size(); at = end_of_line(draft.text, at) + 1) {
         const std::size_t end = end_of_line(draft.text, at);
-        const std::size_t begin =
-            std::min(draft.text.find_first_not_of(" \t", at), end);
+        const std::size_t begin = std::min(draft.text.find_first_not_of(" \t", at), end);
         std::uint32_t here = 0;
         const std::size_t length =
             number_length(std::string_view(draft.text).substr(begin, end - begin), here);
@@ -332,7 +331,8 @@ void mend_diff(DraftText& draft) {
     bool has_sign = false;
     bool has_header = false;
     for (const FreeLine& line : lines) {
-        const bool is_signed = line.text.size() > 1 && (line.text[0] == '-' || line.text[0] == '+') &&
+        const bool is_signed = line.text.size() > 1 &&
+                               (line.text[0] == '-' || line.text[0] == '+') &&
                                is_statement_start(line.text, 1);
         has_sign = has_sign || is_signed;
         has_header = has_header || begins_with(line.text, "@@ ") ||
@@ -347,16 +347,17 @@ void mend_diff(DraftText& draft) {
     bool has_new = false;
     for (const FreeLine& line : lines) {
         const std::string_view text = line.text;
-        const bool is_header = has_header && (begins_with(text, "@@ ") || begins_with(text, "diff ") ||
-                                              begins_with(text, "index ") ||
-                                              begins_with(text, "--- ") || begins_with(text, "+++ "));
+        const bool is_header =
+            has_header &&
+            (begins_with(text, "@@ ") || begins_with(text, "diff ") ||
+             begins_with(text, "index ") || begins_with(text, "--- ") || begins_with(text, "+++ "));
         const bool is_old = !is_header && text.starts_with('-');
         const bool is_new = !is_header && text.starts_with('+');
         if (!is_header && !is_old && !is_new) {
             continue;
         }
-        const std::size_t sign = line.begin + static_cast<std::size_t>(text.data() -
-            (draft.text.data() + line.begin));
+        const std::size_t sign =
+            line.begin + static_cast<std::size_t>(text.data() - (draft.text.data() + line.begin));
         if (diagnostic == nullptr) {
             diagnostic = &draft.report(DiagnosticCode::PastedText, draft.span(sign, sign + 1),
                                        "this is a difference between two versions, as Git shows "
@@ -364,7 +365,8 @@ void mend_diff(DraftText& draft) {
         }
         if (is_new) {
             if (!std::exchange(has_new, true)) {
-                diagnostic->labels.push_back({draft.span(sign, sign + 1), "a line of the new version"});
+                diagnostic->labels.push_back(
+                    {draft.span(sign, sign + 1), "a line of the new version"});
             }
             fix.edits.push_back({draft.span(sign, sign + 1), ""});
             draft.text[sign] = ' ';
@@ -406,29 +408,38 @@ bool goes_on(std::string_view text, std::size_t at) {
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
 }
 
+/// The entity at the start of `text`; null: none.
+const Entity* find_entity(std::string_view text) {
+    const auto* const found =
+        std::find_if(kEntities.begin(), kEntities.end(),
+                     [&](const Entity& row) { return text.starts_with(row.name); });
+    return found == kEntities.end() ? nullptr : found;
+}
+
 void mend_entities(DraftText& draft) {
     for (std::size_t at = draft.text.find('&'); at != std::string::npos;
          at = draft.text.find('&', at + 1)) {
         const std::string_view text = draft.text;
-        const auto* const entity =
-            std::find_if(kEntities.begin(), kEntities.end(), [&](const Entity& row) {
-                return text.substr(at).starts_with(row.name);
-            });
+        std::string characters;
+        std::size_t end = at;
+        while (const Entity* const entity = find_entity(text.substr(end))) {
+            characters += entity->character;
+            end += entity->name.size();
+        }
         const std::size_t line = start_of_line(text, at);
-        if (entity == kEntities.end() || !goes_on(text, at + entity->name.size()) ||
+        if (characters.empty() || !goes_on(text, end) ||
             text.substr(line, at - line).find("//") != std::string_view::npos) {
             continue;
         }
-        const std::size_t end = at + entity->name.size();
-        const std::string character(1, entity->character);
-        Diagnostic& diagnostic = draft.report(
-            DiagnosticCode::PastedText, draft.span(at, end),
-            "`" + std::string(entity->name) + "` is HTML for " +
-                (entity->character == ' ' ? std::string("a blank") : "`" + character + "`"));
-        add_fix(diagnostic,
-                entity->character == ' ' ? "write a plain blank" : "write `" + character + "`",
-                draft.span(at, end), character, true);
-        static_cast<void>(draft.replace(at, end, character));
+        const bool is_blank = characters.find_first_not_of(' ') == std::string::npos;
+        Diagnostic& diagnostic =
+            draft.report(DiagnosticCode::PastedText, draft.span(at, end),
+                         "`" + std::string(text.substr(at, end - at)) + "` is HTML for " +
+                             (is_blank ? std::string("a blank") : "`" + characters + "`"));
+        add_fix(diagnostic, is_blank ? "write a plain blank" : "write `" + characters + "`",
+                draft.span(at, end), characters, true);
+        static_cast<void>(draft.replace(at, end, characters));
+        at = end - 1;
     }
 }
 
@@ -437,16 +448,18 @@ void mend_entities(DraftText& draft) {
 void mend_second_copy(DraftText& draft) {
     const std::string_view text = draft.text;
     const std::size_t w = text.find("#w");
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    std::size_t first = text.find_first_not_of(" \t\r\n");
+    while (first < text.size() && !is_statement_start(text, first)) {
+        first = end_of_line(text, first) + 1;
+    }
     if (w == std::string_view::npos || text.find("#w", w + 2) == std::string_view::npos ||
-        !is_statement_start(text, first)) {
+        first >= text.size()) {
         return;
     }
     const std::string_view line = text.substr(first, end_of_line(text, first) - first);
     const std::size_t second = text.find(line, first + line.size());
     if (line.size() < 4 || second == std::string_view::npos ||
-        without_blanks(text.substr(first, second - first)) !=
-            without_blanks(text.substr(second))) {
+        without_blanks(text.substr(first, second - first)) != without_blanks(text.substr(second))) {
         return;
     }
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
@@ -467,9 +480,8 @@ void mend_comment_ends(DraftText& draft) {
         }
         const std::size_t before = draft.text.rfind("*/", line.begin == 0 ? 0 : line.begin - 1);
         const std::size_t at = draft.text.find("*/", line.begin);
-        Diagnostic& diagnostic =
-            draft.report(DiagnosticCode::UnclosedComment, draft.span(at, at + 2),
-                         "this `*/` ends no comment");
+        Diagnostic& diagnostic = draft.report(DiagnosticCode::UnclosedComment,
+                                              draft.span(at, at + 2), "this `*/` ends no comment");
         if (before != std::string::npos && before < line.begin) {
             diagnostic.labels.push_back(
                 {draft.span(before, before + 2), "the comment ended here already"});
@@ -486,8 +498,8 @@ void mend_comment_ends(DraftText& draft) {
 
 /// The number at the start of `text`, with its sign; empty: none.
 std::string_view leading_number(std::string_view text) {
-    const std::size_t end = std::min(text.find_first_not_of("0123456789.", text.starts_with('-')),
-                                     text.size());
+    const std::size_t end =
+        std::min(text.find_first_not_of("0123456789.", text.starts_with('-')), text.size());
     return text.substr(0, end);
 }
 
@@ -557,12 +569,69 @@ std::string plain(std::string_view text) {
 }
 
 /// The statement for a rule with an arrow: `p1 : A -> B` is `#p1 : A : * : B;`.
+std::optional<std::string> production_for(std::string_view line, std::size_t& rule_count);
+
+/// The `=` of a rule of Houdini, `A(x) : x > 3 = B`.
+Arrow find_equals(std::string_view line) {
+    int depth = 0;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        const char c = line[at];
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        const bool compares =
+            (at > 0 && std::string_view("=<>!").find(line[at - 1]) != std::string_view::npos) ||
+            line.substr(at, 2) == "==";
+        if (c == '=' && depth == 0 && !compares) {
+            return {at, 1};
+        }
+    }
+    return {};
+}
+
+/// The statements for `rules : (A -> B), (B -> A)`.
+std::optional<std::string> productions_for(std::string_view line, std::size_t& rule_count) {
+    auto list = value_behind(line, "rules", ":");
+    if (!list) {
+        list = value_behind(line, "rule", ":");
+    }
+    if (!list || !list->starts_with('(')) {
+        return production_for(list ? *list : line, rule_count);
+    }
+    std::string statements;
+    for (std::size_t at = 0; at < list->size();) {
+        int depth = 0;
+        std::size_t end = at;
+        for (; end < list->size(); ++end) {
+            depth += (*list)[end] == '(' ? 1 : (*list)[end] == ')' ? -1 : 0;
+            if (depth == 0) {
+                break;
+            }
+        }
+        const std::string_view rule = list->substr(at, end - at);
+        if (rule.size() > 1) {
+            const auto production = production_for(rule.substr(1), rule_count);
+            if (!production) {
+                return std::nullopt;
+            }
+            statements += (statements.empty() ? "" : " ") + *production;
+        }
+        at = list->find('(', end);
+        if (at == std::string_view::npos) {
+            break;
+        }
+    }
+    return statements.empty() ? std::nullopt : std::optional(statements);
+}
+
 std::optional<std::string> production_for(std::string_view line, std::size_t& rule_count) {
-    const Arrow arrow = find_arrow(line);
+    Arrow arrow = find_arrow(line);
+    if (arrow.begin == std::string_view::npos) {
+        arrow = find_equals(line);
+    }
     std::string label;
     if (arrow.begin == std::string_view::npos) {
         return std::nullopt;
     }
+    const bool is_houdini = line[arrow.begin] == '=' && arrow.length == 1;
     std::string_view head = without_blanks(line.substr(0, arrow.begin));
     if (head.empty()) {
         return std::nullopt;
@@ -571,10 +640,9 @@ std::optional<std::string> production_for(std::string_view line, std::size_t& ru
     const std::size_t colon = head.find(':');
     const std::string_view first = head.substr(0, std::min(colon, head.size()));
     std::string condition = "*";
-    const bool has_label =
-        colon != std::string_view::npos && leading_word(first).size() >= 1 &&
-        without_blanks(first) == leading_word(first) &&
-        first.find('(') == std::string_view::npos;
+    const bool has_label = colon != std::string_view::npos && leading_word(first).size() >= 1 &&
+                           without_blanks(first) == leading_word(first) &&
+                           first.find('(') == std::string_view::npos;
     if (has_label) {
         label = without_blanks(first);
         head = without_blanks(head.substr(colon + 1));
@@ -589,11 +657,27 @@ std::optional<std::string> production_for(std::string_view line, std::size_t& ru
     while (successor.ends_with(';') || successor.ends_with(',')) {
         successor.pop_back();
     }
+    if (is_houdini) {
+        // `A = B : 0.5` gives a probability; a number alone is no successor.
+        const std::size_t last = successor.rfind(':');
+        if (last != std::string::npos &&
+            !leading_number(without_blanks(std::string_view(successor).substr(last + 1))).empty()) {
+            condition +=
+                " ~ " + std::string(without_blanks(std::string_view(successor).substr(last + 1)));
+            successor = without_blanks(std::string_view(successor).substr(0, last));
+        }
+        const std::string_view name = leading_word(head);
+        if (name.empty() || successor.empty() || !leading_number(successor).empty() ||
+            without_blanks(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
+                std::string_view::npos) {
+            return std::nullopt;
+        }
+    }
     if (successor == "\u03b5") {
         successor.clear();
     }
-    return "#" + label + " : " + std::string(head) + " : " + condition + " : " +
-           plain(successor) + ";";
+    return "#" + label + " : " + std::string(head) + " : " + condition + " : " + plain(successor) +
+           ";";
 }
 
 /// What a line in another notation is here.
@@ -603,6 +687,17 @@ struct Meaning {
 };
 
 std::optional<Meaning> header_meaning(std::string_view line) {
+    constexpr std::string_view kDef = "def ";
+    if (line.starts_with(kDef)) {
+        const std::size_t close = line.find("):");
+        const std::size_t body = line.find("return ");
+        return Meaning{"Python",
+                       close == std::string_view::npos || body == std::string_view::npos
+                           ? ""
+                           : "#function " +
+                                 std::string(line.substr(kDef.size(), close + 1 - kDef.size())) +
+                                 " " + std::string(without_blanks(line.substr(body + 7))) + ";"};
+    }
     for (const std::string_view word : {"derivation length", "derivation_length"}) {
         if (const auto value = value_behind(line, word, ":=")) {
             const std::string_view number = leading_number(*value);
@@ -617,11 +712,14 @@ std::optional<Meaning> header_meaning(std::string_view line) {
             continue;
         }
         std::string statements = "#n = " + std::string(leading_number(*value)) + ";";
-        const std::string_view rest =
-            value->substr(leading_number(*value).size());
+        const std::string_view rest = value->substr(leading_number(*value).size());
+        if (word == "n" && without_blanks(rest) == ";") {
+            return std::nullopt; // lacks only its `#`
+        }
         const std::size_t sign = rest.find('=');
         if (sign != std::string_view::npos &&
-            (rest.find("\u03b4") < sign || rest.find("angle") < sign || rest.find("delta") < sign)) {
+            (rest.find("\u03b4") < sign || rest.find("angle") < sign ||
+             rest.find("delta") < sign)) {
             const std::string_view angle = leading_number(without_blanks(rest.substr(sign + 1)));
             if (!angle.empty()) {
                 statements += " #set angle " + std::string(angle) + ";";
@@ -656,11 +754,10 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     const std::string lower = lowered(line);
     for (const std::string_view word :
          {"lsystem:", "endlsystem", "production:", "interpretation:", "homomorphism",
-          "decomposition", "variables", "constants", "alphabet", "rules:", "productions:"}) {
+          "decomposition", "variables", "constants", "alphabet", "productions:"}) {
         if (lower.starts_with(word)) {
             return Meaning{word.starts_with("var") || word.starts_with("const") ||
-                                   word.starts_with("alph") || word.starts_with("rules") ||
-                                   word == "productions:"
+                                   word.starts_with("alph") || word == "productions:"
                                ? "papers"
                                : "cpfg and L-Py",
                            ""};
@@ -680,7 +777,8 @@ void mend_foreign_lines(DraftText& draft) {
     Fix fix{"", {}, false};
     std::size_t rule_count = 0;
     bool has_statement = false;
-    for (const FreeLine& line : free_lines(draft.text)) {
+    for (FreeLine& line : free_lines(draft.text)) {
+        line.text = without_blanks(line.text.substr(0, line.text.find("//")));
         if (!is_foreign(line.text)) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;
@@ -691,7 +789,7 @@ void mend_foreign_lines(DraftText& draft) {
             meaning = line_without_meaning(line.text);
         }
         if (!meaning) {
-            if (const auto production = production_for(line.text, rule_count)) {
+            if (const auto production = productions_for(line.text, rule_count)) {
                 meaning = Meaning{"papers and other programs", *production};
             }
         }
@@ -702,9 +800,9 @@ void mend_foreign_lines(DraftText& draft) {
         const std::size_t end = begin + line.text.size();
         if (diagnostic == nullptr) {
             source = meaning->source;
-            diagnostic = &draft.report(
-                DiagnosticCode::ForeignLine, draft.span(begin, end),
-                "this line is in the notation of " + source + ", not a statement of a grammar");
+            diagnostic = &draft.report(DiagnosticCode::ForeignLine, draft.span(begin, end),
+                                       "this line is in the notation of " + source +
+                                           ", not a statement of a grammar");
         } else if (diagnostic->labels.size() < 8) {
             diagnostic->labels.push_back({draft.span(begin, end), "and this one"});
         }
@@ -715,13 +813,16 @@ void mend_foreign_lines(DraftText& draft) {
                                            "` has no counterpart here; leave it out");
             }
         }
-        if (meaning->replacement.empty() ||
-            !draft.replace(begin, end, meaning->replacement)) {
+        if (meaning->replacement.empty() || !draft.replace(begin, end, meaning->replacement)) {
             draft.blank(begin, end);
             draft.is_incomplete = draft.is_incomplete || !meaning->replacement.empty();
         }
     }
     if (diagnostic != nullptr) {
+        if (rule_count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
+            diagnostic->help.emplace_back("if each letter is a module, `#set names letters;` reads "
+                                          "them so; otherwise blanks stand between names");
+        }
         fix.title = fix.edits.size() == 1 ? "write the line in this language"
                                           : "write these lines in this language";
         diagnostic->fixes.push_back(std::move(fix));

@@ -128,14 +128,15 @@ Token setting_without_set(ParseSession& session, std::string_view word) {
         const char next = next_character(text, scan.end);
         if (next == '=' || next == ':') {
             const auto sign = static_cast<std::uint32_t>(text.find(next, scan.end));
-            const std::size_t value = std::min(text.find_first_not_of(" \t", sign + 1), text.size());
+            const std::size_t value =
+                std::min(text.find_first_not_of(" \t", sign + 1), text.size());
             const std::size_t end = std::min(text.find_first_of(";\n", value), text.size());
-            const SourceSpan gap = session.scanned.span(scan.end, static_cast<std::uint32_t>(value));
-            diagnostic.fixes.push_back(
-                {"a setting is written `#set " + name + " " +
-                     std::string(text.substr(value, end - value)) + ";`",
-                 {{place, "set "}, {gap, " "}},
-                 true});
+            const SourceSpan gap =
+                session.scanned.span(scan.end, static_cast<std::uint32_t>(value));
+            diagnostic.fixes.push_back({"a setting is written `#set " + name + " " +
+                                            std::string(text.substr(value, end - value)) + ";`",
+                                        {{place, "set "}, {gap, " "}},
+                                        true});
             scan.sign_explained = true;
         } else {
             add_fix(diagnostic, "a setting is written `#set " + name + "`", place, "set ", true);
@@ -160,8 +161,8 @@ void explain_section(const ParseSession& session, Keyword meant, Diagnostic& dia
     const std::size_t hash = text.find('#', session.scan.end);
     const std::size_t begin =
         hash == std::string_view::npos ? text.size() : text.find_first_not_of(" \t", hash + 1);
-    const std::size_t end = std::min(text.find_first_of(";\n", std::min(begin, text.size())),
-                                     text.size());
+    const std::size_t end =
+        std::min(text.find_first_of(";\n", std::min(begin, text.size())), text.size());
     const std::string name = "#" + std::string(spelling(meant));
     const std::string_view next =
         begin < end ? text.substr(begin, end - begin) : std::string_view("p : A : * : B");

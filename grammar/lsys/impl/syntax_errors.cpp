@@ -134,6 +134,26 @@ void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
             session.scanned.span(begin, end), '"' + name + '"', false);
 }
 
+/// The parameter of the current `#param` with bounds: `x 30 {0, 60}`.
+std::string param_text(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    constexpr std::string_view kBlanks = " \t\r\n=:";
+    const std::size_t begin = std::min(
+        text.find_first_not_of(kBlanks, text.find("param", session.scan.statement_begin) + 5),
+        text.size());
+    const std::string name(leading_word(text.substr(begin)));
+    const std::size_t value =
+        std::min(text.find_first_not_of(kBlanks, begin + name.size()), text.size());
+    const std::string_view number =
+        text.substr(value, text.find_first_not_of("0123456789.", value) - value);
+    if (name.empty() || number.empty() || number.find('.') != std::string_view::npos ||
+        number.size() > 6 || value + number.size() > session.scan.end) {
+        return "NAME value {min, max}";
+    }
+    const int twice = 2 * std::stoi(std::string(number));
+    return name + " " + std::string(number) + " {0, " + std::to_string(twice) + "}";
+}
+
 void report_expected(ParseSession& session, const Unexpected& error) {
     if (!session.wants(DiagnosticCode::SyntaxError)) {
         return;
@@ -147,7 +167,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                                      : "expected " + joined(words) + ", found " + found);
     if (scan.keyword == Keyword::Param && error.expects(Kind::S_LBRACE) &&
         !error.expects(Kind::S_NUMBER)) {
-        diagnostic.help.emplace_back("a parameter has bounds: `#param NAME value {min, max};`");
+        diagnostic.help.push_back("a parameter has bounds: `#param " + param_text(session) + ";`");
     } else if (error.part == Part::Setting && error.token == Kind::S_OTHER && error.text == ",") {
         const std::string_view text = session.scanned.text;
         const char next = scan.end < text.size() ? text[scan.end] : '\0';
@@ -167,7 +187,8 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                character_before(session.scanned.text, scan.begin) == ',') {
         diagnostic.help.emplace_back("no comma stands behind the last argument");
     } else if (error.text == "?") {
-        diagnostic.help.emplace_back("there is no operator `? :`: a choice is `if(condition, a, b)`");
+        diagnostic.help.emplace_back(
+            "there is no operator `? :`: a choice is `if(condition, a, b)`");
     } else if (error.part == Part::ObjectValue && error.token == Kind::S_OTHER &&
                error.text == ".") {
         offer_quotes(session, diagnostic);
@@ -198,7 +219,7 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
         std::string_view("[]$\"'\\").find(error.text[0]) == std::string_view::npos) {
         return false;
     }
-    if (are_brackets_closed(session)) {
+    if (error.text != "]" && are_brackets_closed(session)) {
         return false; // the character is the mistake
     }
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
@@ -278,9 +299,8 @@ bool report_decrement(ParseSession& session, const Unexpected& error) {
         const SourceSpan span = session.scanned.span(end - 2, end);
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::SyntaxError, span, "there is no operator `--`");
-        add_fix(diagnostic,
-                "write `" + std::string(text.substr(begin, end - 2 - begin)) + " - 1`", span,
-                " - 1", false);
+        add_fix(diagnostic, "write `" + std::string(text.substr(begin, end - 2 - begin)) + " - 1`",
+                span, " - 1", false);
     }
     return true;
 }
