@@ -20,6 +20,8 @@ struct DraftText {
     FileId file = kNoFile;
     std::string text;
     Diagnostics& diagnostics;
+    /// The text with blanks in place of comments, and letters in place of what stands in back quotes.
+    std::string masked;
     bool is_changed = false;
     bool is_incomplete = false; // a statement is left out
 
@@ -29,6 +31,13 @@ struct DraftText {
     Diagnostic& report(DiagnosticCode code, SourceSpan span, std::string message) {
         return diagnostics.add(code, span, std::move(message));
     }
+    void put(std::size_t at, char c) {
+        text[at] = c;
+        masked[at] = c;
+        is_changed = true;
+    }
+    /// Makes `masked` anew.
+    void mask();
     /// Writes blanks over [begin, end), except for line ends.
     void blank(std::size_t begin, std::size_t end);
     /// Writes `replacement` and blanks over [begin, end) if it fits; returns whether it does.

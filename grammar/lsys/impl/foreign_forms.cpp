@@ -153,7 +153,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::string_view text() const { return draft_.text; }
+    [[nodiscard]] std::string_view text() const { return draft_.masked; }
     Diagnostic& report(Piece piece, std::string message) {
         return draft_.report(DiagnosticCode::ForeignForm, draft_.span(piece.begin, piece.end),
                              std::move(message));
@@ -233,7 +233,8 @@ private:
                        .end},
             "a function is a name, its parameters and one expression");
         const Piece head = trimmed(text(), statement_.begin, close + 1);
-        Fix fix{"write `" + copy_of(text(), head) + " " + copy_of(text(), expression) + ";`",
+        Fix fix{"write `" + copy_of(draft_.text, head) + " " + copy_of(draft_.text, expression) +
+                    ";`",
                 {},
                 false};
         for (const Piece& piece : needless) {
@@ -274,7 +275,7 @@ private:
             } else if (text()[rest.begin] == '=' && text().substr(rest.begin, 2) != "==") {
                 const Piece value = trimmed(text(), rest.begin + 1, rest.end);
                 Diagnostic& diagnostic = report(rest, "parameters have no default values");
-                const std::string use = first_use(open, copy_of(text(), value), number);
+                const std::string use = first_use(open, copy_of(draft_.text, value), number);
                 diagnostic.help.push_back("a module has all its parameters wherever it stands" +
                                           (use.empty() ? "" : ": write `" + use + "`"));
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
@@ -481,7 +482,7 @@ private:
         std::string points;
         std::string first;
         for (std::size_t i = 0; i < items.size(); ++i) {
-            const std::string item = copy_of(text(), items[i]);
+            const std::string item = copy_of(draft_.text, items[i]);
             if (!is_number_text(item)) {
                 first.clear();
                 break;
@@ -580,8 +581,7 @@ private:
                                 "statement");
             add_fix(diagnostic, is_end ? "remove it" : "write `,`",
                     draft_.span(statement_.end, statement_.end + 1), is_end ? "" : ",", false);
-            draft_.text[statement_.end] = is_end ? ' ' : ',';
-            draft_.is_changed = true;
+            draft_.put(statement_.end, is_end ? ' ' : ',');
             statement_ = statement_at(text(), statement_.begin);
         }
         const std::size_t end = std::min(text().find(':', let), statement_.end);
@@ -621,10 +621,10 @@ private:
                 text_of(text(), values[i]).find('=') != std::string_view::npos) {
                 return;
             }
-            plain += (i == 0 ? "" : ", ") + copy_of(text(), names[i]) + " = " +
-                     copy_of(text(), values[i]);
-            dense +=
-                (i == 0 ? " " : ",") + copy_of(text(), names[i]) + "=" + copy_of(text(), values[i]);
+            plain += (i == 0 ? "" : ", ") + copy_of(draft_.text, names[i]) + " = " +
+                     copy_of(draft_.text, values[i]);
+            dense += (i == 0 ? " " : ",") + copy_of(draft_.text, names[i]) + "=" +
+                     copy_of(draft_.text, values[i]);
         }
         const Piece all = trimmed(text(), let + 3, end);
         Diagnostic& diagnostic = report(all, "each local value has its own `=`");
@@ -720,7 +720,7 @@ private:
                 return;
             }
             const Piece arguments = comma == close ? Piece{} : trimmed(text(), comma + 1, close);
-            const std::string inside = copy_of(text(), arguments);
+            const std::string inside = copy_of(draft_.text, arguments);
             const std::string module = inside.empty() ? word : word + "(" + inside + ")";
             if (diagnostic == nullptr) {
                 diagnostic =
@@ -773,12 +773,12 @@ private:
         }
         const std::string label(
             without_blanks(text().substr(statement_.begin, colon - statement_.begin)));
-        const std::string head = copy_of(text(), parts[0]);
-        const std::string condition = copy_of(text(), trimmed(text(), open + 1, close));
+        const std::string head = copy_of(draft_.text, parts[0]);
+        const std::string condition = copy_of(draft_.text, trimmed(text(), open + 1, close));
         const auto production = [&](const std::string& suffix, const std::string& test,
                                     Piece body) {
-            return label + suffix + " : " + head + " : " + test + " : " + copy_of(text(), body) +
-                   ";";
+            return label + suffix + " : " + head + " : " + test + " : " +
+                   copy_of(draft_.text, body) + ";";
         };
         Diagnostic& diagnostic =
             report({at, at + 2}, "a successor holds modules and no `if`: the condition of a "
@@ -877,7 +877,7 @@ private:
         add_fix(diagnostic, "write `" + call + "`", draft_.span(all.begin, all.end), call, false);
         // The value does not count: the statement is in error.
         draft_.blank(all.begin, all.end);
-        draft_.text[all.begin] = '1';
+        draft_.put(all.begin, '1');
         choices();
     }
 
@@ -888,7 +888,7 @@ private:
         for (int i = 0; i < 16; ++i) {
             const std::vector<Piece> sides = split(text(), piece.begin, piece.end, '?', true);
             if (sides.size() < 2) {
-                return result.empty() ? result : result + copy_of(text(), piece) + closing;
+                return result.empty() ? result : result + copy_of(draft_.text, piece) + closing;
             }
             std::size_t colon = sides[0].end;
             int pending = 0;
@@ -914,7 +914,8 @@ private:
                 closing_of(text(), condition.begin, condition.end) + 1 == condition.end) {
                 condition = trimmed(text(), condition.begin + 1, condition.end - 1);
             }
-            result += "if(" + copy_of(text(), condition) + ", " + copy_of(text(), chosen) + ", ";
+            result += "if(" + copy_of(draft_.text, condition) + ", " +
+                      copy_of(draft_.text, chosen) + ", ";
             closing += ')';
             piece = trimmed(text(), colon + 1, piece.end);
         }
@@ -936,18 +937,13 @@ private:
 } // namespace
 
 void mend_foreign_forms(DraftText& draft) {
-    for (std::size_t at = 0; at < draft.text.size();) {
-        const std::string_view text = draft.text;
-        if (text.substr(at, 2) == "//") {
-            at = std::min(text.find('\n', at), text.size());
-        } else if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? text.size() : close + 2;
-        } else if (text[at] == '#' && is_statement_start(text, at)) {
-            at = std::max(at + 1, Form(draft, statement_at(text, at)).mend());
-        } else {
-            ++at;
-        }
+    draft.mask();
+    for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
+         at = draft.masked.find('#', at)) {
+        const std::string_view text = draft.masked;
+        at = is_statement_start(text, at)
+                 ? std::max(at + 1, Form(draft, statement_at(text, at)).mend())
+                 : at + 1;
     }
 }
 

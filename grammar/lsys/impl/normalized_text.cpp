@@ -193,8 +193,9 @@ void mend_foreign_text(std::string_view source,
     if (source.size() > kMaxSearchedText) {
         return;
     }
-    lsys_grammar::DraftText draft{normalized.scanned.file, std::string(source),
-                                  context.diagnostics};
+    lsys_grammar::DraftText draft{
+        normalized.scanned.file, std::string(source), context.diagnostics, {}};
+    draft.mask();
     lsys_grammar::mend_pasted_text(draft);
     lsys_grammar::mend_foreign_forms(draft);
     normalized.is_incomplete = draft.is_incomplete;

@@ -13,10 +13,40 @@ namespace lsys::lsys_grammar {
 void DraftText::blank(std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at) {
         if (text[at] != '\n' && text[at] != '\r') {
-            text[at] = ' ';
+            put(at, ' ');
         }
     }
     is_changed = true;
+}
+
+void DraftText::mask() {
+    masked = text;
+    bool in_statement = false;
+    const auto hide = [&](std::size_t begin, std::size_t end, char c) {
+        for (std::size_t at = begin; at < end; ++at) {
+            masked[at] = text[at] == '\n' || text[at] == '\r' ? text[at] : c;
+        }
+    };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        std::size_t end = at;
+        if (text.compare(at, 2, "/*") == 0) {
+            end = text.find("*/", at + 2);
+            end = end == std::string::npos ? text.size() : end + 2;
+            hide(at, end, ' ');
+        } else if (!in_statement && text.compare(at, 2, "//") == 0) {
+            end = std::min(text.find('\n', at), text.size());
+            hide(at, end, ' ');
+        } else if (in_statement && text[at] == '`') {
+            end = text.find_first_of("`\n", at + 1);
+            end = end == std::string::npos || text[end] != '`' ? at : end + 1;
+            hide(at, end, 'Q');
+        } else if (text[at] == '#' && at + 1 < text.size()) {
+            in_statement = in_statement || is_statement_start(text, at);
+        } else if (text[at] == ';') {
+            in_statement = false;
+        }
+        at = end > at ? end - 1 : at;
+    }
 }
 
 bool DraftText::replace(std::size_t begin, std::size_t end, std::string_view replacement) {
@@ -24,8 +54,9 @@ bool DraftText::replace(std::size_t begin, std::size_t end, std::string_view rep
         return false;
     }
     blank(begin, end);
-    std::copy(replacement.begin(), replacement.end(),
-              text.begin() + static_cast<std::ptrdiff_t>(begin));
+    for (std::size_t i = 0; i < replacement.size(); ++i) {
+        put(begin + i, replacement[i]);
+    }
     return true;
 }
 
@@ -51,6 +82,11 @@ std::size_t skip_gaps(std::string_view text, std::size_t at) {
 
 StatementText statement_at(std::string_view text, std::size_t at) {
     StatementText statement{at, text.size()};
+    // Only names of files stand in quotes; among modules a `"` is a module.
+    const std::size_t first = std::min(text.find_first_not_of(" \t", at + 1), text.size());
+    const std::string_view word = leading_word(text.substr(first));
+    const bool has_files = (word == "object" || word == "include") &&
+                           text.substr(skip_gaps(text, first + word.size()), 1) != ":";
     bool is_line_start = false;
     for (++at; at < text.size(); ++at) {
         const char c = text[at];
@@ -58,12 +94,10 @@ StatementText statement_at(std::string_view text, std::size_t at) {
             statement.end = at;
             break;
         }
-        if (c == '`' || c == '"') {
+        if (c == '`' || (c == '"' && has_files)) {
             const char ends[] = {c, '\n', '\0'};
             const std::size_t close = text.find_first_of(ends, at + 1);
-            // A `"` among modules is a module; only names of files stand between two.
-            if (close != std::string_view::npos && text[close] == c &&
-                (c == '`' || text.substr(at, close - at).find(';') == std::string_view::npos)) {
+            if (close != std::string_view::npos && text[close] == c) {
                 at = close;
             }
         } else if (text.substr(at, 2) == "/*") {
@@ -172,6 +206,7 @@ void mend_line_ends(DraftText& draft) {
         "file");
     diagnostic.help.emplace_back("save the file with the line ends of Unix (LF) or Windows (CRLF)");
     std::replace(draft.text.begin(), draft.text.end(), '\r', '\n');
+    draft.mask();
     draft.is_changed = true;
 }
 
@@ -369,8 +404,7 @@ void mend_diff(DraftText& draft) {
                     {draft.span(sign, sign + 1), "a line of the new version"});
             }
             fix.edits.push_back({draft.span(sign, sign + 1), ""});
-            draft.text[sign] = ' ';
-            draft.is_changed = true;
+            draft.put(sign, ' ');
         } else {
             has_old = has_old || is_old;
             fix.edits.push_back(
@@ -417,8 +451,8 @@ const Entity* find_entity(std::string_view text) {
 }
 
 void mend_entities(DraftText& draft) {
-    for (std::size_t at = draft.text.find('&'); at != std::string::npos;
-         at = draft.text.find('&', at + 1)) {
+    for (std::size_t at = draft.masked.find('&'); at != std::string::npos;
+         at = draft.masked.find('&', at + 1)) {
         const std::string_view text = draft.text;
         std::string characters;
         std::size_t end = at;
@@ -459,6 +493,7 @@ void mend_second_copy(DraftText& draft) {
     const std::string_view line = text.substr(first, end_of_line(text, first) - first);
     const std::size_t second = text.find(line, first + line.size());
     if (line.size() < 4 || second == std::string_view::npos ||
+        text.substr(first, second - first).find("#n") == std::string_view::npos ||
         without_blanks(text.substr(first, second - first)) != without_blanks(text.substr(second))) {
         return;
     }
@@ -541,6 +576,12 @@ Arrow find_arrow(std::string_view text) {
     return found;
 }
 
+/// The names given to rules without one.
+struct RuleNames {
+    std::string prefix;
+    std::size_t count = 0;
+};
+
 /// A text with its typographic characters replaced, as far as productions have them.
 std::string plain(std::string_view text) {
     std::string result;
@@ -569,7 +610,7 @@ std::string plain(std::string_view text) {
 }
 
 /// The statement for a rule with an arrow: `p1 : A -> B` is `#p1 : A : * : B;`.
-std::optional<std::string> production_for(std::string_view line, std::size_t& rule_count);
+std::optional<std::string> production_for(std::string_view line, RuleNames& names);
 
 /// The `=` of a rule of Houdini, `A(x) : x > 3 = B`.
 Arrow find_equals(std::string_view line) {
@@ -588,13 +629,13 @@ Arrow find_equals(std::string_view line) {
 }
 
 /// The statements for `rules : (A -> B), (B -> A)`.
-std::optional<std::string> productions_for(std::string_view line, std::size_t& rule_count) {
+std::optional<std::string> productions_for(std::string_view line, RuleNames& names) {
     auto list = value_behind(line, "rules", ":");
     if (!list) {
         list = value_behind(line, "rule", ":");
     }
     if (!list || !list->starts_with('(')) {
-        return production_for(list ? *list : line, rule_count);
+        return production_for(list ? *list : line, names);
     }
     std::string statements;
     for (std::size_t at = 0; at < list->size();) {
@@ -608,7 +649,7 @@ std::optional<std::string> productions_for(std::string_view line, std::size_t& r
         }
         const std::string_view rule = list->substr(at, end - at);
         if (rule.size() > 1) {
-            const auto production = production_for(rule.substr(1), rule_count);
+            const auto production = production_for(rule.substr(1), names);
             if (!production) {
                 return std::nullopt;
             }
@@ -622,7 +663,7 @@ std::optional<std::string> productions_for(std::string_view line, std::size_t& r
     return statements.empty() ? std::nullopt : std::optional(statements);
 }
 
-std::optional<std::string> production_for(std::string_view line, std::size_t& rule_count) {
+std::optional<std::string> production_for(std::string_view line, RuleNames& names) {
     Arrow arrow = find_arrow(line);
     if (arrow.begin == std::string_view::npos) {
         arrow = find_equals(line);
@@ -636,7 +677,7 @@ std::optional<std::string> production_for(std::string_view line, std::size_t& ru
     if (head.empty()) {
         return std::nullopt;
     }
-    ++rule_count;
+    ++names.count;
     const std::size_t colon = head.find(':');
     const std::string_view first = head.substr(0, std::min(colon, head.size()));
     std::string condition = "*";
@@ -647,7 +688,7 @@ std::optional<std::string> production_for(std::string_view line, std::size_t& ru
         label = without_blanks(first);
         head = without_blanks(head.substr(colon + 1));
     } else {
-        label = "p" + std::to_string(rule_count);
+        label = names.prefix + std::to_string(names.count);
     }
     if (const std::size_t second = head.find(':'); second != std::string_view::npos) {
         condition = without_blanks(head.substr(second + 1));
@@ -775,7 +816,10 @@ void mend_foreign_lines(DraftText& draft) {
     Diagnostic* diagnostic = nullptr;
     std::string source;
     Fix fix{"", {}, false};
-    std::size_t rule_count = 0;
+    // Rules without a name get one that no other has.
+    const bool has_names =
+        draft.text.find("p1") != std::string::npos || draft.text.find("p2") != std::string::npos;
+    RuleNames names{has_names ? "rule" : "p", 0};
     bool has_statement = false;
     for (FreeLine& line : free_lines(draft.text)) {
         line.text = without_blanks(line.text.substr(0, line.text.find("//")));
@@ -789,7 +833,7 @@ void mend_foreign_lines(DraftText& draft) {
             meaning = line_without_meaning(line.text);
         }
         if (!meaning) {
-            if (const auto production = productions_for(line.text, rule_count)) {
+            if (const auto production = productions_for(line.text, names)) {
                 meaning = Meaning{"papers and other programs", *production};
             }
         }
@@ -819,7 +863,7 @@ void mend_foreign_lines(DraftText& draft) {
         }
     }
     if (diagnostic != nullptr) {
-        if (rule_count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
+        if (names.count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
             diagnostic->help.emplace_back("if each letter is a module, `#set names letters;` reads "
                                           "them so; otherwise blanks stand between names");
         }
