@@ -114,7 +114,7 @@ public:
 
     /// Mends the statement; returns where the search goes on.
     std::size_t mend() {
-        const bool has_ended = statement_.end < text().size() && text()[statement_.end] == ';';
+        const bool has_ended = statement_.end < text().size() && char_at(statement_.end) == ';';
         const std::size_t next = statement_.end + (has_ended ? 1 : 0);
         if (statement_.end - statement_.begin > kMaxStatement) {
             return next;
@@ -154,12 +154,15 @@ public:
 
 private:
     [[nodiscard]] std::string_view text() const { return draft_.masked; }
+    [[nodiscard]] char char_at(std::size_t at) const {
+        return at < draft_.masked.size() ? draft_.masked[at] : '\0';
+    }
     Diagnostic& report(Piece piece, std::string message) {
         return draft_.report(DiagnosticCode::ForeignForm, draft_.span(piece.begin, piece.end),
                              std::move(message));
     }
     [[nodiscard]] std::size_t after() const {
-        return statement_.end + (statement_.end < text().size() && text()[statement_.end] == ';');
+        return statement_.end + (statement_.end < text().size() && char_at(statement_.end) == ';');
     }
 
     // --- functions
@@ -184,10 +187,10 @@ private:
         };
         if (text().substr(at, 2) == "->" || text().substr(at, 2) == "=>") {
             take(2);
-        } else if (at < text().size() && text()[at] == ':') {
+        } else if (at < text().size() && char_at(at) == ':') {
             take(1);
         }
-        const bool has_brace = at < text().size() && text()[at] == '{';
+        const bool has_brace = at < text().size() && char_at(at) == '{';
         const bool has_return = [&] {
             const std::size_t word = has_brace ? skip_gaps(text(), at + 1) : at;
             return leading_word(text().substr(word)) == "return";
@@ -206,11 +209,11 @@ private:
         std::size_t end = after();
         if (is_block) {
             std::size_t brace = skip_gaps(text(), end);
-            if (statement_.end < text().size() && brace < text().size() && text()[brace] == '}') {
+            if (statement_.end < text().size() && brace < text().size() && char_at(brace) == '}') {
                 needless.push_back({brace, brace + 1});
                 end = brace + 1;
                 const std::size_t second = skip_gaps(text(), end);
-                if (second < text().size() && text()[second] == ';') {
+                if (second < text().size() && char_at(second) == ';') {
                     needless.push_back({second, second + 1});
                     end = second + 1;
                 }
@@ -272,7 +275,7 @@ private:
                 add_fix(diagnostic, "write `" + std::string(name) + "`",
                         draft_.span(formal.begin, rest.begin), "", false);
                 draft_.blank(formal.begin, rest.begin);
-            } else if (text()[rest.begin] == '=' && text().substr(rest.begin, 2) != "==") {
+            } else if (char_at(rest.begin) == '=' && text().substr(rest.begin, 2) != "==") {
                 const Piece value = trimmed(text(), rest.begin + 1, rest.end);
                 Diagnostic& diagnostic = report(rest, "parameters have no default values");
                 const std::string use = first_use(open, copy_of(draft_.text, value), number);
@@ -281,7 +284,7 @@ private:
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
                 draft_.blank(rest.begin, rest.end);
-            } else if (text()[rest.begin] == ':' &&
+            } else if (char_at(rest.begin) == ':' &&
                        is_type(without_blanks(
                            text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
                 Diagnostic& diagnostic =
@@ -298,13 +301,13 @@ private:
     [[nodiscard]] std::string
     first_use(std::size_t open, const std::string& value, std::size_t count) const {
         std::size_t begin = open;
-        while (begin > 0 && is_word_character(text()[begin - 1])) {
+        while (begin > 0 && is_word_character(char_at(begin - 1))) {
             --begin;
         }
         const std::string name(text().substr(begin, open - begin));
         const std::size_t at = text().find(name + "(");
         if (name.empty() || at == std::string_view::npos || at == begin ||
-            (at > 0 && is_word_character(text()[at - 1]))) {
+            (at > 0 && is_word_character(char_at(at - 1)))) {
             return {};
         }
         const std::size_t close = closing_of(text(), at + name.size(), text().size());
@@ -321,7 +324,7 @@ private:
         const std::size_t name = skip_gaps(text(), body_);
         std::size_t begin = name + leading_word(text().substr(name)).size();
         begin = skip_gaps(text(), begin);
-        if (begin < statement_.end && (text()[begin] == '=' || text()[begin] == ':')) {
+        if (begin < statement_.end && (char_at(begin) == '=' || char_at(begin) == ':')) {
             begin = skip_gaps(text(), begin + 1);
         }
         const Piece all = trimmed(text(), begin, statement_.end);
@@ -416,7 +419,7 @@ private:
             return;
         }
         std::size_t end = object + leading_word(text().substr(object)).size();
-        if (text()[object] == '"') {
+        if (char_at(object) == '"') {
             end = text().find('"', object + 1);
             end = end == std::string_view::npos ? statement_.end : end + 1;
         }
@@ -468,10 +471,10 @@ private:
         const std::size_t name = skip_gaps(text(), body_);
         const std::string word(leading_word(text().substr(name)));
         std::size_t begin = skip_gaps(text(), name + word.size());
-        if (begin < statement_.end && text()[begin] == '=') {
+        if (begin < statement_.end && char_at(begin) == '=') {
             begin = skip_gaps(text(), begin + 1);
         }
-        if (word.empty() || begin >= statement_.end || text()[begin] != '[') {
+        if (word.empty() || begin >= statement_.end || char_at(begin) != '[') {
             return;
         }
         const std::size_t close = closing_of(text(), begin, statement_.end);
@@ -511,7 +514,7 @@ private:
              at = text().find(word + "[", at + 1)) {
             const std::size_t open = at + word.size();
             const std::size_t end = closing_of(text(), open, text().size());
-            if ((at == 0 || !is_word_character(text()[at - 1])) && end != std::string_view::npos &&
+            if ((at == 0 || !is_word_character(char_at(at - 1))) && end != std::string_view::npos &&
                 end - open < 256) {
                 draft_.blank(open, end + 1);
             }
@@ -549,15 +552,15 @@ private:
     void local_values() {
         std::size_t let = text().find("let", body_);
         while (let < statement_.end &&
-               (is_word_character(text()[let + 3]) || is_word_character(text()[let - 1]) ||
-                text()[std::min(text().find_last_not_of(" \t\r\n", let - 1), let)] != ':')) {
+               (is_word_character(char_at(let + 3)) || is_word_character(char_at(let - 1)) ||
+                char_at(std::min(text().find_last_not_of(" \t\r\n", let - 1), let)) != ':')) {
             let = text().find("let", let + 3);
         }
         if (let >= statement_.end) {
             return;
         }
         // `let a = 1; b = 2 :`
-        for (int i = 0; i < 16 && statement_.end < text().size() && text()[statement_.end] == ';';
+        for (int i = 0; i < 16 && statement_.end < text().size() && char_at(statement_.end) == ';';
              ++i) {
             const bool has_colon =
                 text().substr(let, statement_.end - let).find(':') != std::string_view::npos;
@@ -590,7 +593,7 @@ private:
         for (const Piece& local : locals) {
             const std::string_view first = leading_word(text_of(text(), local));
             const std::size_t name = skip_gaps(text(), local.begin + first.size());
-            if (name >= local.end || !is_type(first) || !is_letter(text()[name])) {
+            if (name >= local.end || !is_type(first) || !is_letter(char_at(name))) {
                 continue;
             }
             Diagnostic& diagnostic = report({local.begin, local.begin + first.size()},
@@ -641,7 +644,7 @@ private:
         }
         int depth = 0;
         for (std::size_t at = parts[1].begin; at < parts[1].end; ++at) {
-            const char c = text()[at];
+            const char c = char_at(at);
             depth += c == '(' ? 1 : c == ')' ? -1 : 0;
             if (depth != 0) {
                 continue;
@@ -650,8 +653,8 @@ private:
             for (const std::string_view sign : {"-->", "==>", "->", "=>"}) {
                 length = length == 0 && text().substr(at).starts_with(sign) ? sign.size() : length;
             }
-            if (length == 0 && c == '=' && text()[at + 1] != '=' &&
-                std::string_view("=<>!").find(text()[at - 1]) == std::string_view::npos) {
+            if (length == 0 && c == '=' && char_at(at + 1) != '=' &&
+                std::string_view("=<>!").find(char_at(at - 1)) == std::string_view::npos) {
                 length = 1;
             }
             if (length == 0) {
@@ -661,7 +664,7 @@ private:
             const std::string_view before =
                 without_blanks(text().substr(parts[1].begin, at - parts[1].begin));
             // `t = 1` in a production of three parts is a comparison rather than an arrow.
-            if (length == 1 && (successor.empty() || is_digit(text()[successor.begin]) ||
+            if (length == 1 && (successor.empty() || is_digit(char_at(successor.begin)) ||
                                 before.find_first_of("<>=") == std::string_view::npos)) {
                 continue;
             }
@@ -691,7 +694,7 @@ private:
         std::size_t colons = 1;
         bool begins_part = true; // or follows a module that was mended
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
-            const char c = text()[at];
+            const char c = char_at(at);
             if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
                 continue;
             }
@@ -716,7 +719,7 @@ private:
             const std::size_t name = skip_gaps(text(), at + 1);
             const std::string word(leading_word(text().substr(name)));
             const std::size_t comma = skip_gaps(text(), name + word.size());
-            if (word.empty() || comma == close || text()[comma] != ',') {
+            if (word.empty() || comma == close || char_at(comma) != ',') {
                 return;
             }
             const Piece arguments = comma == close ? Piece{} : trimmed(text(), comma + 1, close);
@@ -735,7 +738,7 @@ private:
                                            word + "(t) : t >= " + inside + "`");
                 const std::size_t star = text().find_first_not_of(
                     " \t\r\n", std::min(text().find(':', close), statement_.end) + 1);
-                if (star < statement_.end && text()[star] == '*') {
+                if (star < statement_.end && char_at(star) == '*') {
                     value_edit = Edit{draft_.span(star, star + 1), "t >= " + inside};
                 }
             }
@@ -759,13 +762,13 @@ private:
             return;
         }
         const std::size_t open = skip_gaps(text(), at + 2);
-        const std::size_t close =
-            text()[open] == '(' ? closing_of(text(), open, statement_.end) : std::string_view::npos;
+        const std::size_t close = char_at(open) == '(' ? closing_of(text(), open, statement_.end)
+                                                       : std::string_view::npos;
         if (close == std::string_view::npos) {
             return;
         }
         const std::size_t brace = skip_gaps(text(), close + 1);
-        const bool has_brace = text()[brace] == '{';
+        const bool has_brace = char_at(brace) == '{';
         std::size_t end =
             has_brace ? closing_of(text(), brace, statement_.end) : std::string_view::npos;
         if (end == std::string_view::npos) {
@@ -788,7 +791,7 @@ private:
         std::string second;
         if (leading_word(text().substr(next)) == "else") {
             next = skip_gaps(text(), next + 4);
-            const std::size_t last = next < statement_.end && text()[next] == '{'
+            const std::size_t last = next < statement_.end && char_at(next) == '{'
                                          ? closing_of(text(), next, statement_.end)
                                          : std::string_view::npos;
             if (last != std::string_view::npos) {
@@ -823,7 +826,7 @@ private:
         }
         bool is_inside = false;
         while (begin > floor) {
-            const char c = text()[begin - 1];
+            const char c = char_at(begin - 1);
             if (c == ')' || c == '}') {
                 ++depth;
             } else if (c == '(' || c == '{') {
@@ -834,8 +837,8 @@ private:
             } else if (depth == 0 && (c == ',' || c == ':' || c == '=')) {
                 const bool compares =
                     c == '=' && begin >= 2 &&
-                    std::string_view("=<>!").find(text()[begin - 2]) != std::string_view::npos;
-                const bool is_first = c == '=' && begin < text().size() && text()[begin] == '=';
+                    std::string_view("=<>!").find(char_at(begin - 2)) != std::string_view::npos;
+                const bool is_first = c == '=' && begin < text().size() && char_at(begin) == '=';
                 if (!compares && !is_first) {
                     is_inside = c != ':';
                     break;
@@ -851,7 +854,7 @@ private:
         depth = 0;
         int pending = 1; // `:` to come
         for (; end < statement_.end; ++end) {
-            const char c = text()[end];
+            const char c = char_at(end);
             if (is_opening(c)) {
                 ++depth;
             } else if (is_closing(c) && depth-- == 0) {
@@ -894,7 +897,7 @@ private:
             int pending = 0;
             int depth = 0;
             for (; colon < piece.end; ++colon) {
-                const char c = text()[colon];
+                const char c = char_at(colon);
                 depth += is_opening(c) ? 1 : is_closing(c) ? -1 : 0;
                 pending += depth == 0 && c == '?' ? 1 : 0;
                 if (depth == 0 && c == ':' && --pending == 0) {
@@ -910,7 +913,7 @@ private:
             if (text_of(text(), chosen).find('?') != std::string_view::npos) {
                 return {};
             }
-            if (text()[condition.begin] == '(' &&
+            if (char_at(condition.begin) == '(' &&
                 closing_of(text(), condition.begin, condition.end) + 1 == condition.end) {
                 condition = trimmed(text(), condition.begin + 1, condition.end - 1);
             }

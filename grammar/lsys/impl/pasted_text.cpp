@@ -67,6 +67,7 @@ bool is_statement_start(std::string_view text, std::size_t at) {
 }
 
 std::size_t skip_gaps(std::string_view text, std::size_t at) {
+    at = std::min(at, text.size());
     while (at < text.size()) {
         if (std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos) {
             ++at;
