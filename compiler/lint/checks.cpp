@@ -21,6 +21,7 @@ constexpr ListedCheck kChecks[] = {
     {check_branches, false},
     {check_polygons, false},
     {check_turtle_arguments, false},
+    {check_foreign_habits, true},
     {check_unused_names, true},
     {check_module_use, true},
     {check_reachable_productions, true},

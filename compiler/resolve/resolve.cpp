@@ -15,6 +15,7 @@
 #include "compiler/resolve/impl/values.h"
 #include "compiler/resolve/impl/words.h"
 #include "compiler/resolve/profiles.h"
+#include "grammar/base/synonyms.h"
 
 #include <fmt/format.h>
 
@@ -210,6 +211,21 @@ private:
         return {root, size, size};
     }
 
+    /// Whether a `#set` tries to give the number of generations.
+    [[nodiscard]] bool has_setting_of_generations() const {
+        for (const Statement& statement : resolution_.ast.statements) {
+            if (statement.kind == StatementKind::Set) {
+                const std::string_view key =
+                    resolution_.text(resolution_.ast.sets[statement.index].key);
+                const Synonym* const synonym = find_synonym(SynonymKind::Setting, key);
+                if (synonym != nullptr && synonym->spelling.starts_with("#n")) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
     void check_missing() {
         if (resolution_.options.part) {
             return;
@@ -226,7 +242,7 @@ private:
             error.help.emplace_back("add one: `#w : F(1);`");
         }
         if (resolution_.ast.generations.empty() && !resolution_.options.generations &&
-            !attempted.has("n")) {
+            !attempted.has("n") && !has_setting_of_generations()) {
             Diagnostic& warning = resolution_.diagnostics.add(
                 DiagnosticCode::MissingGenerations, end_of_text(),
                 "the grammar does not say how many generations to derive");

@@ -106,7 +106,7 @@ ExpressionId AstBuilder::grouping(ExpressionId inner, SourceSpan span) {
 ExpressionId AstBuilder::range(std::uint32_t count, SourceSpan span) {
     if (count != 2) {
         drop_arguments(count);
-        report_bad_range(diagnostics_, count, span);
+        report_bad_range(diagnostics_, count, span, sources_);
         return error(span);
     }
     Expression node = make_node(ExpressionKind::Range, span);
@@ -184,7 +184,7 @@ void AstBuilder::param(NameId name,
         node.minimum = arguments_[arguments_.size() - 2];
         node.maximum = arguments_[arguments_.size() - 1];
     } else {
-        report_bad_range(diagnostics_, bound_count, bounds);
+        report_bad_range(diagnostics_, bound_count, bounds, sources_);
         node.minimum = error(bounds);
         node.maximum = error(bounds);
     }
@@ -309,6 +309,10 @@ bool AstBuilder::has_room(SourceSpan span) {
                          "with this the grammar has more than 2,147,483,648 modules or values");
     }
     return max_count <= kMaxNodes;
+}
+
+void AstBuilder::mark_incomplete() {
+    ast_.incomplete = true;
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {

@@ -119,6 +119,8 @@ public:
     void local(NameId name, SourceSpan name_span, ExpressionId value);
     void production(ModuleList successor);
 
+    /// Marks the Ast as incomplete: a part of the text was not read.
+    void mark_incomplete();
     /// Lets finish_statement() roll the current statement back.
     void discard_statement() { is_discarded_ = true; }
     /// Discards the current statement and its open arguments; the parser goes on within it.

@@ -42,7 +42,10 @@ void report_chained_comparison(Diagnostics& diagnostics,
                                  "around the first if its result is to be compared");
 }
 
-void report_bad_range(Diagnostics& diagnostics, std::uint32_t count, SourceSpan span) {
+void report_bad_range(Diagnostics& diagnostics,
+                      std::uint32_t count,
+                      SourceSpan span,
+                      const SourceMap& sources) {
     if (!diagnostics.admits(DiagnosticCode::BadRange)) {
         return;
     }
@@ -53,6 +56,17 @@ void report_bad_range(Diagnostics& diagnostics, std::uint32_t count, SourceSpan 
         DiagnosticCode::BadRange, span, "a range has two values, `{min, max}`; this has " + found);
     diagnostic.help.emplace_back(
         "inside parentheses braces are a random range; around modules they are a polygon");
+    const std::string_view text = sources.file(span.file).text();
+    const bool is_whole = span.begin > 1 && text[span.begin - 1] == '(' &&
+                          text[span.begin - 2] == '\'' && text.substr(span.end, 1) == ")" &&
+                          span.end - span.begin > 2;
+    if (count == 3 && is_whole) {
+        const std::string inside(text.substr(span.begin + 1, span.end - span.begin - 2));
+        add_fix(diagnostic,
+                std::string("a colour or a direction has no braces: write `") +
+                    text[span.begin - 2] + "(" + inside + ")`",
+                span, inside, false);
+    }
 }
 
 void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c) {

@@ -16,7 +16,10 @@ void report_chained_comparison(Diagnostics& diagnostics,
                                const Ast& ast,
                                ExpressionId first,
                                SourceSpan span);
-void report_bad_range(Diagnostics& diagnostics, std::uint32_t count, SourceSpan span);
+void report_bad_range(Diagnostics& diagnostics,
+                      std::uint32_t count,
+                      SourceSpan span,
+                      const SourceMap& sources);
 void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c);
 /// Reports an overflow or underflow of `literal`; does nothing for a normal literal.
 void report_literal_range(Diagnostics& diagnostics,

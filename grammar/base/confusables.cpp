@@ -14,8 +14,10 @@ namespace {
 constexpr Confusable kTable[] = {
     {0x00A0, " ", "no-break space"},
     {0x00A6, "|", "broken bar"},
+    {0x00A9, "(c)", "copyright sign"},
     {0x00AB, "\"", "angle quotation mark"},
     {0x00AD, "", "soft hyphen"},
+    {0x00AE, "(r)", "registered sign"},
     {0x00B0, "", "degree sign"},
     {0x00B2, "^2", "superscript"},
     {0x00B3, "^3", "superscript"},

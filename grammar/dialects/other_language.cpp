@@ -43,6 +43,11 @@ std::size_t word_length(std::string_view text) {
 /// Whether a line begins a statement that only .lsys has: `#n =`, `#name :`, `#set key`, or
 /// `name :` and the other parts of a production.
 bool is_lsys_statement(std::string_view line) {
+    // A line number or the sign of a diff may stand before it.
+    const std::size_t start = line.find_first_not_of("0123456789+-.:| \t");
+    if (start != 0 && start != std::string_view::npos && line[start] == '#') {
+        line.remove_prefix(start);
+    }
     const bool has_hash = line.starts_with('#');
     const std::string_view rest = line.substr(has_hash ? 1 : 0);
     const std::size_t length = word_length(rest);
@@ -84,6 +89,28 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
     return find_line(lines, begins_with(word)) != nullptr;
 }
 
+/// What the statements of an L-Py model are here, in the author's words.
+std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
+    std::string text = "lsc reads no L-Py; write the model anew: `" + std::string(axiom.text) +
+                       "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";
+    if (const Line* const length = find_line(lines, begins_with("derivation length:"))) {
+        text += ", `" + std::string(length->text) +
+                "` is `#n = " + std::string(trimmed(length->text.substr(18))) + ";`";
+    }
+    const Line* const rule = find_line(lines, [](std::string_view line) {
+        return line.find("-->") != std::string_view::npos ||
+               (line.ends_with(':') && line.find('(') != std::string_view::npos);
+    });
+    if (rule != nullptr) {
+        const std::size_t end = std::min(rule->text.find("-->"),
+                                         rule->text.size() - (rule->text.ends_with(':') ? 1U : 0U));
+        text += ", and the production of `" + std::string(trimmed(rule->text.substr(0, end))) +
+                "` is `#p1 : " + std::string(trimmed(rule->text.substr(0, end))) +
+                " : condition : successor;`, with `*` for no condition";
+    }
+    return text;
+}
+
 /// Recognises models of L-Py and lpfg: programs with `Axiom:` and `production:`.
 std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
     const Line* const axiom = find_line(lines, begins_with("axiom:"));
@@ -101,10 +128,8 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
                         find_line(lines, [](std::string_view line) {
                             return line.starts_with("produce ") || line.starts_with("nproduce ");
                         }) != nullptr;
-    return axiom != nullptr && is_lpy
-               ? made(axiom, "an L-Py model",
-                      "lsc reads no L-Py; its productions are Python, and have to be written anew")
-               : std::nullopt;
+    return axiom != nullptr && is_lpy ? made(axiom, "an L-Py model", advice_for_lpy(lines, *axiom))
+                                      : std::nullopt;
 }
 
 /// Recognises files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
@@ -193,6 +218,27 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         }
     }
     return recognise_format(lines);
+}
+
+bool is_foreign_notation(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    if (lines.empty()) {
+        return false;
+    }
+    if (recognise_lpy(lines)) {
+        return true;
+    }
+    std::size_t count = 0;
+    for (const Line& line : lines) {
+        for (const std::string_view word :
+             {"variables", "constants", "alphabet", "axiom", "start", "rules", "angle", "\u03c9"}) {
+            const std::string_view rest =
+                begins_with(word)(line.text) ? trimmed(line.text.substr(word.size())) : "";
+            count += rest.starts_with(':') || rest.starts_with('=') ? 1U : 0U;
+        }
+        count += line.text.find("\u2192") != std::string_view::npos ? 1U : 0U;
+    }
+    return count >= 2;
 }
 
 } // namespace lsys

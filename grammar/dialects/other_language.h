@@ -19,5 +19,8 @@ struct OtherLanguage {
 
 /// The language of a text without any statement of .lsys; nullopt if no line shows it.
 [[nodiscard]] std::optional<OtherLanguage> recognise_other_language(std::string_view text);
+/// Whether a text without a telling name is in the notation of papers or of L-Py, which no dialect
+/// reads, but messages explain.
+[[nodiscard]] bool is_foreign_notation(std::string_view text);
 
 } // namespace lsys

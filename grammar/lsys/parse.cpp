@@ -20,6 +20,7 @@ void parse_text(const NormalizedText& normalized,
                 IncludeChain& includes) {
     ParseSession session(context, normalized.scanned, ast, &includes);
     session.builder.set_names(normalized.names);
+    ast.incomplete = ast.incomplete || normalized.is_incomplete;
     const lsys_grammar::Scanning scanning(session);
     lsys_grammar::Parser parser(session, scanning.scanner());
     const int failed = parser.parse();

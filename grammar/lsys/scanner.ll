@@ -292,6 +292,19 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
 }
 
+<SETTING,EXPRESSION>{
+  [$@]{IDENT}           {
+                          if (scan.value_before) {
+                              SHORTEN(1);
+                              return Token(Parser::token::TOK_OTHER, session.token());
+                          }
+                          return foreign_value(session, TEXT);
+                        }
+  {IDENT}[ \t]*"("[ \t]*"\""[^"\n\0]*"\""[^()\n;\0]*")" {
+                          BEGIN_VALUE();
+                          return foreign_value(session, TEXT);
+                        }
+}
 <SETTING>{
   {IDENT}               { return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(TEXT), session.token()); }
   {NUMBER}              {
@@ -428,6 +441,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (const auto token = local_value_token(session, TEXT)) {
                               return *token;
                           }
+                          if (is_unit(session, TEXT)) {
+                              break;
+                          }
                           if (is_word_for_operator(session, TEXT)) {
                               if (yytext[0] == 'a') {
                                   OPERATOR(AND);
@@ -510,6 +526,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return nesting_operator(session, Parser::token::TOK_CARET);
                         }
   "%"                   {
+                          if (is_percent_sign(session)) {
+                              break; /* read with its number */
+                          }
                           if (scan.value_before) {
                               report_remainder_operator(session);
                               OPERATOR(SLASH);
@@ -524,10 +543,20 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               report_named_argument(session);
                               return discard_statement(session);
                           }
+                          if (is_compound_assignment(session)) {
+                              break;
+                          }
                           if (!is_needless_sign(session)) {
                               report_assignment(session);
                               OPERATOR(EQUAL);
                           }
+                        }
+  "`"                   {
+                          if (scan.open.empty()) {
+                              scan.after_operator();
+                              return Token(Parser::token::TOK_OTHER, session.token());
+                          }
+                          report_quoted_expression(session);
                         }
   "//"                  {
                           if (is_quotient(session.scanned.text, scan.end)) {
@@ -543,7 +572,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               return colon_in_expression(session);
                           }
                         }
-  [[\]$"'.?@\\`]        { scan.after_operator(); return Token(Parser::token::TOK_OTHER, session.token()); }
+  [[\]$"'.?@\\]         { scan.after_operator(); return Token(Parser::token::TOK_OTHER, session.token()); }
 }
 
 <INITIAL,OPENING,OBJECT_NAME,OBJECT_VALUE,SETTING,MODULES,EXPRESSION>{

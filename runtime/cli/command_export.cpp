@@ -883,15 +883,42 @@ ExitStatus export_growth(const ExportCommand& command,
 
 } // namespace
 
+namespace {
+
+/// The name of an output with two letters of its ending exchanged, or one wrong; empty: none.
+std::string nearest_output(const std::string& output) {
+    const std::size_t dot = output.rfind('.');
+    if (dot == std::string::npos || output.find('/', dot) != std::string::npos) {
+        return {};
+    }
+    std::string ending = output.substr(dot + 1);
+    std::string sorted = ending;
+    std::sort(sorted.begin(), sorted.end());
+    for (const std::string_view name :
+         {"glb", "gltf", "obj", "ply", "stl", "svg", "usda", "usdz"}) {
+        std::string letters(name);
+        std::sort(letters.begin(), letters.end());
+        if (letters == sorted) {
+            return output.substr(0, dot + 1) + std::string(name);
+        }
+    }
+    const auto nearest =
+        nearest_name(ending, {"gltf", "usda", "usdz", "glb", "obj", "ply", "stl", "svg"});
+    return nearest ? output.substr(0, dot + 1) + std::string(*nearest) : std::string();
+}
+
+} // namespace
+
 ExitStatus run_command(const ExportCommand& command, const Console& console) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);
     if (!format) {
+        const std::string meant = nearest_output(command.output);
         return report_error(
-            Error{fmt::format("the name `{}` does not tell a format: {}; say which with "
-                              "--format",
-                              command.output,
-                              format_names("or", [](const FormatTraits&) { return true; }))},
+            Error{fmt::format("the name `{}` does not tell a format: {}; {}", command.output,
+                              format_names("or", [](const FormatTraits&) { return true; }),
+                              meant.empty() ? "say which with --format"
+                                            : fmt::format("did you mean `{}`?", meant))},
             console);
     }
     std::string conflict = find_surface_conflict(command.surface, *format);

@@ -570,8 +570,14 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
     return nullptr;
 }
 
-/// The error if the command is missing or the first argument is not a command; nothing if it is one
-/// or an option.
+/// Whether a word is the name of a grammar or of a scene rather than a command.
+bool is_file_name(std::string_view word) {
+    const std::size_t dot = word.rfind('.');
+    return dot != std::string_view::npos && dot != 0 && word.size() - dot > 1 &&
+           word.size() - dot <= 8;
+}
+
+/// The error if the command is missing or the first argument is not a command.
 std::optional<UsageError> unknown_command(std::span<const std::string> arguments,
                                           const CLI::App& app) {
     if (arguments.empty()) {
@@ -586,7 +592,15 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
         names.push_back(command->get_name());
     }
     UsageError usage{fmt::format("`{}` is not a command", first), kListHint};
-    if (const auto nearest = nearest_name(first, names)) {
+    if (is_file_name(first)) {
+        usage.message = fmt::format("`{}` is a file, and the command is missing", first);
+        usage.help =
+            first.ends_with(".toml")
+                ? fmt::format("`lsc forest {} -o forest.glb` grows the forest of a scene", first)
+                : fmt::format("`lsc check {0}` checks it, `lsc dump {0}` prints the word, `lsc "
+                              "export {0} -o plant.glb` draws the plant",
+                              first);
+    } else if (const auto nearest = nearest_name(first, names)) {
         usage.help = fmt::format("did you mean `lsc {}`?", *nearest);
     }
     return usage;

@@ -1,17 +1,20 @@
 #include "runtime/derive/runtime_diagnostic.h"
 
 #include "compiler/bytecode/distributions.h"
+#include "compiler/bytecode/instructions.h"
 #include "runtime/base/random.h"
 #include "runtime/derive/stream.h"
 #include "runtime/derive/word_text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -122,6 +125,56 @@ void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode
     diagnostic.facts.push_back({"module", module_text(error, bytecode)});
 }
 
+/// The operations of an expression.
+std::vector<Opcode> operations_at(std::uint32_t site, const Bytecode& bytecode) {
+    std::vector<Opcode> found;
+    for (std::size_t i = 0; i < bytecode.site_ranges.size() && site != kNone; ++i) {
+        if (bytecode.site_ranges[i].site != site) {
+            continue;
+        }
+        const auto end = i + 1 < bytecode.site_ranges.size()
+                             ? bytecode.site_ranges[i + 1].instruction
+                             : static_cast<std::uint32_t>(bytecode.instructions.size());
+        for (const Instruction each :
+             InstructionRange(bytecode.instructions, bytecode.site_ranges[i].instruction, end)) {
+            found.push_back(each.opcode);
+        }
+    }
+    return found;
+}
+
+/// The cause of a value that is not finite, if its expression has one operation that can yield it.
+std::string reason_for(const RuntimeError& error, const Bytecode& bytecode) {
+    const std::vector<Opcode> operations = operations_at(error.site, bytecode);
+    const auto has = [&](Opcode opcode) {
+        return std::find(operations.begin(), operations.end(), opcode) != operations.end();
+    };
+    const bool is_nan = std::isnan(error.value);
+    if (has(Opcode::Log) && !has(Opcode::Divide)) {
+        return is_nan
+                   ? "the logarithm of a negative number is not a number: write `log(max(x, "
+                     "0.001))`, or stop with a condition"
+                   : std::string("the logarithm of 0 is minus infinite") +
+                         (has(Opcode::Step) ? ", and `step()` is 0 in the first generation: write "
+                                              "`log(step() + 1)`"
+                                            : ": add something to its argument, as in `log(x + "
+                                              "1)`");
+    }
+    if (is_nan && has(Opcode::Sqrt)) {
+        return "the square root of a negative number is not a number: write `sqrt(max(0, ...))`, "
+               "or "
+               "stop with a condition";
+    }
+    if ((has(Opcode::Divide) || has(Opcode::Mod)) && !has(Opcode::Log) && !has(Opcode::Power)) {
+        return is_nan
+                   ? "0 divided by 0 is not a number: leave out the values for which the divisor "
+                     "is 0 with a condition"
+                   : "a division by 0 is infinite: leave out the values for which the divisor is "
+                     "0 with a condition, or choose with `if(condition, a, b)`";
+    }
+    return {};
+}
+
 Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
     const char* const what = error.global != kNone ? "the value"
                              : error.in_weight     ? "the weight"
@@ -132,7 +185,11 @@ Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
         fmt::format("{} of {} is {}", what, owner(error, bytecode), number(error.value)));
     diagnostic.label = number(error.value) + " here";
     note_module(diagnostic, error, bytecode);
-    if (error.production != kNoProduction) {
+    const bool is_test = error.in_condition && !error.in_weight;
+    const std::string reason = is_test ? std::string() : reason_for(error, bytecode);
+    if (!reason.empty()) {
+        diagnostic.help.push_back(reason);
+    } else if (error.production != kNoProduction) {
         diagnostic.help.emplace_back(
             error.in_weight ? "bound the weight with `min` and `max`"
             : error.in_condition
@@ -231,6 +288,16 @@ Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
         fmt::format("production `{}` still matches after {} passes of `{}`", production.name,
                     grouped_digits(depth), keyword_of(production.stage)));
     note_module(diagnostic, error, bytecode);
+    for (const float parameter : error.parameters) {
+        constexpr float kTiny = 1e-6F;
+        if (parameter != 0.0F && std::fabs(parameter) < kTiny) {
+            diagnostic.help.push_back(
+                fmt::format("a value that is multiplied never becomes 0, here it is {}: let the "
+                            "condition compare it with a small number, for example 0.01",
+                            number(parameter)));
+            break;
+        }
+    }
     const std::string key = draws ? "interpret_depth" : "decompose_depth";
     diagnostic.help.push_back(
         fmt::format("let its productions end, raise the number of passes with `#set {} {};`, or "

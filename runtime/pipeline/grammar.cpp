@@ -3,6 +3,7 @@
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
 #include "grammar/base/message_levels.h"
+#include "grammar/dialects/other_language.h"
 #include "grammar/lsys/parse_with_names.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/step.h"
@@ -64,7 +65,9 @@ Result<Dialect> dialect_of(const std::string& path,
     }
     const DetectedDialect detected = detect_dialect(shown_path(path), bytes);
     if (!detected.dialect) {
-        return is_standard_input(path) ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
+        // The front end says which language it is, and what its lines are here.
+        const bool is_explained = is_standard_input(path) || is_foreign_notation(bytes);
+        return is_explained ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
     }
     if (*detected.dialect != Dialect::Lsys) {
         messages.add_detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace lsys {
@@ -33,7 +35,7 @@ Wording wording_of(TurtleFaultKind kind) {
         return {DiagnosticCode::UnclosedBranch, "", "close each `[` with a `]`"};
     case TurtleFaultKind::NegativeWidth:
         return {DiagnosticCode::NegativeWidth, "sets a negative width, which is drawn as 0",
-                "bound it with `max`"};
+                "bound the width, `!(max(0, w))`, or stop with a condition"};
     case TurtleFaultKind::VertexOutside:
         return {DiagnosticCode::StrayVertex, "is a vertex outside of any polygon", ""};
     case TurtleFaultKind::EndOutside:
@@ -63,6 +65,40 @@ bool is_at_end(TurtleFaultKind kind) {
 bool ends_drawing(TurtleFaultKind kind) {
     return kind == TurtleFaultKind::Unbalanced || kind == TurtleFaultKind::NotFinite ||
            kind == TurtleFaultKind::TooMany || kind == TurtleFaultKind::EndOutside;
+}
+
+/// Names the place that writes the module, if there is only one.
+void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
+    std::optional<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < bytecode.template_codes.size(); ++i) {
+        if (bytecode.symbol_of(bytecode.template_codes[i]) == bytecode.symbol_of(code)) {
+            if (found && writer_of(bytecode, i) != writer_of(bytecode, *found)) {
+                return;
+            }
+            found = found.value_or(i);
+        }
+    }
+    const ProductionId writer = found ? writer_of(bytecode, *found) : kNoProduction;
+    const std::optional<Site> site = found ? place_of(bytecode, *found) : std::nullopt;
+    if (writer == kNoProduction || !site) {
+        return;
+    }
+    const BytecodeProduction& production = bytecode.productions[static_cast<std::size_t>(writer)];
+    diagnostic.notes.push_back(fmt::format(
+        "production `{}` writes it: {}:{}:{}", production.name,
+        bytecode.files[static_cast<std::size_t>(site->span.file)], site->line, site->column));
+    const SymbolId own = bytecode.patterns[production.predecessor.first].symbol;
+    const bool repeats =
+        std::any_of(bytecode.template_codes.begin() + production.successor.codes.first,
+                    bytecode.template_codes.begin() + production.successor.codes.first +
+                        production.successor.codes.count,
+                    [&](Code each) { return bytecode.symbol_of(each) == own; });
+    if (repeats && diagnostic.code == DiagnosticCode::UnbalancedPolygon) {
+        diagnostic.help.push_back(fmt::format("`{}` writes its own predecessor again, and so "
+                                              "another `}}` in the next generation: end "
+                                              "it without that",
+                                              production.name));
+    }
 }
 
 } // namespace
@@ -96,6 +132,7 @@ std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtle
                             fmt::format("module {} of the word, a `{}`, {}",
                                         grouped_digits(fault.position), name, wording.what));
         diagnostic.severity = ends_drawing(kind) ? Severity::Error : Severity::Warning;
+        note_writer(fault.code, bytecode, diagnostic);
         diagnostic.notes.emplace_back("modules are counted from 0");
         if (fault.count > 1) {
             diagnostic.notes.push_back(

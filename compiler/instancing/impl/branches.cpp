@@ -76,9 +76,13 @@ private:
                                std::any_of(branches_.kinds.begin(), branches_.kinds.end(),
                                            [](const BranchKind& kind) { return kind.is_random; });
         if (!is_random) {
-            diagnostics_.add(DiagnosticCode::NoVariety, program_.axiom_span(),
-                             "nothing that this system derives is left to chance, so all its "
-                             "plants are equal");
+            diagnostics_
+                .add(DiagnosticCode::NoVariety, program_.axiom_span(),
+                     "nothing that this system derives is left to chance, so all its plants are "
+                     "equal")
+                .help.emplace_back(
+                    "let chance in: a random range, `+({20, 30})`, or two productions "
+                    "of a module with probabilities, `* ~ 0.5`");
         } else if (branches_.kinds.empty()) {
             diagnostics_
                 .add(DiagnosticCode::NoVariety, program_.axiom_span(),

@@ -39,6 +39,14 @@ void check_constant(const CheckInput& input,
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::ConstantCondition, production.condition_span,
                             "this condition always holds");
+        if (is_meant_as_probability(input, production)) {
+            const std::string replacement =
+                fmt::format("* ~ {}", input.sources.text(production.condition_span));
+            add_fix(diagnostic,
+                    fmt::format("a probability stands behind a `~`: write `{}`", replacement),
+                    production.condition_span, replacement, false);
+            return;
+        }
         diagnostic.help.emplace_back("write `*` for a production without condition");
     }
 }

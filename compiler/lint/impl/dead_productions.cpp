@@ -104,6 +104,31 @@ private:
         return false;
     }
 
+    /// Suggests the name in place of a module that does nothing, if `nearest` is one.
+    bool
+    suggest_at_mention(Diagnostic& diagnostic, std::string_view name, std::string_view nearest) {
+        for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
+            if (input_.name(SymbolId{s}) != nearest || !use_.reachable.occurs(SymbolId{s})) {
+                continue;
+            }
+            const ModuleMention place = use_.first_place[s];
+            if (use_.first_production[s] != kNone || use_.declared[s] ||
+                program_.symbols[s].turtle != TurtleOperation::Nothing || place.word == nullptr) {
+                return false;
+            }
+            const SourceSpan span = module_name_span(input_, *place.word, place.index);
+            if (input_.sources.text(span) != nearest) {
+                return false;
+            }
+            diagnostic.labels.push_back({span, fmt::format("{} does nothing", quoted(nearest))});
+            add_fix(diagnostic, fmt::format("did you mean {} here?", quoted(name)), span,
+                    std::string(name), false);
+            use_.reported[s] = true;
+            return true;
+        }
+        return false;
+    }
+
     void suggest(Diagnostic& diagnostic, SymbolId symbol, SourceSpan span) {
         if (candidates_.empty()) {
             for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
@@ -115,6 +140,9 @@ private:
         }
         const std::string_view name = input_.name(symbol);
         if (const auto nearest = nearest_name(name, candidates_)) {
+            if (suggest_at_mention(diagnostic, name, *nearest)) {
+                return;
+            }
             span.end = span.begin + static_cast<std::uint32_t>(name.size());
             Fix fix;
             fix.title = fmt::format("did you mean {}?", quoted(*nearest));

@@ -5,11 +5,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lsys {
 
 namespace {
 
 constexpr std::size_t kMaxProductions = 10'000;
+
+/// Whether another message says why the axiom is never rewritten.
+bool is_explained(const Diagnostics& diagnostics) {
+    const std::vector<Diagnostic>& all = diagnostics.all();
+    return std::any_of(all.begin(), all.end(), [](const Diagnostic& diagnostic) {
+        return diagnostic.code == DiagnosticCode::NeverProduced ||
+               diagnostic.code == DiagnosticCode::ArityMismatch;
+    });
+}
+
+void report_empty_word(const CheckInput& input,
+                       std::uint32_t generation,
+                       SourceSpan place,
+                       Diagnostics& diagnostics) {
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::FixedPoint, place,
+                        fmt::format("from generation {} on the word is empty", generation));
+    for (const Production& production : input.program.productions) {
+        if (production.successor.module_count == 0 && production.stage == Stage::Rewrite) {
+            diagnostic.labels.push_back({production.name_span, "has an empty successor"});
+            diagnostic.help.push_back(fmt::format(
+                "{} erases its module: write what it becomes between the last `:` and the `;`",
+                quoted(input.name(production.name))));
+            return;
+        }
+    }
+}
 
 } // namespace
 
@@ -64,6 +93,14 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
     // A single generation without change is not reported: authors use it to see that growth is
     // over.
     if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
+        const std::uint32_t last = *prediction.unchanged_from;
+        if (last < prediction.high.size() && prediction.high[last].modules.at_most(0)) {
+            report_empty_word(input, last, place, diagnostics);
+            return;
+        }
+        if (last == 0 && is_explained(diagnostics)) {
+            return;
+        }
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,
                             fmt::format("from generation {} on the word stays the same",

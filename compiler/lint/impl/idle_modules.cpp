@@ -1,6 +1,7 @@
 // Modules that are never rewritten and never drawn, and objects for modules that never occur.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/synonyms.h"
 
 #include <fmt/format.h>
 
@@ -107,7 +108,20 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             DiagnosticCode::IdleModule, span,
             fmt::format("module {} is never rewritten and never drawn", quoted(name)));
         diagnostic.label = "stays in the word and does nothing";
-        if (const auto nearest = nearest_name(name, candidates)) {
+        const Synonym* const synonym = find_synonym(SynonymKind::Module, name);
+        const bool is_houdini = name.size() == 1 &&
+                                std::string_view("JKM").find(name[0]) != std::string_view::npos &&
+                                input.program.settings.turtle != TurtleProfile::Houdini;
+        if (synonym != nullptr) {
+            diagnostic.help.push_back(help_for(*synonym, name));
+            add_fix(diagnostic, fmt::format("write `{}`", synonym->spelling), span,
+                    std::string(synonym->spelling), false);
+        } else if (is_houdini) {
+            diagnostic.help.push_back(
+                fmt::format("{} of Houdini draws an object with `#set turtle houdini;` alone; "
+                            "otherwise bind one: `#object {} {};`",
+                            quoted(name), name, name == "J" ? "LEAF" : "SPHERE"));
+        } else if (const auto nearest = nearest_name(name, candidates)) {
             Fix fix;
             fix.title = fmt::format("did you mean {}?", quoted(*nearest));
             fix.edits = {{span, std::string(*nearest)}};
@@ -115,10 +129,13 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             diagnostic.fixes.push_back(std::move(fix));
         }
         const std::string_view text = input.sources.text(span);
+        const bool is_explained = synonym != nullptr || is_houdini;
         diagnostic.help.push_back(
-            fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
-                        "nothing, declare it with `#module {0};`",
-                        text));
+            is_explained
+                ? fmt::format("if it is to do nothing, declare it with `#module {};`", text)
+                : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
+                              "nothing, declare it with `#module {0};`",
+                              text));
         for (const SymbolId other : use.same_name(input.program, symbol)) {
             use.reported[static_cast<std::size_t>(other)] = true;
         }

@@ -14,6 +14,7 @@ void check_polygons(const CheckInput& input, Diagnostics& diagnostics);
 void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics);
 
 // Checks of whole programs.
+void check_foreign_habits(const CheckInput& input, Diagnostics& diagnostics);
 void check_unused_names(const CheckInput& input, Diagnostics& diagnostics);
 void check_module_use(const CheckInput& input, Diagnostics& diagnostics);
 void check_conditions(const CheckInput& input, Diagnostics& diagnostics);

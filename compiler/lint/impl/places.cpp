@@ -74,4 +74,14 @@ SourceSpan item_span(const Production& production, const ProgramPatternItem& ite
     return {production.predecessor.span.file, item.begin, item.end};
 }
 
+bool is_meant_as_probability(const CheckInput& input, const Production& production) {
+    if (production.condition == kNoValue || production.stochastic) {
+        return false;
+    }
+    const std::string_view text = input.sources.text(production.condition_span);
+    return text.size() >= 2 && text.find_first_not_of("0123456789.") == std::string_view::npos &&
+           (text.starts_with("0.") || text.starts_with('.')) &&
+           text.find_first_of("123456789") != std::string_view::npos;
+}
+
 } // namespace lsys

@@ -19,6 +19,9 @@ module_span(const CheckInput& input, const ProgramWord& word, std::size_t index)
 [[nodiscard]] std::vector<SourceSpan>
 argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t index);
 
+/// Whether the condition is a number between 0 and 1, which is meant as a probability.
+[[nodiscard]] bool is_meant_as_probability(const CheckInput& input, const Production& production);
+
 [[nodiscard]] SourceSpan item_span(const Production& production, const ProgramPatternItem& item);
 
 } // namespace lsys

@@ -69,7 +69,8 @@ private:
     void check_equal_conditions(std::span<const std::uint32_t> productions) {
         std::unordered_map<std::string, std::uint32_t> met;
         for (const std::uint32_t p : productions) {
-            if (code(p).condition == kNone || code(p).stochastic) {
+            if (code(p).condition == kNone || code(p).stochastic ||
+                is_meant_as_probability(input_, production(p))) {
                 continue;
             }
             const auto [place, is_new] = met.emplace(key(p), p);
@@ -167,7 +168,8 @@ private:
                     before.push_back(productions[first]);
                 }
             }
-            if (ever && !usable && !adjustable[row] && !is_reported(p)) {
+            const bool is_explained = is_meant_as_probability(input_, production(p));
+            if (ever && !usable && !adjustable[row] && !is_reported(p) && !is_explained) {
                 report_covered(p, before);
             }
         }
@@ -193,15 +195,30 @@ private:
             diagnostic.help.push_back(
                 fmt::format("give {} a probability with `~`, or a condition",
                             quoted(input_.name(late.stochastic ? early.name : late.name))));
-        } else if (early.stochastic || late.condition == kNoValue) {
-            diagnostic.help.emplace_back(
-                early.stochastic ? "productions are tried in the order of the file"
-                                 : "remove one of them, or give both a probability with `~`");
+        } else if (early.stochastic) {
+            diagnostic.help.emplace_back("productions are tried in the order of the file");
+        } else if (late.condition == kNoValue) {
+            diagnostic.help.emplace_back("remove one of them, or let chance choose between both");
+            offer_chance(early, late, diagnostic);
         } else {
             diagnostic.help.push_back(
                 fmt::format("productions are tried in the order of the file: move {} above {}",
                             quoted(input_.name(late.name)), quoted(input_.name(early.name))));
         }
+    }
+
+    /// Shows two productions without condition with probabilities.
+    void
+    offer_chance(const Production& early, const Production& late, Diagnostic& diagnostic) const {
+        if (early.condition != kNoValue || early.span.file != late.span.file ||
+            input_.sources.text(early.condition_span) != "*" ||
+            input_.sources.text(late.condition_span) != "*") {
+            return;
+        }
+        diagnostic.fixes.push_back(
+            {"with a probability behind `~`",
+             {{early.condition_span, "* ~ 0.5"}, {late.condition_span, "* ~ 0.5"}},
+             false});
     }
 
     void report_covered(std::uint32_t p, const std::vector<std::uint32_t>& before) {

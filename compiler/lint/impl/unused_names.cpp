@@ -4,9 +4,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 namespace lsys {
 
 namespace {
+
+/// Whether a setting takes one number and has this name.
+bool is_setting_name(std::string_view name) {
+    constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
+                                                     "seed",  "sides", "height"};
+    return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
 
 void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
     for (const Constant& constant : input.program.constants) {
@@ -17,6 +27,23 @@ void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
         Diagnostic& diagnostic = diagnostics.add(
             DiagnosticCode::UnusedConstant, constant.span,
             fmt::format("constant {} is never used", quoted(input.name(constant.name))));
+        const std::string_view name = input.name(constant.name);
+        if (is_setting_name(name)) {
+            const std::string_view text = input.sources.file(constant.span.file).text();
+            const std::size_t hash = text.rfind('#', constant.span.begin);
+            const std::size_t end = std::min(text.find(';', constant.span.end), text.size());
+            const std::string value(text.substr(constant.span.end, end - constant.span.end));
+            diagnostic.notes.push_back(
+                fmt::format("it does not change the setting {}", quoted(name)));
+            if (!constant.is_param && hash != std::string_view::npos) {
+                add_fix(diagnostic, fmt::format("write `#set {}{};`", name, value),
+                        {constant.span.file, static_cast<std::uint32_t>(hash), constant.span.begin},
+                        "#set ", false);
+            } else {
+                diagnostic.help.push_back(fmt::format("`#set {0} {0};` uses it", name));
+            }
+            continue;
+        }
         diagnostic.help.emplace_back("remove the statement, or use the name in an expression");
     }
 }

@@ -25,7 +25,9 @@ AttemptedStatements::AttemptedStatements(const Resolution& resolution) {
         return;
     }
     for (const AstFile& file : resolution.ast.files) {
-        read(resolution.sources.file(file.file).text());
+        const std::string_view text = resolution.sources.file(file.file).text();
+        read(text);
+        read_lines(text);
     }
 }
 
@@ -33,7 +35,8 @@ void AttemptedStatements::read(std::string_view text) {
     for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at)) {
         ++at;
         const std::string_view keyword = leading_identifier(text.substr(at, 16));
-        if (keyword == "define" || keyword == "param") {
+        if (keyword == "define" || keyword == "param" || keyword == "function" ||
+            keyword == "curve") {
             const std::string_view rest = text.substr(at);
             const auto end =
                 static_cast<std::size_t>(keyword.data() + keyword.size() - rest.data());
@@ -41,6 +44,31 @@ void AttemptedStatements::read(std::string_view text) {
         } else if (keyword == "w" || keyword == "n") {
             keywords_.emplace(keyword);
         }
+    }
+}
+
+/// Notes lines of other notations that give the axiom or the generations.
+void AttemptedStatements::read_lines(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = text.substr(at, end - at);
+        const std::string_view word = leading_identifier(line);
+        const std::size_t behind =
+            word.empty() ? 0 : static_cast<std::size_t>(word.data() + word.size() - line.data());
+        const std::size_t sign = line.find_first_not_of(" \t", behind);
+        const bool has_sign =
+            sign != std::string_view::npos && (line[sign] == '=' || line[sign] == ':');
+        if (has_sign && (word == "n" || word == "length" || word == "iterations")) {
+            keywords_.emplace("n");
+        }
+        if (line.starts_with("derivation")) {
+            keywords_.emplace("n");
+        }
+        if (line.find("\u03c9") < 4 ||
+            (has_sign && (word == "axiom" || word == "Axiom" || word == "start"))) {
+            keywords_.emplace("w");
+        }
+        at = end + 1;
     }
 }
 

@@ -16,11 +16,13 @@ public:
 
     /// Whether `#keyword` stands anywhere in the text. Only `w` and `n` are found.
     [[nodiscard]] bool has(std::string_view keyword) const;
-    /// Whether `#define NAME` or `#param NAME` stands anywhere in the text.
+    /// Whether `#define NAME`, `#param NAME`, `#function NAME` or `#curve NAME` stands anywhere in the
+    /// text.
     [[nodiscard]] bool defines(std::string_view name) const;
 
 private:
     void read(std::string_view text);
+    void read_lines(std::string_view text);
 
     std::unordered_set<std::string> keywords_; // found in the text
     std::unordered_set<std::string> constants_;

@@ -87,6 +87,35 @@ void DeclarationResolver::object(const ObjectNode& node) {
     }
 }
 
+/// Reports names of files that other programs expand or read.
+bool DeclarationResolver::check_file_name(const ObjectNode& node) {
+    const std::string_view name = node.object;
+    const bool has_variable = name.starts_with('$') || name.find("/$") != std::string_view::npos;
+    const bool is_foreign = name.find(".bgeo") != std::string_view::npos ||
+                            name.ends_with(".geo") || name.ends_with(".fbx") ||
+                            name.ends_with(".abc") || name.ends_with(".blend");
+    if (!has_variable && !is_foreign) {
+        return true;
+    }
+    const std::size_t slash =
+        has_variable ? name.find('/', name.find('$')) : std::string_view::npos;
+    std::string plain(slash == std::string_view::npos ? name : name.substr(slash + 1));
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::UnknownObject, node.object_span,
+        has_variable ? fmt::format("`{}` is not expanded in the name of a file",
+                                   name.substr(name.find('$'), slash - name.find('$')))
+                     : fmt::format("lsc does not read `{}`", name));
+    if (is_foreign) {
+        const std::size_t base = plain.rfind('/') == std::string::npos ? 0 : plain.rfind('/');
+        plain = plain.substr(0, plain.find('.', base)) + ".obj";
+        error.help.emplace_back("export the object as OBJ");
+    }
+    error.help.emplace_back("names of files are relative to the folder of this file");
+    add_fix(error, fmt::format("write `\"{}\"`", plain), node.object_span,
+            fmt::format("\"{}\"", plain), false);
+    return false;
+}
+
 std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& node) {
     ObjectBinding binding;
     binding.object_span = node.object_span;
@@ -94,6 +123,9 @@ std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& no
         if (node.object.empty()) {
             resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.object_span,
                                         "a file without a name");
+            return std::nullopt;
+        }
+        if (!check_file_name(node)) {
             return std::nullopt;
         }
         binding.object = TurtleOperation::MeshFile;

@@ -20,6 +20,7 @@ public:
     void module(const ModuleDeclarationNode& node, SourceSpan statement, ModuleReading& reading);
 
 private:
+    [[nodiscard]] bool check_file_name(const ObjectNode& node);
     [[nodiscard]] std::optional<ObjectBinding> object_of(const ObjectNode& node);
     void bind(const ModuleView& module, ObjectBinding binding);
     void ignore_module(const ModuleView& module,

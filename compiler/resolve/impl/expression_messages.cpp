@@ -53,6 +53,48 @@ std::vector<std::string_view> arguments_in(std::string_view call) {
     return arguments;
 }
 
+/// `spelling` with each of its parameters replaced by an argument.
+std::string with_arguments(std::string_view spelling,
+                           const std::vector<std::string_view>& parameters,
+                           const std::vector<std::string_view>& arguments) {
+    std::string text;
+    for (std::size_t at = 0; at < spelling.size();) {
+        std::size_t end = at;
+        while (end < spelling.size() && is_word_character(spelling[end])) {
+            ++end;
+        }
+        const std::string_view word = spelling.substr(at, std::max<std::size_t>(end - at, 1));
+        const auto found = std::find(parameters.begin(), parameters.end(), word);
+        if (found == parameters.end()) {
+            text += word;
+        } else {
+            const std::string_view argument =
+                arguments[static_cast<std::size_t>(found - parameters.begin())];
+            const bool is_plain =
+                word == spelling || std::all_of(argument.begin(), argument.end(), [](char c) {
+                    return is_word_character(c) || c == '.';
+                });
+            text += is_plain ? std::string(argument) : fmt::format("({})", argument);
+        }
+        at += word.size();
+    }
+    // `(k - 0)` is `k`.
+    constexpr std::string_view kZero = " - 0)";
+    for (std::size_t at = text.find(kZero); at != std::string::npos; at = text.find(kZero, at)) {
+        const std::size_t open = text.rfind('(', at);
+        if (open == std::string::npos ||
+            !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(open) + 1,
+                         text.begin() + static_cast<std::ptrdiff_t>(at),
+                         [](char c) { return is_word_character(c) || c == '.'; })) {
+            ++at;
+            continue;
+        }
+        text.erase(at, kZero.size());
+        text.erase(open, 1);
+    }
+    return text;
+}
+
 /// The text that replaces a call of a function of another language. Empty if no text is certain
 /// enough.
 std::string replaced_call(const Synonym& synonym, std::string_view call) {
@@ -67,6 +109,12 @@ std::string replaced_call(const Synonym& synonym, std::string_view call) {
     }
     if (spelling == "{0, x}") {
         return arguments.size() == 1 ? fmt::format("{{0, {}}}", arguments[0]) : std::string();
+    }
+    const std::vector<std::string_view> parameters = arguments_in(synonym.word);
+    if (!parameters.empty()) {
+        return parameters.size() == arguments.size()
+                   ? with_arguments(spelling, parameters, arguments)
+                   : std::string();
     }
     const std::vector<std::string_view> wanted = arguments_in(spelling);
     const std::size_t open = spelling.find('(');
@@ -131,8 +179,8 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
                                 "right, and serve the values after them and the successor");
         return;
     }
-    if (formals_incomplete_ || files_missing_ || attempted_.defines(text) ||
-        resolution_.options.part) {
+    if (formals_incomplete_ || files_missing_ ||
+        (attempted_.defines(text) && !user_functions_.contains(name)) || resolution_.options.part) {
         return;
     }
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownName, expression.span(),
@@ -229,9 +277,68 @@ bool ExpressionResolver::is_only_choice(std::string_view text, const Expression&
     return formal.size() == 1 && !has_word(rest.substr(0, rest.find(';')), formal);
 }
 
+/// Shows how a call with another number of arguments may be meant.
+void ExpressionResolver::explain_argument_count(const Expression& call,
+                                                ExpressionPlace place,
+                                                Diagnostic& error) const {
+    const std::string_view text = resolution_.sources.text(call.span());
+    const std::vector<std::string_view> arguments = arguments_in(text);
+    const std::string_view name = resolution_.text(call.name);
+    const auto write = [&](const std::string& replacement) {
+        error.fixes.push_back(
+            {fmt::format("write `{}`", replacement), {{call.span(), replacement}}, false});
+    };
+    if ((name == "max" || name == "min") && arguments.size() > 2 && arguments.size() <= 8) {
+        std::string nested = fmt::format("{}({}, {})", name, arguments[0], arguments[1]);
+        for (std::size_t i = 2; i < arguments.size(); ++i) {
+            nested = fmt::format("{}({}, {})", name, nested, arguments[i]);
+        }
+        write(nested);
+    } else if ((name == "max" || name == "min") && arguments.size() == 1) {
+        error.help.push_back(
+            fmt::format("it compares two values: `{}({}, 0)`", name, arguments[0]));
+    } else if (name == "if" && arguments.size() == 1 && place == ExpressionPlace::Condition) {
+        error.help.emplace_back("a condition needs no `if`: the production is used where it holds");
+        write(std::string(arguments[0]));
+    } else if (name == "if" && arguments.size() == 2) {
+        error.help.emplace_back("the third is the value where the condition does not hold");
+        write(fmt::format("if({}, {}, 0)", arguments[0], arguments[1]));
+    } else if (name == "clamp" && arguments.size() == 2) {
+        write(fmt::format("max({}, {})", arguments[0], arguments[1]));
+        error.fixes.back().title += ", or give the upper bound as well";
+    } else if (name == "log" && arguments.size() == 2) {
+        write(fmt::format("log({}) / log({})", arguments[0], arguments[1]));
+    } else if (name == "atan" && arguments.size() == 2 && functions_.size() > 2) {
+        write(fmt::format("atan2({}, {})", arguments[0], arguments[1]));
+    } else if (name == "round" && arguments.size() == 2) {
+        write(fmt::format("round({} * 10^{}) / 10^{}", arguments[0], arguments[1], arguments[1]));
+    }
+}
+
+/// The function that a name was before all `x` of a file became `len`: `max` for `malen`; empty:
+/// none.
+std::string_view ExpressionResolver::before_renaming(std::string_view text) const {
+    for (const NameId formal : formals_) {
+        const std::string_view name = resolution_.text(formal);
+        const std::size_t at = name.size() < 2 ? std::string_view::npos : text.find(name);
+        if (at == std::string_view::npos) {
+            continue;
+        }
+        const std::string_view begin = text.substr(0, at);
+        const std::string_view end = text.substr(at + name.size());
+        for (const std::string_view known : function_names()) {
+            if (known.size() == begin.size() + 1 + end.size() && known.size() > 1 &&
+                known.starts_with(begin) && known.ends_with(end)) {
+                return known;
+            }
+        }
+    }
+    return {};
+}
+
 void ExpressionResolver::report_unknown_function(const Expression& expression, NameId function) {
     const std::string_view text = resolution_.text(function);
-    if (attempted_.defines(text) || resolution_.options.part) {
+    if (attempted_.defines(text) || files_missing_ || resolution_.options.part) {
         return;
     }
     const SourceSpan name{expression.file, expression.begin,
@@ -255,7 +362,12 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
         if (shown.spelling == "{0, 1}" && arguments_in(call).size() == 2) {
             shown.spelling = "{a, b}";
         }
-        error.help.push_back(help_for(shown, text));
+        if (shown.spelling == "x") {
+            error.help.push_back(std::string(shown.advice) + ": leave it out");
+        } else {
+            error.help.push_back(help_for(
+                shown, shown.word.find('(') == std::string_view::npos ? text : shown.word));
+        }
         if (!replacement.empty()) {
             error.fixes.push_back({fmt::format("write `{}`", replacement),
                                    {{expression.span(), replacement}},
@@ -271,6 +383,8 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
     const std::string nearest = suggestions_.nearest(text, known);
     if (!nearest.empty()) {
         suggest(error, name, nearest);
+    } else if (const std::string_view before = before_renaming(text); !before.empty()) {
+        suggest(error, name, std::string(before));
     }
 }
 

@@ -400,13 +400,15 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
     const Function function = found->second;
     const std::string_view name = resolution_.text(expression.name);
     if (count != function.argument_count) {
-        resolution_.diagnostics.add(DiagnosticCode::WrongArgumentCount, expression.span(),
-                                    fmt::format("`{}` takes {}, not {}", name,
-                                                function.argument_count == 0   ? "no arguments"
-                                                : function.argument_count == 1 ? "one argument"
-                                                : function.argument_count == 2 ? "two arguments"
-                                                                               : "three arguments",
-                                                count));
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::WrongArgumentCount, expression.span(),
+            fmt::format("`{}` takes {}, not {}", name,
+                        function.argument_count == 0   ? "no arguments"
+                        : function.argument_count == 1 ? "one argument"
+                        : function.argument_count == 2 ? "two arguments"
+                                                       : "three arguments",
+                        count));
+        explain_argument_count(expression, place, error);
         return kPoison;
     }
     if (count == 0) {

@@ -1,6 +1,7 @@
 #include "compiler/resolve/impl/heads.h"
 
 #include "compiler/resolve/profiles.h"
+#include "grammar/base/characters.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,27 @@
 #include <utility>
 
 namespace lsys {
+
+namespace {
+
+/// Whether a predecessor is words of two letters and more with `-` between them: `shoot-apex`.
+bool is_hyphenated(std::string_view text) {
+    std::size_t word = 0;
+    bool has_hyphen = false;
+    for (const char c : text) {
+        if (c == '-' && word >= 2) {
+            has_hyphen = true;
+            word = 0;
+        } else if (is_word_character(c)) {
+            ++word;
+        } else {
+            return false;
+        }
+    }
+    return has_hyphen && word >= 1;
+}
+
+} // namespace
 
 bool HeadResolver::resolve(const ProductionNode& node, Production& production) {
     node_ = &node;
@@ -50,6 +72,23 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::SeveralPredecessors, node.predecessor.span,
             fmt::format("{} modules are to be rewritten as one", node.predecessor.count));
+        const std::string_view written = resolution_.sources.text(node.predecessor.span);
+        if (is_hyphenated(written)) {
+            error.notes.emplace_back("a name holds no `-`, which is a module that turns");
+            std::string joined(written);
+            std::replace(joined.begin(), joined.end(), '-', '_');
+            Fix fix{fmt::format("write `{}`, wherever it stands", joined), {}, false};
+            const FileId file = node.predecessor.span.file;
+            const std::string_view text = resolution_.sources.file(file).text();
+            for (std::size_t at = text.find(written); at != std::string_view::npos;
+                 at = text.find(written, at + written.size())) {
+                const auto begin = static_cast<std::uint32_t>(at);
+                fix.edits.push_back(
+                    {{file, begin, begin + static_cast<std::uint32_t>(written.size())}, joined});
+            }
+            error.fixes.push_back(std::move(fix));
+            return false;
+        }
         error.notes.emplace_back("in parallel rewriting every module is rewritten by itself");
         error.help.emplace_back("write the neighbours as contexts (`A < B > C`), or use "
                                 "`#set rewriting leftmost;` or `sequential`");

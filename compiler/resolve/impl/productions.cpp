@@ -23,8 +23,25 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
         first = node.name_span;
         return true;
     }
-    report_duplicate(resolution_, node.name_span, first,
-                     fmt::format("production {}", quoted(resolution_.text(node.name))));
+    const std::string_view name = resolution_.text(node.name);
+    Diagnostic& error = report_duplicate(resolution_, node.name_span, first,
+                                         fmt::format("production {}", quoted(name)));
+    if (first.file != node.name_span.file || first.begin == node.name_span.begin) {
+        return false; // of a file that is included, perhaps twice
+    }
+    std::string free(name);
+    while (!free.empty() && free.back() >= '0' && free.back() <= '9') {
+        free.pop_back();
+    }
+    for (int number = 2; number < 1000; ++number) {
+        const std::string candidate = fmt::format("{}{}", free, number);
+        if (resolution_.names.find(candidate) == kNoName) {
+            error.help.emplace_back("what stands behind the `#` is a name of your choice, another "
+                                    "one for each production");
+            add_fix(error, fmt::format("write `#{}`", candidate), node.name_span, candidate, false);
+            break;
+        }
+    }
     return false;
 }
 

@@ -24,7 +24,10 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 #include "compiler/bytecode/settings.def"
 });
 
-/// Values of `#set names`.
+/// Smaller densities are likely meant in g/cm³.
+constexpr float kMinLikelyDensity = 2.0F;
+
+/// Forms of module names that a front end reads.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {
@@ -97,8 +100,14 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
                                                     fmt::format("there is no setting `{}`", key));
     if (const Synonym* const synonym = find_synonym(SynonymKind::Setting, key)) {
+        if (synonym->spelling.starts_with('#')) {
+            report_statement_for_key(node, *synonym, error);
+            return;
+        }
         error.help.push_back(help_for(*synonym, key));
-        if (!synonym->spelling.empty()) {
+        if (synonym->spelling == "tropism" && node.values.count == 1) {
+            explain_tropism(node, error);
+        } else if (!synonym->spelling.empty()) {
             add_fix(error, fmt::format("write `{}`", synonym->spelling), node.key_span,
                     std::string(synonym->spelling), false);
         }
@@ -112,15 +121,48 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     }
 }
 
-void SetResolver::report_bad_value(const SetNode& node,
-                                   SourceSpan span,
-                                   const std::string& message) {
+/// Explains `#set iterations 6;`, which is a statement of its own.
+void SetResolver::report_statement_for_key(const SetNode& node,
+                                           const Synonym& synonym,
+                                           Diagnostic& error) const {
+    error.help.emplace_back(synonym.advice);
+    const std::string_view text = resolution_.sources.file(node.key_span.file).text();
+    const std::size_t hash = text.rfind('#', node.key_span.begin);
+    if (hash != std::string_view::npos && node.key_span.begin - hash < 16 &&
+        node.values.count == 1) {
+        const SourceSpan value = resolution_.ast.set_values[node.values.first].span;
+        const std::string start(synonym.spelling);
+        add_fix(error, fmt::format("write `{} {};`", start, resolution_.sources.text(value)),
+                {node.key_span.file, static_cast<std::uint32_t>(hash), node.key_span.end}, start,
+                false);
+    }
+}
+
+/// Explains a pull that is given by one number.
+void SetResolver::explain_tropism(const SetNode& node, Diagnostic& error) const {
+    const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
+    std::string_view number = resolution_.sources.text(span);
+    const bool is_negative = number.starts_with('-');
+    number.remove_prefix(is_negative ? 1 : 0);
+    if (number.empty() || number.find_first_not_of("0123456789.") != std::string_view::npos) {
+        return;
+    }
+    error.help.emplace_back("the direction of the pull comes first, then its strength; `0 -1 0` is "
+                            "down");
+    const std::string values = fmt::format("tropism 0 -1 0 {}", number);
+    add_fix(error, fmt::format("write `#set {};`", values),
+            {span.file, node.key_span.begin, span.end}, values, false);
+}
+
+Diagnostic&
+SetResolver::report_bad_value(const SetNode& node, SourceSpan span, const std::string& message) {
     Diagnostic& error =
         resolution_.diagnostics.add(DiagnosticCode::BadSetting, span,
                                     fmt::format("`{}` {}", resolution_.text(node.key), message));
     if (span != node.key_span) {
         error.labels.push_back({node.key_span, "the setting"});
     }
+    return error;
 }
 
 /// The word that is the only value of the statement; empty after an error is reported.
@@ -211,6 +253,14 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         }                                                                                          \
     }
 #include "compiler/bytecode/settings.def"
+    if (key == "density" && node.values.count == 1 && settings.density > 0.0F &&
+        settings.density < kMinLikelyDensity) {
+        Diagnostic& warning = resolution_.diagnostics.add(
+            DiagnosticCode::UnlikelyDensity, resolution_.ast.set_values[node.values.first].span,
+            fmt::format("a density of {} kg/m³ is less than that of any wood", settings.density));
+        add_fix(warning, fmt::format("{} g/cm³ is `{}`", settings.density, settings.density * 1000),
+                warning.span, fmt::format("{}", settings.density * 1000), false);
+    }
 }
 
 /// The only number of the statement, if it is within the range.
@@ -234,7 +284,14 @@ std::optional<float> SetResolver::read_one(const SetNode& node,
 void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressions) {
     Settings& settings = resolution_.program.settings;
     if (node.values.count != settings.tropism.size()) {
-        report_bad_value(node, node.key_span, "takes four numbers: x, y, z and the susceptibility");
+        Diagnostic& error = report_bad_value(node, node.key_span,
+                                             "takes four numbers: x, y, z and the susceptibility");
+        if (node.values.count == 1) {
+            explain_tropism(node, error);
+        } else {
+            error.help.emplace_back(
+                "for example `#set tropism 0 -1 0 0.2;`, a pull down of strength 0.2");
+        }
         return;
     }
     for (std::uint32_t i = 0; i < settings.tropism.size(); ++i) {

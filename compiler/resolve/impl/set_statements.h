@@ -13,6 +13,8 @@
 
 namespace lsys {
 
+struct Synonym;
+
 class SetResolver {
 public:
     /// Origin of the `#set` statements.
@@ -32,7 +34,10 @@ private:
     [[nodiscard]] bool is_first(const SetNode& node);
     void read_mode(const SetNode& node, std::string_view key);
     void report_unknown_key(const SetNode& node);
-    void report_bad_value(const SetNode& node, SourceSpan span, const std::string& message);
+    void
+    report_statement_for_key(const SetNode& node, const Synonym& synonym, Diagnostic& error) const;
+    void explain_tropism(const SetNode& node, Diagnostic& error) const;
+    Diagnostic& report_bad_value(const SetNode& node, SourceSpan span, const std::string& message);
     [[nodiscard]] std::string_view word_of(const SetNode& node, const char* choices);
     template <typename Enum, std::size_t size>
     void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
 namespace lsys {
 
@@ -77,6 +78,18 @@ public:
     }
 
     [[nodiscard]] bool has(std::string_view word) const { return words_.count(word) != 0; }
+    /// Whether a word is one of the file with two neighbouring letters exchanged.
+    [[nodiscard]] bool has_with_exchanged_letters(std::string_view word) const {
+        std::string other(word);
+        for (std::size_t i = 0; i + 1 < other.size(); ++i) {
+            std::swap(other[i], other[i + 1]);
+            if (has(other)) {
+                return true;
+            }
+            std::swap(other[i], other[i + 1]);
+        }
+        return false;
+    }
     /// For a file with `names letters`: whether a word looks like part of a remark, since none of
     /// its letters is a module of the file, or three or more are not.
     [[nodiscard]] bool has_foreign_letters(std::string_view word) const {
@@ -145,7 +158,7 @@ private:
         if (is_letters(file)) {
             return !words.has(word) && words.has_foreign_letters(word);
         }
-        if (is_known(word) || words.has(word)) {
+        if (is_known(word) || words.has(word) || words.has_with_exchanged_letters(word)) {
             return false;
         }
         const NameId id = resolution_.names.find(word);

@@ -116,10 +116,45 @@ std::string_view recognise_houdini(std::string_view text) {
     return has_premise && rules != 0 ? "a premise before rules `A=...`" : std::string_view();
 }
 
+namespace {
+
+/// Reports `b = 0.7`, the field of a value, which would be read as a rule without any sense.
+void report_values(FileId root, const ParseContext& context) {
+    const std::string_view text = context.sources.file(root).text();
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = trimmed(text.substr(at, end - at));
+        at = end + 1;
+        const std::size_t equals = line.find('=');
+        if (equals == std::string_view::npos) {
+            continue;
+        }
+        const std::string name(trimmed(line.substr(0, equals)));
+        const std::string number(trimmed(line.substr(equals + 1)));
+        if (name.size() != 1 || name[0] < 'a' || name[0] > 'z' || !is_number(number)) {
+            continue;
+        }
+        const auto begin = static_cast<std::uint32_t>(line.data() - text.data());
+        const SourceSpan span{root, begin, begin + static_cast<std::uint32_t>(line.size())};
+        Diagnostic& diagnostic = context.diagnostics.add(
+            DiagnosticCode::ForeignFeature, span,
+            "`" + name + "` is a value of the node, and this line would be a rule");
+        diagnostic.help.push_back(
+            "remove the line, and give the value on the command line: `-D value_" + name + "=" +
+            number + "`");
+    }
+}
+
+} // namespace
+
 void translate_houdini(const DialectRow& row,
                        const ParseContext& context,
                        Translation& translation) {
     const FileId root = translation.file();
+    report_values(root, context);
+    if (context.diagnostics.has_errors()) {
+        return;
+    }
     HoudiniSession session(root, context);
     {
         const HoudiniScanning scanning(session, context.sources.file(root).text());

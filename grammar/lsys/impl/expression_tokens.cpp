@@ -10,6 +10,7 @@
 #include "grammar/lsys/impl/statement_tokens.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,7 +46,204 @@ bool has_groups_of_three(std::string_view text) {
 
 } // namespace
 
+namespace {
+
+/// Whether the `%` at `at` stands behind a percentage: no operand follows it.
+bool ends_percentage(std::string_view text, std::size_t at) {
+    const char next = next_character(text, static_cast<std::uint32_t>(at) + 1);
+    return next == '\0' || std::string_view(":;),~}&|").find(next) != std::string_view::npos;
+}
+
+/// A number as authors write it, without zeros at its end.
+std::string number_text(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+/// Reports `50%` and returns its value; nullopt: the current number is no percentage.
+std::optional<float> percentage(ParseSession& session, std::string_view text) {
+    const ScanState& scan = session.scan;
+    const std::string_view all = session.scanned.text;
+    const std::size_t at = all.find_first_not_of(" \t", scan.end);
+    const bool in_expression = scan.part == Part::Condition || scan.part == Part::Chance ||
+                               scan.part == Part::Value || !scan.open.empty();
+    if (!in_expression || at == std::string_view::npos || all[at] != '%' ||
+        !ends_percentage(all, at)) {
+        return std::nullopt;
+    }
+    const double value = static_cast<double>(read_literal(text).value) / 100.0;
+    if (session.wants(DiagnosticCode::MalformedNumber)) {
+        const SourceSpan span =
+            session.scanned.span(scan.begin, static_cast<std::uint32_t>(at) + 1);
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::MalformedNumber, span,
+                           scan.part == Part::Condition || scan.part == Part::Chance
+                               ? "there are no percentages: a probability is a number from 0 to 1"
+                               : "there are no percentages");
+        // In the place of the condition the `~` is missing as well.
+        const bool lacks_tilde = scan.part == Part::Condition && scan.open.empty() &&
+                                 all.substr(scan.part_begin, scan.begin - scan.part_begin)
+                                         .find_first_not_of(" \t\r\n") == std::string_view::npos;
+        const std::string replacement = (lacks_tilde ? "* ~ " : "") + number_text(value);
+        add_fix(diagnostic, "write `" + replacement + "`", span, replacement, false);
+    }
+    return static_cast<float>(value);
+}
+
+/// A unit of measure, and its length in metres; 0: of something else.
+struct Unit {
+    std::string_view word;
+    double metres;
+};
+constexpr std::array<Unit, 22> kUnits{{
+    {"cm", 0.01},   {"mm", 0.001},  {"km", 1000},       {"metres", 1},      {"meters", 1},
+    {"metre", 1},   {"meter", 1},   {"inch", 0.0254},   {"inches", 0.0254}, {"deg", 0},
+    {"degree", 0},  {"degrees", 0}, {"years", 0},       {"year", 0},        {"days", 0},
+    {"weeks", 0},   {"months", 0},  {"generations", 0}, {"iterations", 0},  {"times", 0},
+    {"percent", 0}, {"px", 0},
+}};
+
+const Unit* find_unit(std::string_view word) {
+    const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
+                                           [&](const Unit& unit) { return unit.word == word; });
+    return found == kUnits.end() ? nullptr : found;
+}
+
+/// Explains a number with a unit behind it.
+void explain_unit(Diagnostic& diagnostic,
+                  std::string_view number,
+                  const Unit& unit,
+                  SourceSpan whole) {
+    double value = static_cast<double>(read_literal(number).value);
+    value *= unit.metres == 0 ? 1.0 : unit.metres;
+    value /= unit.word == "percent" ? 100.0 : 1.0;
+    const std::string text =
+        unit.metres == 0 && unit.word != "percent" ? std::string(number) : number_text(value);
+    if (unit.metres != 0) {
+        diagnostic.help.emplace_back("lengths are in metres, or in another unit that is the same "
+                                     "everywhere");
+    }
+    add_fix(diagnostic, "write `" + text + "`", whole, text, false);
+}
+
+} // namespace
+
+bool is_percent_sign(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    return session.scan.value_before && is_digit(character_before(text, session.scan.begin)) &&
+           ends_percentage(text, session.scan.begin);
+}
+
+bool is_unit(ParseSession& session, std::string_view word) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const Unit* const unit = find_unit(word);
+    if (!scan.value_before || scan.name_before || unit == nullptr || scan.last_end == 0 ||
+        !(is_digit(text[scan.last_end - 1]) || text[scan.last_end - 1] == '.') ||
+        next_character(text, scan.end) == '(') {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::MalformedNumber)) {
+        std::uint32_t begin = scan.last_end;
+        while (begin > 0 && (is_digit(text[begin - 1]) || text[begin - 1] == '.')) {
+            --begin;
+        }
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::MalformedNumber, "numbers have no unit");
+        explain_unit(diagnostic, text.substr(begin, scan.last_end - begin), *unit,
+                     session.scanned.span(begin, scan.end));
+    }
+    return true;
+}
+
+namespace {
+
+std::string_view without_line_ends(std::string_view text) {
+    return text.substr(0, text.find_first_of("\r\n"));
+}
+
+} // namespace
+
+Token foreign_value(ParseSession& session, std::string_view text) {
+    ScanState& scan = session.scan;
+    if (session.wants(DiagnosticCode::UnknownName)) {
+        const bool is_call = text.ends_with(')');
+        const std::string_view name = is_call ? leading_word(text) : text;
+        const Synonym* const synonym =
+            find_synonym(is_call ? SynonymKind::Function : SynonymKind::Name, name);
+        Diagnostic& diagnostic = session.report(
+            DiagnosticCode::UnknownName,
+            is_call ? "there is no function `" + std::string(name) + "`, and no text in expressions"
+                    : "there is no variable `" + std::string(text) + "`");
+        if (synonym != nullptr) {
+            diagnostic.help.push_back(help_for(*synonym, name));
+            if (synonym->spelling == "step()") {
+                add_fix(diagnostic, "write `step()`", diagnostic.span, "step()", false);
+            }
+        } else if (!is_call) {
+            diagnostic.help.emplace_back("the age of the word is `step()`, and the values of a "
+                                         "module are its parameters");
+        }
+        const std::string_view all = session.scanned.text;
+        const std::string statement(
+            without_line_ends(all.substr(scan.statement_begin, scan.begin - scan.statement_begin)));
+        diagnostic.help.push_back(
+            scan.part == Part::Setting
+                ? "write a number, `" + statement +
+                      "25;`, or one that is set from outside: `#param " +
+                      "VALUE 25 {0, 90};` and `" + statement + "VALUE;`"
+                : std::string("a value that is set from outside is `#param NAME 1 {0, 10};`, and "
+                              "`-D NAME=2` on the command line"));
+    }
+    const SourceSpan span = session.token();
+    scan.value_before = true;
+    scan.name_before = false;
+    return Token(Parser::token::TOK_BAD_VALUE, span);
+}
+
+bool is_compound_assignment(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const char before = scan.begin == 0 ? '\0' : text[scan.begin - 1];
+    if (scan.open.empty() || scan.last_end != scan.begin ||
+        std::string_view("+-*/").find(before) == std::string_view::npos) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::AssignmentInExpression)) {
+        Diagnostic& diagnostic = session.report(
+            DiagnosticCode::AssignmentInExpression, session.scanned.span(scan.begin - 1, scan.end),
+            std::string("there is no `") + before + "=`: the new value is written");
+        add_fix(diagnostic, std::string("write `") + before + "`", session.match(), "", false);
+    }
+    return true;
+}
+
+void report_quoted_expression(ParseSession& session) {
+    if (!session.wants(DiagnosticCode::SyntaxError)) {
+        return;
+    }
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::SyntaxError, "expressions stand without back quotes");
+    const std::size_t close = text.find_first_of("`\n", scan.end);
+    if (close != std::string_view::npos && text[close] == '`') {
+        const auto end = static_cast<std::uint32_t>(close);
+        diagnostic.fixes.push_back(
+            {"write `" + std::string(text.substr(scan.end, end - scan.end)) + "`",
+             {{session.match(), ""}, {session.scanned.span(end, end + 1), ""}},
+             false});
+    }
+}
+
 Token number(ParseSession& session, std::string_view text, SourceSpan span) {
+    if (const std::optional<float> value = percentage(session, text)) {
+        return Token(Parser::token::TOK_NUMBER, *value, span);
+    }
     const Literal literal = read_literal(text);
     if (literal.range != LiteralRange::Normal && session.wants_reports()) {
         report_literal_range(session.context.diagnostics, literal, text, span);
@@ -64,6 +262,11 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
                                             "`" + shown(text) + "` is not a number");
     const std::size_t length = literal_length(text);
     const std::string_view rest = text.substr(length);
+    if (const Unit* const unit = find_unit(rest)) {
+        diagnostic.message = "numbers have no unit";
+        explain_unit(diagnostic, text.substr(0, length), *unit, span);
+        return;
+    }
     if (rest == "f" || rest == "F") {
         // `2f` may be a product, `2.0f` is a number of C.
         add_fix(diagnostic, "numbers have no suffix; remove it",

@@ -194,6 +194,50 @@ Token read_as_module(ParseSession& session, std::string_view name) {
     return Token(Parser::token::TOK_QUOTED, session.builder.intern(name), span);
 }
 
+namespace {
+
+/// Explains `~(20)` and `~L`, whose meaning in other programs is clear.
+bool explain_parameters_or_object(const ParseSession& session,
+                                  char symbol,
+                                  Diagnostic& diagnostic) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const std::string_view rest = text.substr(scan.end);
+    if (rest.empty() || symbol != '~') {
+        return false;
+    }
+    if (rest[0] == '(') {
+        const std::size_t close = rest.find_first_of("(),;", 1);
+        if (close == std::string_view::npos || rest[close] != ')') {
+            return false;
+        }
+        const std::string angle(rest.substr(1, close - 1));
+        const bool is_plain =
+            angle.find_first_not_of(
+                "0123456789.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") ==
+            std::string::npos;
+        const std::string range =
+            "({-" + (is_plain ? angle : "(" + angle + ")") + ", " + angle + "})";
+        const SourceSpan span =
+            session.scanned.span(scan.begin, scan.end + static_cast<std::uint32_t>(close) + 1);
+        diagnostic.help = {"`~(a)` of Houdini turns at random; `+`, `&` and `/` turn about the "
+                           "three axes"};
+        add_fix(diagnostic, "write `+" + range + " &" + range + " /" + range + "`", span,
+                "+" + range + " &" + range + " /" + range, false);
+        return true;
+    }
+    const std::string_view name = leading_word(rest);
+    if (name.empty()) {
+        return false;
+    }
+    diagnostic.help = {"`~` of cpfg places a surface; an object bound by `#object " +
+                       std::string(name) + " ...;` is placed by its name alone"};
+    add_fix(diagnostic, "write `" + std::string(name) + "`", diagnostic.span, "", false);
+    return true;
+}
+
+} // namespace
+
 void report_foreign_symbol(ParseSession& session, char symbol) {
     if (!session.wants(DiagnosticCode::UnknownCharacter)) {
         return;
@@ -212,8 +256,22 @@ void report_foreign_symbol(ParseSession& session, char symbol) {
                            "`#name : predecessor : condition : successor;`"};
         return;
     }
-    add_fix(diagnostic, "as a module without meaning of its own, write it in back quotes",
-            diagnostic.span, std::string("`") + symbol + "`", false);
+    if (explain_parameters_or_object(session, symbol, diagnostic)) {
+        return;
+    }
+    const std::string_view text = session.scanned.text;
+    const ScanState& scan = session.scan;
+    const auto is_gap = [&](char c) {
+        return std::string_view(" \t\r\n[]:;").find(c) != std::string_view::npos;
+    };
+    // Only a symbol that stands alone may be meant as a module.
+    const bool stands_alone = scan.begin > 0 && is_gap(text[scan.begin - 1]) &&
+                              (scan.end >= text.size() || is_gap(text[scan.end])) &&
+                              symbol != '=' && next_character(text, scan.end) != '(';
+    if (stands_alone) {
+        add_fix(diagnostic, "as a module without meaning of its own, write it in back quotes",
+                diagnostic.span, std::string("`") + symbol + "`", false);
+    }
 }
 
 StrayHandling report_extra_parenthesis(ParseSession& session) {
@@ -249,9 +307,10 @@ bool is_colour_symbol(ParseSession& session) {
     if (session.wants(DiagnosticCode::StraySemicolon)) {
         Diagnostic& diagnostic = session.report(DiagnosticCode::StraySemicolon,
                                                 "`;` ends the statement, but parameters follow");
-        diagnostic.help.emplace_back("in cpfg `;` sets the colour, which is `'(index)` here; in "
-                                     "Houdini it multiplies the angle");
-        add_fix(diagnostic, "as a module, write it in back quotes", diagnostic.span, "`;`", false);
+        const std::string_view rest = session.scanned.text.substr(scan.end);
+        const std::string arguments(rest.substr(0, std::min(rest.find(')'), rest.size() - 1) + 1));
+        add_fix(diagnostic, "`;` of cpfg and L-Py sets the colour: write `'" + arguments + "`",
+                diagnostic.span, "'", false);
     }
     return true;
 }
@@ -351,8 +410,16 @@ void report_unclosed_comment(ParseSession& session) {
             session.report(DiagnosticCode::UnclosedComment,
                            session.scanned.span(scan.comment_begin, scan.comment_begin + 2),
                            "this comment is never closed");
+        const std::string_view text = session.scanned.text;
+        const std::size_t line = std::min(text.find('\n', scan.comment_begin), text.size());
+        const std::size_t last = text.find_last_not_of(" \t\r", line - 1);
         diagnostic.help.emplace_back("a comment ends with `*/`; everything after this one is lost");
+        if (text[last] == '*' && last > scan.comment_begin + 1) {
+            add_fix(diagnostic, "is this `*` meant to be its end?",
+                    session.scanned.after(static_cast<std::uint32_t>(last) + 1), "/", false);
+        }
     }
+    session.builder.mark_incomplete();
     session.failed = true;
 }
 

@@ -3,6 +3,7 @@
 #include "grammar/base/characters.h"
 #include "grammar/base/confusables.h"
 #include "grammar/base/utf8.h"
+#include "grammar/lsys/impl/draft_text.h"
 #include "grammar/lsys/impl/normalizer.h"
 #include "grammar/lsys/impl/scanning.h"
 
@@ -182,10 +183,35 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
 
 } // namespace
 
+namespace {
+
+/// Mends text that comes from elsewhere; larger files are not searched.
+void mend_foreign_text(std::string_view source,
+                       const ParseContext& context,
+                       NormalizedText& normalized) {
+    constexpr std::size_t kMaxSearchedText = std::size_t{1} << 20;
+    if (source.size() > kMaxSearchedText) {
+        return;
+    }
+    lsys_grammar::DraftText draft{
+        normalized.scanned.file, std::string(source), context.diagnostics, {}};
+    draft.mask();
+    lsys_grammar::mend_pasted_text(draft);
+    lsys_grammar::mend_foreign_forms(draft);
+    normalized.is_incomplete = draft.is_incomplete;
+    if (draft.is_changed) {
+        normalized.mended = std::make_unique<std::string>(std::move(draft.text));
+        normalized.scanned.text = *normalized.mended;
+    }
+}
+
+} // namespace
+
 NormalizedText normalize_source(FileId file, const ParseContext& context) {
     NormalizedText normalized;
-    const std::string_view source = context.sources.file(file).text();
-    normalized.scanned = {file, source, nullptr, nullptr};
+    normalized.scanned = {file, context.sources.file(file).text(), nullptr, nullptr};
+    mend_foreign_text(normalized.scanned.text, context, normalized);
+    const std::string_view source = normalized.scanned.text;
     if (!is_ascii(source)) {
         normalized.repaired = std::make_unique<std::string>();
         const Validity validity =

@@ -1,5 +1,5 @@
-// The step before the parse of a file: reports invalid UTF-8 and typographic characters, and makes
-// the normalized text with ASCII in their place. Comments and file names do not change.
+// The step before the parse of a file: reports text from elsewhere (draft_text.h), invalid UTF-8 and
+// typographic characters, and makes the normalized text with ASCII in their place. Comments and file names do not change.
 #pragma once
 
 #include "grammar/ast/text_map.h"
@@ -10,13 +10,15 @@
 
 namespace lsys {
 
-/// The text for the scan of a file. `scanned` refers to `repaired` and `map`.
+/// The text for the scan of a file. `scanned` refers to `mended`, `repaired` and `map`.
 struct NormalizedText {
+    std::unique_ptr<std::string> mended;   // without text from elsewhere; null if the file has none
     std::unique_ptr<std::string> repaired; // without invalid UTF-8; null if the file has none
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
     /// Value of the first `#set names` of the file.
     ModuleNames names = ModuleNames::Words;
+    bool is_incomplete = false; // a statement was left out
 };
 
 /// Normalizes a file; reports to the diagnostics of `context`. The result refers to the text of the

@@ -4,6 +4,7 @@
 #include "grammar/base/confusables.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace lsys {
@@ -161,6 +162,48 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
+/// Whether a Greek letter is a word of its own; reports its first occurrence.
+bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
+    constexpr std::array<std::string_view, 25> kGreek{
+        "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
+        "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",   "rho",   "sigma",
+        "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega"};
+    constexpr char32_t kFirst = 0x3B1;
+    if (point.value < kFirst || point.value >= kFirst + kGreek.size() || word.begin != begin ||
+        word.end != begin + point.length) {
+        return false;
+    }
+    if (reported_greek_.find(point.value) != std::u32string::npos) {
+        return true;
+    }
+    reported_greek_ += point.value;
+    if (!diagnostics_->admits(DiagnosticCode::UnknownCharacter)) {
+        return true;
+    }
+    const std::string_view letter = text_.substr(begin, point.length);
+    const std::string name(kGreek[point.value - kFirst]);
+    Diagnostic& diagnostic =
+        diagnostics_->add(DiagnosticCode::UnknownCharacter, {file_, word.begin, word.end},
+                          "`" + std::string(letter) + "` is not a name");
+    const std::size_t before = begin == 0 ? 0 : text_.find_last_not_of(" \t\r\n", begin - 1);
+    const std::size_t after = std::min(text_.find_first_not_of(" \t\r\n", word.end), text_.size());
+    if (name == "epsilon" && before != std::string_view::npos && text_[before] == ':' &&
+        text_.substr(after, 1) == ";") {
+        diagnostic.message = "the empty word is written by writing nothing";
+        add_fix(diagnostic, "remove it", diagnostic.span, "", false);
+        return true;
+    }
+    diagnostic.help.emplace_back("names are made of the letters A to Z and a to z, digits and `_`");
+    Fix fix{"write `" + name + "`, wherever it stands", {}, false};
+    for (std::size_t at = begin; at != std::string_view::npos && fix.edits.size() < 32;
+         at = text_.find(letter, at + letter.size())) {
+        const auto place = static_cast<std::uint32_t>(at);
+        fix.edits.push_back({{file_, place, place + point.length}, name});
+    }
+    diagnostic.fixes.push_back(std::move(fix));
+    return true;
+}
+
 void Normalizer::report_unknown(std::uint32_t begin, const CodePoint& point) {
     if (diagnostics_ == nullptr) {
         return;
@@ -182,6 +225,9 @@ void Normalizer::report_unknown(std::uint32_t begin, const CodePoint& point) {
         while (end < text_.size() && is_continuation(text_[end])) {
             ++end;
         }
+    }
+    if (report_greek(begin, {first, end}, point)) {
+        return;
     }
     const bool same_word = begin < word_end_;
     word_end_ = std::max(word_end_, end);

@@ -51,6 +51,12 @@ private:
                             std::string_view ascii,
                             std::string_view name);
     void report_power(std::uint32_t begin, const CodePoint& point);
+    /// Bytes [begin, end) of the text.
+    struct TextPart {
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
+    };
+    bool report_greek(std::uint32_t begin, TextPart word, const CodePoint& point);
     void report_unknown(std::uint32_t begin, const CodePoint& point);
     void report_group();
     [[nodiscard]] bool is_word_at(std::uint32_t at) const;
@@ -61,6 +67,7 @@ private:
     Diagnostics* diagnostics_;
     Group group_;
     std::uint32_t word_end_ = 0; // of the last word with an unknown letter
+    std::u32string reported_greek_;
     bool explained_ = false;
 };
 

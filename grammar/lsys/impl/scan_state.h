@@ -88,6 +88,7 @@ struct ScanState {
     bool part_empty = true;          // the part has no token yet
     bool has_locals = false;         // the statement has Part::Locals
     bool skipping = false;           // to the `;` of the statement
+    bool sign_explained = false;     // the `=` behind the key is part of another message
     bool semicolon_inserted = false;
     bool value_before = false;                  // the last token ends a value
     bool name_before = false;                   // the last token is a name in an expression

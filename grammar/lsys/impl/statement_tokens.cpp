@@ -58,6 +58,7 @@ void open_statement(ParseSession& session, Keyword keyword) {
     scan.has_locals = false;
     scan.colons.reset();
     scan.skipping = false;
+    scan.sign_explained = false;
     session.failed = false;
     scan.semicolon_inserted = false;
     scan.open.clear();
@@ -121,10 +122,25 @@ Token setting_without_set(ParseSession& session, std::string_view word) {
         const std::string name(word);
         Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
                                                 "there is no statement `#" + name + "`");
-        add_fix(diagnostic, "a setting is written `#set " + name + "`",
-                {span.file, session.scanned.source_begin(key_begin),
-                 session.scanned.source_begin(key_begin)},
-                "set ", true);
+        const SourceSpan place{span.file, session.scanned.source_begin(key),
+                               session.scanned.source_begin(key)};
+        const std::string_view text = session.scanned.text;
+        const char next = next_character(text, scan.end);
+        if (next == '=' || next == ':') {
+            const auto sign = static_cast<std::uint32_t>(text.find(next, scan.end));
+            const std::size_t value =
+                std::min(text.find_first_not_of(" \t", sign + 1), text.size());
+            const std::size_t end = std::min(text.find_first_of(";\n", value), text.size());
+            const SourceSpan gap =
+                session.scanned.span(scan.end, static_cast<std::uint32_t>(value));
+            diagnostic.fixes.push_back({"a setting is written `#set " + name + " " +
+                                            std::string(text.substr(value, end - value)) + ";`",
+                                        {{place, "set "}, {gap, " "}},
+                                        true});
+            scan.sign_explained = true;
+        } else {
+            add_fix(diagnostic, "a setting is written `#set " + name + "`", place, "set ", true);
+        }
     }
     scan.keyword = Keyword::Set;
     scan.end = key_begin; // reads the key again
@@ -139,6 +155,22 @@ std::string_view meant_setting(const Synonym* synonym) {
                : std::string_view{};
 }
 
+/// Explains `#homomorphism;`, which begins a part of the file in other programs.
+void explain_section(const ParseSession& session, Keyword meant, Diagnostic& diagnostic) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t hash = text.find('#', session.scan.end);
+    const std::size_t begin =
+        hash == std::string_view::npos ? text.size() : text.find_first_not_of(" \t", hash + 1);
+    const std::size_t end =
+        std::min(text.find_first_of(";\n", std::min(begin, text.size())), text.size());
+    const std::string name = "#" + std::string(spelling(meant));
+    const std::string_view next =
+        begin < end ? text.substr(begin, end - begin) : std::string_view("p : A : * : B");
+    diagnostic.help.push_back("a file has no parts: remove this line, and write the productions "
+                              "behind it `" +
+                              name + " " + std::string(next) + ";`");
+}
+
 /// Reports `#word`, which is no statement; returns the keyword that is meant, if that is sure.
 std::optional<Keyword> report_unknown_statement(ParseSession& session, std::string_view word) {
     const Synonym* const synonym = find_synonym(SynonymKind::Statement, word);
@@ -149,13 +181,19 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
     } else {
         meant = nearest_keyword(word);
     }
+    const bool is_section = meant && names_production(*meant) && synonym != nullptr &&
+                            next_character(session.scanned.text, session.scan.end) == ';';
     if (!session.wants(DiagnosticCode::UnknownStatement)) {
-        return meant;
+        return is_section ? std::nullopt : meant;
     }
     const SourceSpan span = session.match();
     const std::string written = "#" + shown(word);
     Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
                                             "there is no statement `" + written + "`");
+    if (is_section) {
+        explain_section(session, *meant, diagnostic);
+        return std::nullopt;
+    }
     if (meant) {
         const std::string name = "#" + std::string(spelling(*meant));
         add_fix(diagnostic,
@@ -427,6 +465,9 @@ bool is_needless_sign(ParseSession& session) {
                             scan.keyword == Keyword::Set || scan.keyword == Keyword::Generations;
     if (!scan.part_empty || !takes_none || !scan.open.empty()) {
         return false;
+    }
+    if (std::exchange(scan.sign_explained, false)) {
+        return true;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         const SourceSpan span = session.match();

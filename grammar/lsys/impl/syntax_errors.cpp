@@ -134,6 +134,26 @@ void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
             session.scanned.span(begin, end), '"' + name + '"', false);
 }
 
+/// The parameter of the current `#param` with bounds: `x 30 {0, 60}`.
+std::string param_text(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    constexpr std::string_view kBlanks = " \t\r\n=:";
+    const std::size_t begin = std::min(
+        text.find_first_not_of(kBlanks, text.find("param", session.scan.statement_begin) + 5),
+        text.size());
+    const std::string name(leading_word(text.substr(begin)));
+    const std::size_t value =
+        std::min(text.find_first_not_of(kBlanks, begin + name.size()), text.size());
+    const std::string_view number =
+        text.substr(value, text.find_first_not_of("0123456789.", value) - value);
+    if (name.empty() || number.empty() || number.find('.') != std::string_view::npos ||
+        number.size() > 6 || value + number.size() > session.scan.end) {
+        return "NAME value {min, max}";
+    }
+    const int twice = 2 * std::stoi(std::string(number));
+    return name + " " + std::string(number) + " {0, " + std::to_string(twice) + "}";
+}
+
 void report_expected(ParseSession& session, const Unexpected& error) {
     if (!session.wants(DiagnosticCode::SyntaxError)) {
         return;
@@ -147,7 +167,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                                      : "expected " + joined(words) + ", found " + found);
     if (scan.keyword == Keyword::Param && error.expects(Kind::S_LBRACE) &&
         !error.expects(Kind::S_NUMBER)) {
-        diagnostic.help.emplace_back("a parameter has bounds: `#param NAME value {min, max};`");
+        diagnostic.help.push_back("a parameter has bounds: `#param " + param_text(session) + ";`");
     } else if (error.part == Part::Setting && error.token == Kind::S_OTHER && error.text == ",") {
         const std::string_view text = session.scanned.text;
         const char next = scan.end < text.size() ? text[scan.end] : '\0';
@@ -167,14 +187,28 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                character_before(session.scanned.text, scan.begin) == ',') {
         diagnostic.help.emplace_back("no comma stands behind the last argument");
     } else if (error.text == "?") {
-        diagnostic.help.emplace_back("there is no conditional operator; a comparison is 1 or 0 and "
-                                     "can be a factor");
+        diagnostic.help.emplace_back(
+            "there is no operator `? :`: a choice is `if(condition, a, b)`");
     } else if (error.part == Part::ObjectValue && error.token == Kind::S_OTHER &&
                error.text == ".") {
         offer_quotes(session, diagnostic);
     } else if (error.token == Kind::S_COMMA && scan.open.empty()) {
         diagnostic.help.emplace_back("a comma stands only between arguments in parentheses");
     }
+}
+
+/// Whether a `)` closes each open bracket behind the current character.
+bool are_brackets_closed(const ParseSession& session) {
+    const ScanState& scan = session.scan;
+    std::uint32_t at = scan.end;
+    for (std::size_t level = 0; level < scan.open.size(); ++level) {
+        const std::optional<std::uint32_t> close = unmatched_parenthesis(session.scanned.text, at);
+        if (!close) {
+            return false;
+        }
+        at = *close + 1;
+    }
+    return true;
 }
 
 /// Reports `[` or another module in place of a value: the `(` before it is never closed.
@@ -185,6 +219,9 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
         std::string_view("[]$\"'\\").find(error.text[0]) == std::string_view::npos) {
         return false;
     }
+    if (error.text != "]" && are_brackets_closed(session)) {
+        return false; // the character is the mistake
+    }
     if (session.wants(DiagnosticCode::UnclosedParenthesis)) {
         const std::uint32_t open = scan.open.front().begin;
         Diagnostic& diagnostic =
@@ -192,6 +229,12 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
                            session.scanned.span(open, open + 1), "`(` is never closed");
         diagnostic.labels.push_back(
             {error.place, "`" + std::string(error.text) + "` is no part of an argument"});
+        if (scan.open.size() == 1) {
+            const std::size_t last =
+                session.scanned.text.find_last_not_of(" \t\r\n", scan.begin - 1);
+            add_fix(diagnostic, "close it before that",
+                    session.scanned.after(static_cast<std::uint32_t>(last) + 1), ")", false);
+        }
     }
     return true;
 }
@@ -214,9 +257,60 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     return true;
 }
 
+/// Whether the current `+` is the second of `t++`; reports it.
+bool is_increment(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    const char next = next_character(text, scan.end);
+    if (scan.begin == 0 || text[scan.begin - 1] != '+' ||
+        std::string_view("),;:").find(next) == std::string_view::npos) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const SourceSpan span = session.scanned.span(scan.begin - 1, scan.end);
+        std::size_t begin = scan.begin - 1;
+        while (begin > 0 && is_word_character(text[begin - 1])) {
+            --begin;
+        }
+        const std::string name(text.substr(begin, scan.begin - 1 - begin));
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span, "there is no operator `++`");
+        add_fix(diagnostic, "write `" + name + " + 1`", span, " + 1", false);
+    }
+    return true;
+}
+
+/// Reports `t--)`.
+bool report_decrement(ParseSession& session, const Unexpected& error) {
+    const std::string_view text = session.scanned.text;
+    const std::uint32_t end = session.scan.last_end;
+    if (error.token != Kind::S_RPAREN && error.token != Kind::S_CLOSE &&
+        error.token != Kind::S_COMMA) {
+        return false;
+    }
+    if (end < 3 || text.substr(end - 2, 2) != "--" || !is_word_character(text[end - 3])) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        std::size_t begin = end - 2;
+        while (begin > 0 && is_word_character(text[begin - 1])) {
+            --begin;
+        }
+        const SourceSpan span = session.scanned.span(end - 2, end);
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span, "there is no operator `--`");
+        add_fix(diagnostic, "write `" + std::string(text.substr(begin, end - 2 - begin)) + " - 1`",
+                span, " - 1", false);
+    }
+    return true;
+}
+
 bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (error.token != Kind::S_PLUS || !error.expects(Kind::S_NUMBER)) {
         return false;
+    }
+    if (is_increment(session)) {
+        return true;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
@@ -267,7 +361,7 @@ void report_unexpected_token(ParseSession& session,
             report_modules_in_parentheses(session, error) ||
             report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
             (in_production && scan.open.empty() && !is_inserted && lacks_colon(session, "")) ||
-            report_unary_plus(session, error);
+            report_unary_plus(session, error) || report_decrement(session, error);
         if (!reported) {
             report_expected(session, error);
         }

@@ -44,6 +44,7 @@ class Places {
 public:
     Places(FileId file, const SourceFile& source) : file_(file), source_(source) {}
 
+    [[nodiscard]] std::string_view text() const { return source_.text(); }
     [[nodiscard]] std::uint32_t offset(const toml::source_position& at) {
         if (at.line == 0) {
             return 0;
@@ -172,6 +173,27 @@ TomlMessage complaint_of(std::string_view description) {
     return complaint;
 }
 
+/// The line of a value without its quotes: `file = "oak.lsys"`.
+std::string text_in_quotes(const Places& places, SourceSpan span) {
+    const std::string_view text = places.text();
+    const std::size_t newline =
+        span.begin == 0 ? std::string_view::npos : text.rfind('\n', span.begin - 1);
+    const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
+    const std::string_view line =
+        text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos ||
+        line.find_first_of("\"'[{#") != std::string_view::npos) {
+        return "a text stands in quotes: `kind = \"noise\"`";
+    }
+    const std::size_t value = line.find_first_not_of(" \t", equals + 1);
+    const std::size_t end = line.find_last_not_of(" \t\r") + 1;
+    return value == std::string_view::npos || value >= end
+               ? std::string("a text stands in quotes: `kind = \"noise\"`")
+               : fmt::format("a text stands in quotes: `{}\"{}\"`", line.substr(0, value),
+                             line.substr(value, end - value));
+}
+
 void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& diagnostics) {
     const TomlMessage complaint = complaint_of(error.description());
     const bool at_end = complaint.reason == "encountered end-of-file";
@@ -179,7 +201,9 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
         complaint.what.find_first_of("aeiou") == 0 ? std::string("an ") : std::string("a ");
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::SceneSyntax, places.span(error.source()),
-                        at_end && !complaint.what.empty()
+                        complaint.reason.starts_with("could not determine value type")
+                            ? std::string("this is no value: a number, `true`, or a text in quotes")
+                        : at_end && !complaint.what.empty()
                             ? fmt::format("the file ends within {}{}", article, complaint.what)
                             : complaint.reason);
     if (!at_end && !complaint.what.empty()) {
@@ -193,7 +217,7 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     } else if (complaint.reason.starts_with("expected `true`") ||
                complaint.reason.starts_with("expected `false`") ||
                complaint.reason.starts_with("could not determine value type")) {
-        diagnostic.help.emplace_back("a text stands in quotes: `kind = \"noise\"`");
+        diagnostic.help.push_back(text_in_quotes(places, diagnostic.span));
     }
 }
 

@@ -1,0 +1,68 @@
+// The step before the scan of a file: finds text that comes from elsewhere, reports each piece once
+// and writes what it means into a copy of the text, so that nothing after it is a consequence. All
+// replacements have the length of what they replace, so places do not change. A text without
+// mistakes is never changed: every form that is searched for is an error of the language.
+#pragma once
+
+#include "grammar/base/diagnostic.h"
+#include "grammar/base/source.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::lsys_grammar {
+
+/// A copy of the text of a file that is being mended.
+struct DraftText {
+    FileId file = kNoFile;
+    std::string text;
+    Diagnostics& diagnostics;
+    /// The text with blanks in place of comments, and letters in place of what stands in back quotes.
+    std::string masked;
+    bool is_changed = false;
+    bool is_incomplete = false; // a statement is left out
+
+    [[nodiscard]] SourceSpan span(std::size_t begin, std::size_t end) const {
+        return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+    }
+    Diagnostic& report(DiagnosticCode code, SourceSpan span, std::string message) {
+        return diagnostics.add(code, span, std::move(message));
+    }
+    void put(std::size_t at, char c) {
+        text[at] = c;
+        masked[at] = c;
+        is_changed = true;
+    }
+    /// Makes `masked` anew.
+    void mask();
+    /// Writes blanks over [begin, end), except for line ends.
+    void blank(std::size_t begin, std::size_t end);
+    /// Writes `replacement` and blanks over [begin, end) if it fits; returns whether it does.
+    bool replace(std::size_t begin, std::size_t end, std::string_view replacement);
+};
+
+/// The text of a statement, from its `#` to its `;` or, without one, to the next statement.
+struct StatementText {
+    std::size_t begin = 0;
+    std::size_t end = 0; // of the `;`
+};
+
+/// Whether `text` at `at` has a `#` and a word, behind blanks.
+[[nodiscard]] bool is_statement_start(std::string_view text, std::size_t at);
+/// The first offset at or after `at` outside of blanks and comments.
+[[nodiscard]] std::size_t skip_gaps(std::string_view text, std::size_t at);
+/// The statement that begins at `at`, where a `#` stands.
+[[nodiscard]] StatementText statement_at(std::string_view text, std::size_t at);
+/// `text` without blanks at its ends.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
+/// Pieces of other texts: marks of a merge, a diff, a Markdown fence, line numbers, HTML, line ends
+/// of old Macs, and lines in the notation of books and other programs.
+void mend_pasted_text(DraftText& draft);
+/// Forms of statements that other languages have: `{ return x; }`, `c ? a : b`, `A(l, w = 1)`.
+void mend_foreign_forms(DraftText& draft);
+
+} // namespace lsys::lsys_grammar

@@ -1,0 +1,891 @@
+#include "grammar/base/characters.h"
+#include "grammar/base/synonyms.h"
+#include "grammar/base/utf8.h"
+#include "grammar/lsys/impl/draft_text.h"
+#include "grammar/lsys/impl/lookahead.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace lsys::lsys_grammar {
+
+void DraftText::blank(std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at) {
+        if (text[at] != '\n' && text[at] != '\r') {
+            put(at, ' ');
+        }
+    }
+    is_changed = true;
+}
+
+void DraftText::mask() {
+    masked = text;
+    bool in_statement = false;
+    const auto hide = [&](std::size_t begin, std::size_t end, char c) {
+        for (std::size_t at = begin; at < end; ++at) {
+            masked[at] = text[at] == '\n' || text[at] == '\r' ? text[at] : c;
+        }
+    };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        std::size_t end = at;
+        if (text.compare(at, 2, "/*") == 0) {
+            end = text.find("*/", at + 2);
+            end = end == std::string::npos ? text.size() : end + 2;
+            hide(at, end, ' ');
+        } else if (!in_statement && text.compare(at, 2, "//") == 0) {
+            end = std::min(text.find('\n', at), text.size());
+            hide(at, end, ' ');
+        } else if (in_statement && text[at] == '`') {
+            end = text.find_first_of("`\n", at + 1);
+            end = end == std::string::npos || text[end] != '`' ? at : end + 1;
+            hide(at, end, 'Q');
+        } else if (text[at] == '#' && at + 1 < text.size()) {
+            in_statement = in_statement || is_statement_start(text, at);
+        } else if (text[at] == ';') {
+            in_statement = false;
+        }
+        at = end > at ? end - 1 : at;
+    }
+}
+
+bool DraftText::replace(std::size_t begin, std::size_t end, std::string_view replacement) {
+    if (replacement.size() > end - begin) {
+        return false;
+    }
+    blank(begin, end);
+    for (std::size_t i = 0; i < replacement.size(); ++i) {
+        put(begin + i, replacement[i]);
+    }
+    return true;
+}
+
+bool is_statement_start(std::string_view text, std::size_t at) {
+    at = text.find_first_not_of(" \t", at);
+    return at != std::string_view::npos && text[at] == '#' && at + 1 < text.size() &&
+           is_letter(text[at + 1]);
+}
+
+std::size_t skip_gaps(std::string_view text, std::size_t at) {
+    at = std::min(at, text.size());
+    while (at < text.size()) {
+        if (std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos) {
+            ++at;
+        } else if (text.substr(at, 2) == "/*") {
+            const std::size_t close = text.find("*/", at + 2);
+            at = close == std::string_view::npos ? text.size() : close + 2;
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
+StatementText statement_at(std::string_view text, std::size_t at) {
+    StatementText statement{at, text.size()};
+    // Only names of files stand in quotes; among modules a `"` is a module.
+    const std::size_t first = std::min(text.find_first_not_of(" \t", at + 1), text.size());
+    const std::string_view word = leading_word(text.substr(first));
+    const bool has_files = (word == "object" || word == "include") &&
+                           text.substr(skip_gaps(text, first + word.size()), 1) != ":";
+    bool is_line_start = false;
+    for (++at; at < text.size(); ++at) {
+        const char c = text[at];
+        if (c == ';') {
+            statement.end = at;
+            break;
+        }
+        if (c == '`' || (c == '"' && has_files)) {
+            const char ends[] = {c, '\n', '\0'};
+            const std::size_t close = text.find_first_of(ends, at + 1);
+            if (close != std::string_view::npos && text[close] == c) {
+                at = close;
+            }
+        } else if (text.substr(at, 2) == "/*") {
+            const std::size_t close = text.find("*/", at + 2);
+            at = close == std::string_view::npos ? text.size() - 1 : close + 1;
+        } else if (is_line_start && c == '#' && is_statement_start(text, at)) {
+            statement.end = at;
+            break;
+        }
+        is_line_start = c == '\n' || (is_line_start && (c == ' ' || c == '\t' || c == '\r'));
+    }
+    return statement;
+}
+
+std::string_view without_blanks(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) {
+        return {};
+    }
+    return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
+}
+
+namespace {
+
+/// A line that does not begin inside a statement or a comment.
+struct FreeLine {
+    std::size_t begin = 0;
+    std::size_t end = 0;   // without the line end
+    std::string_view text; // without blanks at its ends
+};
+
+std::size_t end_of_line(std::string_view text, std::size_t at) {
+    return std::min(text.find('\n', at), text.size());
+}
+
+std::size_t start_of_line(std::string_view text, std::size_t at) {
+    const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+    return newline == std::string_view::npos ? 0 : newline + 1;
+}
+
+/// The end of the statements and comments that begin in the line from `at` to `end`.
+std::size_t end_of_content(std::string_view text, std::size_t at, std::size_t end) {
+    while (at < end) {
+        if (text.substr(at, 2) == "//") {
+            return end;
+        }
+        if (text.substr(at, 2) == "/*") {
+            const std::size_t close = text.find("*/", at + 2);
+            at = close == std::string_view::npos ? text.size() : close + 2;
+        } else if (text[at] == '#') {
+            const StatementText statement = statement_at(text, at);
+            at = statement.end < text.size() && text[statement.end] == ';' ? statement.end + 1
+                                                                           : statement.end;
+        } else {
+            ++at;
+        }
+    }
+    return at;
+}
+
+/// The lines between statements, in order.
+std::vector<FreeLine> free_lines(std::string_view text) {
+    std::vector<FreeLine> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = end_of_line(text, at);
+        lines.push_back({at, end, without_blanks(text.substr(at, end - at))});
+        std::size_t next = end_of_content(text, at, end);
+        while (next > end && next < text.size()) {
+            const std::size_t begin = start_of_line(text, next);
+            if (without_blanks(text.substr(begin, next - begin)).empty()) {
+                end = begin - 1; // the next statement begins this line
+                break;
+            }
+            end = end_of_line(text, next); // further content of the line where the last one ends
+            next = end_of_content(text, next, end);
+        }
+        at = std::max(end, std::min(next, text.size()) == text.size() ? text.size() : end) + 1;
+    }
+    return lines;
+}
+
+bool is_comment(std::string_view line) {
+    return line.starts_with("//") || line.starts_with("/*");
+}
+
+/// Whether a line is none of the language: it begins with neither a statement nor a comment.
+bool is_foreign(std::string_view line) {
+    return !line.empty() && !is_comment(line) && !is_statement_start(line, 0) && line[0] != ';';
+}
+
+// --- line ends
+
+void mend_line_ends(DraftText& draft) {
+    const std::string_view text = draft.text;
+    if (text.find('\n') != std::string_view::npos) {
+        return;
+    }
+    const std::size_t slashes = text.find("//");
+    const std::size_t end = slashes == std::string_view::npos ? slashes : text.find('\r', slashes);
+    if (end == std::string_view::npos || text.find('#', end) == std::string_view::npos) {
+        return;
+    }
+    Diagnostic& diagnostic = draft.report(
+        DiagnosticCode::PastedText, draft.span(slashes, slashes + 2),
+        "the lines end with a carriage return alone, so this comment goes on to the end of the "
+        "file");
+    diagnostic.help.emplace_back("save the file with the line ends of Unix (LF) or Windows (CRLF)");
+    std::replace(draft.text.begin(), draft.text.end(), '\r', '\n');
+    draft.mask();
+    draft.is_changed = true;
+}
+
+// --- marks of a merge
+
+void mend_merge(DraftText& draft) {
+    std::size_t begin = std::string::npos;
+    std::size_t middle = std::string::npos;
+    bool is_reported = false;
+    for (const FreeLine& line : free_lines(draft.text)) {
+        if (line.text.starts_with("<<<<<<<")) {
+            begin = line.begin;
+            middle = std::string::npos;
+        } else if (begin != std::string::npos && middle == std::string::npos &&
+                   (line.text.starts_with("=======") || line.text.starts_with("|||||||"))) {
+            middle = line.begin;
+        } else if (middle != std::string::npos && line.text.starts_with(">>>>>>>")) {
+            if (!std::exchange(is_reported, true)) {
+                Diagnostic& diagnostic = draft.report(
+                    DiagnosticCode::PastedText, draft.span(begin, end_of_line(draft.text, begin)),
+                    "this is a mark of a merge conflict, as Git writes it");
+                diagnostic.labels.push_back({draft.span(middle, end_of_line(draft.text, middle)),
+                                             "the other version begins here"});
+                diagnostic.labels.push_back({draft.span(line.begin, line.end), "it ends here"});
+                diagnostic.help.emplace_back(
+                    "keep one of the two versions, and remove the other one and the three marks");
+            }
+            draft.blank(begin, end_of_line(draft.text, begin));
+            draft.blank(middle, line.end);
+            begin = middle = std::string::npos;
+        }
+    }
+}
+
+// --- Markdown
+
+void mend_fences(DraftText& draft) {
+    const std::vector<FreeLine> lines = free_lines(draft.text);
+    std::vector<const FreeLine*> fences;
+    for (const FreeLine& line : lines) {
+        if (line.text.starts_with("```") && line.text.find('`', 3) == std::string_view::npos) {
+            fences.push_back(&line);
+        }
+    }
+    if (fences.empty()) {
+        return;
+    }
+    Fix fix{fences.size() == 1 ? "remove the line" : "remove these lines", {}, false};
+    std::vector<const FreeLine*> prose; // before the first fence and behind the last
+    for (const FreeLine& line : lines) {
+        const bool is_outside = line.begin < fences.front()->begin ||
+                                (fences.size() > 1 && line.begin > fences.back()->begin);
+        if (is_outside && is_foreign(line.text)) {
+            prose.push_back(&line);
+        }
+    }
+    Diagnostic& diagnostic = draft.report(
+        DiagnosticCode::PastedText, draft.span(fences.front()->begin, fences.front()->end),
+        "this is the fence of a code block in Markdown, no part of a grammar");
+    for (std::size_t i = 1; i < fences.size(); ++i) {
+        diagnostic.labels.push_back(
+            {draft.span(fences[i]->begin, fences[i]->end), "and so is this"});
+    }
+    if (!prose.empty()) {
+        diagnostic.labels.push_back({draft.span(prose.front()->begin, prose.front()->end),
+                                     "this text is no part of it either"});
+    }
+    std::vector<const FreeLine*> all = prose;
+    all.insert(all.end(), fences.begin(), fences.end());
+    std::sort(all.begin(), all.end(),
+              [](const FreeLine* a, const FreeLine* b) { return a->begin < b->begin; });
+    for (const FreeLine* line : all) {
+        const std::size_t after = std::min(line->end + 1, draft.text.size());
+        fix.edits.push_back({draft.span(line->begin, after), ""});
+    }
+    diagnostic.help.emplace_back(all.size() == 1 ? "remove the line"
+                                                 : "remove these lines, and keep what stands "
+                                                   "between the fences");
+    diagnostic.fixes.push_back(std::move(fix));
+    for (const FreeLine* line : all) {
+        draft.blank(line->begin, line->end);
+    }
+}
+
+// --- line numbers
+
+/// The length of a line number with its sign at the start of a line: `12`, `12:`, `12 |`; 0: none.
+std::size_t number_length(std::string_view line, std::uint32_t& number) {
+    std::size_t at = 0;
+    number = 0;
+    while (at < line.size() && at < 6 && is_digit(line[at])) {
+        number = number * 10 + static_cast<std::uint32_t>(line[at] - '0');
+        ++at;
+    }
+    if (at == 0) {
+        return 0;
+    }
+    const std::size_t digits = at;
+    while (at < line.size() &&
+           std::string_view(" \t.:|)").find(line[at]) != std::string_view::npos) {
+        ++at;
+    }
+    return at == line.size() || at > digits ? at : 0;
+}
+
+void mend_line_numbers(DraftText& draft) {
+    const std::vector<FreeLine> lines = free_lines(draft.text);
+    std::size_t first = std::string::npos;
+    std::uint32_t number = 0;
+    for (const FreeLine& line : lines) {
+        const std::size_t length = number_length(line.text, number);
+        if (length != 0 &&
+            (is_statement_start(line.text, length) || is_comment(line.text.substr(length)))) {
+            first = line.begin;
+            break;
+        }
+        if (!line.text.empty() && length == 0 && !is_comment(line.text)) {
+            return; // the first line that is not empty has none
+        }
+    }
+    if (first == std::string::npos) {
+        return;
+    }
+    std::size_t count = 0;
+    Fix fix{"remove the line numbers", {}, false};
+    SourceSpan place;
+    for (std::size_t at = first; at < draft.text.size(); at = end_of_line(draft.text, at) + 1) {
+        const std::size_t end = end_of_line(draft.text, at);
+        const std::size_t begin = std::min(draft.text.find_first_not_of(" \t", at), end);
+        std::uint32_t here = 0;
+        const std::size_t length =
+            number_length(std::string_view(draft.text).substr(begin, end - begin), here);
+        if (length == 0 || here != number + count) {
+            continue;
+        }
+        if (count == 0) {
+            const auto digits = draft.text.find_first_not_of("0123456789", begin);
+            place = draft.span(begin, std::min(digits, end));
+        }
+        fix.edits.push_back({draft.span(at, begin + length), ""});
+        draft.blank(at, begin + length);
+        ++count;
+    }
+    Diagnostic& diagnostic =
+        draft.report(DiagnosticCode::PastedText, place,
+                     "the lines begin with their numbers, which are no part of the grammar");
+    diagnostic.fixes.push_back(std::move(fix));
+}
+
+// --- differences between two versions
+
+void mend_diff(DraftText& draft) {
+    const std::vector<FreeLine> lines = free_lines(draft.text);
+    const auto begins_with = [](std::string_view line, std::string_view word) {
+        return line.starts_with(word);
+    };
+    bool has_sign = false;
+    bool has_header = false;
+    for (const FreeLine& line : lines) {
+        const bool is_signed = line.text.size() > 1 &&
+                               (line.text[0] == '-' || line.text[0] == '+') &&
+                               is_statement_start(line.text, 1);
+        has_sign = has_sign || is_signed;
+        has_header = has_header || begins_with(line.text, "@@ ") ||
+                     begins_with(line.text, "diff --git ") || begins_with(line.text, "+++ ");
+    }
+    if (!has_sign) {
+        return;
+    }
+    Diagnostic* diagnostic = nullptr;
+    Fix fix{"keep the new version", {}, false};
+    bool has_old = false;
+    bool has_new = false;
+    for (const FreeLine& line : lines) {
+        const std::string_view text = line.text;
+        const bool is_header =
+            has_header &&
+            (begins_with(text, "@@ ") || begins_with(text, "diff ") ||
+             begins_with(text, "index ") || begins_with(text, "--- ") || begins_with(text, "+++ "));
+        const bool is_old = !is_header && text.starts_with('-');
+        const bool is_new = !is_header && text.starts_with('+');
+        if (!is_header && !is_old && !is_new) {
+            continue;
+        }
+        const std::size_t sign =
+            line.begin + static_cast<std::size_t>(text.data() - (draft.text.data() + line.begin));
+        if (diagnostic == nullptr) {
+            diagnostic = &draft.report(DiagnosticCode::PastedText, draft.span(sign, sign + 1),
+                                       "this is a difference between two versions, as Git shows "
+                                       "it, not a grammar");
+        }
+        if (is_new) {
+            if (!std::exchange(has_new, true)) {
+                diagnostic->labels.push_back(
+                    {draft.span(sign, sign + 1), "a line of the new version"});
+            }
+            fix.edits.push_back({draft.span(sign, sign + 1), ""});
+            draft.put(sign, ' ');
+        } else {
+            has_old = has_old || is_old;
+            fix.edits.push_back(
+                {draft.span(line.begin, std::min(line.end + 1, draft.text.size())), ""});
+            draft.blank(line.begin, line.end);
+        }
+    }
+    if (diagnostic != nullptr) {
+        diagnostic->help.emplace_back(
+            has_old ? "remove the lines that begin with `-`, and the `+` at the start of others"
+                    : "remove the `+` at the start of the lines");
+        diagnostic->fixes.push_back(std::move(fix));
+    }
+}
+
+// --- HTML
+
+struct Entity {
+    std::string_view name;
+    char character;
+};
+constexpr std::array<Entity, 9> kEntities{{{"&lt;", '<'},
+                                           {"&gt;", '>'},
+                                           {"&amp;", '&'},
+                                           {"&quot;", '"'},
+                                           {"&apos;", '\''},
+                                           {"&nbsp;", ' '},
+                                           {"&#39;", '\''},
+                                           {"&#34;", '"'},
+                                           {"&#60;", '<'}}};
+
+/// Whether the `;` that ends before `at` cannot end a statement: text of the statement follows it.
+bool goes_on(std::string_view text, std::size_t at) {
+    const std::string_view line = without_blanks(text.substr(at, end_of_line(text, at) - at));
+    return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
+}
+
+/// The entity at the start of `text`; null: none.
+const Entity* find_entity(std::string_view text) {
+    const auto* const found =
+        std::find_if(kEntities.begin(), kEntities.end(),
+                     [&](const Entity& row) { return text.starts_with(row.name); });
+    return found == kEntities.end() ? nullptr : found;
+}
+
+void mend_entities(DraftText& draft) {
+    for (std::size_t at = draft.masked.find('&'); at != std::string::npos;
+         at = draft.masked.find('&', at + 1)) {
+        const std::string_view text = draft.text;
+        std::string characters;
+        std::size_t end = at;
+        while (const Entity* const entity = find_entity(text.substr(end))) {
+            characters += entity->character;
+            end += entity->name.size();
+        }
+        const std::size_t line = start_of_line(text, at);
+        if (characters.empty() || !goes_on(text, end) ||
+            text.substr(line, at - line).find("//") != std::string_view::npos) {
+            continue;
+        }
+        const bool is_blank = characters.find_first_not_of(' ') == std::string::npos;
+        Diagnostic& diagnostic =
+            draft.report(DiagnosticCode::PastedText, draft.span(at, end),
+                         "`" + std::string(text.substr(at, end - at)) + "` is HTML for " +
+                             (is_blank ? std::string("a blank") : "`" + characters + "`"));
+        add_fix(diagnostic, is_blank ? "write a plain blank" : "write `" + characters + "`",
+                draft.span(at, end), characters, true);
+        static_cast<void>(draft.replace(at, end, characters));
+        at = end - 1;
+    }
+}
+
+// --- the same text twice
+
+void mend_second_copy(DraftText& draft) {
+    const std::string_view text = draft.text;
+    const std::size_t w = text.find("#w");
+    std::size_t first = text.find_first_not_of(" \t\r\n");
+    while (first < text.size() && !is_statement_start(text, first)) {
+        first = end_of_line(text, first) + 1;
+    }
+    if (w == std::string_view::npos || text.find("#w", w + 2) == std::string_view::npos ||
+        first >= text.size()) {
+        return;
+    }
+    const std::string_view line = text.substr(first, end_of_line(text, first) - first);
+    const std::size_t second = text.find(line, first + line.size());
+    if (line.size() < 4 || second == std::string_view::npos ||
+        text.substr(first, second - first).find("#n") == std::string_view::npos ||
+        without_blanks(text.substr(first, second - first)) != without_blanks(text.substr(second))) {
+        return;
+    }
+    const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
+    Diagnostic& diagnostic =
+        draft.report(DiagnosticCode::PastedText, draft.span(second, second + line.size()),
+                     "from here on the text of the file stands a second time");
+    diagnostic.labels.push_back({draft.span(first, first + line.size()), "the first time"});
+    diagnostic.fixes.push_back({"remove the second copy", {{draft.span(second, end), ""}}, false});
+    draft.blank(second, end);
+}
+
+// --- comments
+
+void mend_comment_ends(DraftText& draft) {
+    for (const FreeLine& line : free_lines(draft.text)) {
+        if (!line.text.starts_with("*/")) {
+            continue;
+        }
+        const std::size_t before = draft.text.rfind("*/", line.begin == 0 ? 0 : line.begin - 1);
+        const std::size_t at = draft.text.find("*/", line.begin);
+        Diagnostic& diagnostic = draft.report(DiagnosticCode::UnclosedComment,
+                                              draft.span(at, at + 2), "this `*/` ends no comment");
+        if (before != std::string::npos && before < line.begin) {
+            diagnostic.labels.push_back(
+                {draft.span(before, before + 2), "the comment ended here already"});
+            diagnostic.help.emplace_back("comments do not stand inside each other: remove this "
+                                         "`*/`, or the inner comment");
+        } else {
+            diagnostic.help.emplace_back("remove it, or write the `/*` that it ends");
+        }
+        draft.blank(at, at + 2);
+    }
+}
+
+// --- lines in the notation of books and other programs
+
+/// The number at the start of `text`, with its sign; empty: none.
+std::string_view leading_number(std::string_view text) {
+    const std::size_t end =
+        std::min(text.find_first_not_of("0123456789.", text.starts_with('-')), text.size());
+    return text.substr(0, end);
+}
+
+std::string lowered(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return lower;
+}
+
+/// The text behind `word` and one of `signs`, `n = 6`; nullopt: the line is another.
+std::optional<std::string_view>
+value_behind(std::string_view line, std::string_view word, std::string_view signs) {
+    if (!lowered(line.substr(0, word.size())).starts_with(word)) {
+        return std::nullopt;
+    }
+    const std::string_view rest = without_blanks(line.substr(word.size()));
+    if (rest.empty() || signs.find(rest[0]) == std::string_view::npos) {
+        return std::nullopt;
+    }
+    return without_blanks(rest.substr(1));
+}
+
+struct Arrow {
+    std::size_t begin = std::string_view::npos;
+    std::size_t length = 0;
+};
+
+Arrow find_arrow(std::string_view text) {
+    Arrow found;
+    for (const std::string_view arrow :
+         {"-->", "==>", "->", "=>", "\u2192", "\u27f6", "\u21d2", "\u21a6"}) {
+        const std::size_t at = text.find(arrow);
+        if (at < found.begin) {
+            found = {at, arrow.size()};
+        }
+    }
+    return found;
+}
+
+/// The names given to rules without one.
+struct RuleNames {
+    std::string prefix;
+    std::size_t count = 0;
+};
+
+/// A text with its typographic characters replaced, as far as productions have them.
+std::string plain(std::string_view text) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text.substr(at));
+        switch (point.value) {
+        case 0x2227:
+            result += '^';
+            break;
+        case 0x2212:
+        case 0x2013:
+            result += '-';
+            break;
+        case 0xB0:
+            break; // the sign of degrees
+        case 0x3B4:
+            result += "delta";
+            break;
+        default:
+            result += text.substr(at, point.length);
+            break;
+        }
+        at += point.length;
+    }
+    return result;
+}
+
+/// The statement for a rule with an arrow: `p1 : A -> B` is `#p1 : A : * : B;`.
+std::optional<std::string> production_for(std::string_view line, RuleNames& names);
+
+/// The `=` of a rule of Houdini, `A(x) : x > 3 = B`.
+Arrow find_equals(std::string_view line) {
+    int depth = 0;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        const char c = line[at];
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        const bool compares =
+            (at > 0 && std::string_view("=<>!").find(line[at - 1]) != std::string_view::npos) ||
+            line.substr(at, 2) == "==";
+        if (c == '=' && depth == 0 && !compares) {
+            return {at, 1};
+        }
+    }
+    return {};
+}
+
+/// The statements for `rules : (A -> B), (B -> A)`.
+std::optional<std::string> productions_for(std::string_view line, RuleNames& names) {
+    auto list = value_behind(line, "rules", ":");
+    if (!list) {
+        list = value_behind(line, "rule", ":");
+    }
+    if (!list || !list->starts_with('(')) {
+        return production_for(list ? *list : line, names);
+    }
+    std::string statements;
+    for (std::size_t at = 0; at < list->size();) {
+        int depth = 0;
+        std::size_t end = at;
+        for (; end < list->size(); ++end) {
+            depth += (*list)[end] == '(' ? 1 : (*list)[end] == ')' ? -1 : 0;
+            if (depth == 0) {
+                break;
+            }
+        }
+        const std::string_view rule = list->substr(at, end - at);
+        if (rule.size() > 1) {
+            const auto production = production_for(rule.substr(1), names);
+            if (!production) {
+                return std::nullopt;
+            }
+            statements += (statements.empty() ? "" : " ") + *production;
+        }
+        at = list->find('(', end);
+        if (at == std::string_view::npos) {
+            break;
+        }
+    }
+    return statements.empty() ? std::nullopt : std::optional(statements);
+}
+
+std::optional<std::string> production_for(std::string_view line, RuleNames& names) {
+    Arrow arrow = find_arrow(line);
+    if (arrow.begin == std::string_view::npos) {
+        arrow = find_equals(line);
+    }
+    std::string label;
+    if (arrow.begin == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const bool is_houdini = line[arrow.begin] == '=' && arrow.length == 1;
+    std::string_view head = without_blanks(line.substr(0, arrow.begin));
+    if (head.empty()) {
+        return std::nullopt;
+    }
+    ++names.count;
+    const std::size_t colon = head.find(':');
+    const std::string_view first = head.substr(0, std::min(colon, head.size()));
+    std::string condition = "*";
+    const bool has_label = colon != std::string_view::npos && leading_word(first).size() >= 1 &&
+                           without_blanks(first) == leading_word(first) &&
+                           first.find('(') == std::string_view::npos;
+    if (has_label) {
+        label = without_blanks(first);
+        head = without_blanks(head.substr(colon + 1));
+    } else {
+        label = names.prefix + std::to_string(names.count);
+    }
+    if (const std::size_t second = head.find(':'); second != std::string_view::npos) {
+        condition = without_blanks(head.substr(second + 1));
+        head = without_blanks(head.substr(0, second));
+    }
+    std::string successor(without_blanks(line.substr(arrow.begin + arrow.length)));
+    while (successor.ends_with(';') || successor.ends_with(',')) {
+        successor.pop_back();
+    }
+    if (is_houdini) {
+        // `A = B : 0.5` gives a probability; a number alone is no successor.
+        const std::size_t last = successor.rfind(':');
+        if (last != std::string::npos &&
+            !leading_number(without_blanks(std::string_view(successor).substr(last + 1))).empty()) {
+            condition +=
+                " ~ " + std::string(without_blanks(std::string_view(successor).substr(last + 1)));
+            successor = without_blanks(std::string_view(successor).substr(0, last));
+        }
+        const std::string_view name = leading_word(head);
+        if (name.empty() || successor.empty() || !leading_number(successor).empty() ||
+            without_blanks(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
+                std::string_view::npos) {
+            return std::nullopt;
+        }
+    }
+    if (successor == "\u03b5") {
+        successor.clear();
+    }
+    return "#" + label + " : " + std::string(head) + " : " + condition + " : " + plain(successor) +
+           ";";
+}
+
+/// What a line in another notation is here.
+struct Meaning {
+    std::string source;      // whose notation it is
+    std::string replacement; // the statements; empty: leave the line out
+};
+
+std::optional<Meaning> header_meaning(std::string_view line) {
+    constexpr std::string_view kDef = "def ";
+    if (line.starts_with(kDef)) {
+        const std::size_t close = line.find("):");
+        const std::size_t body = line.find("return ");
+        return Meaning{"Python",
+                       close == std::string_view::npos || body == std::string_view::npos
+                           ? ""
+                           : "#function " +
+                                 std::string(line.substr(kDef.size(), close + 1 - kDef.size())) +
+                                 " " + std::string(without_blanks(line.substr(body + 7))) + ";"};
+    }
+    for (const std::string_view word : {"derivation length", "derivation_length"}) {
+        if (const auto value = value_behind(line, word, ":=")) {
+            const std::string_view number = leading_number(*value);
+            return Meaning{"cpfg and L-Py",
+                           number.empty() ? "" : "#n = " + std::string(number) + ";"};
+        }
+    }
+    for (const std::string_view word :
+         {"iterations", "generations", "generation", "recursion", "depth", "order", "steps", "n"}) {
+        const auto value = value_behind(line, word, word == "n" ? "=" : ":=");
+        if (!value || leading_number(*value).empty()) {
+            continue;
+        }
+        std::string statements = "#n = " + std::string(leading_number(*value)) + ";";
+        const std::string_view rest = value->substr(leading_number(*value).size());
+        if (word == "n" && without_blanks(rest) == ";") {
+            return std::nullopt; // lacks only its `#`
+        }
+        const std::size_t sign = rest.find('=');
+        if (sign != std::string_view::npos &&
+            (rest.find("\u03b4") < sign || rest.find("angle") < sign ||
+             rest.find("delta") < sign)) {
+            const std::string_view angle = leading_number(without_blanks(rest.substr(sign + 1)));
+            if (!angle.empty()) {
+                statements += " #set angle " + std::string(angle) + ";";
+            }
+        }
+        return Meaning{"papers", statements};
+    }
+    for (const std::string_view word : {"\u03b4", "delta", "angle", "turn", "angle increment"}) {
+        const auto value = value_behind(line, word, ":=");
+        if (value && !leading_number(*value).empty()) {
+            return Meaning{"papers", "#set angle " + std::string(leading_number(*value)) + ";"};
+        }
+    }
+    for (const std::string_view word : {"\u03c9", "axiom", "start", "initiator", "premise"}) {
+        const auto value = value_behind(line, word, ":=");
+        if (value && !value->empty()) {
+            std::string modules(*value);
+            while (modules.ends_with(';')) {
+                modules.pop_back();
+            }
+            if (modules.size() > 2 && modules.front() == '"' && modules.back() == '"') {
+                modules = modules.substr(1, modules.size() - 2);
+            }
+            return Meaning{"papers", "#w : " + plain(modules) + ";"};
+        }
+    }
+    return std::nullopt;
+}
+
+/// Lines that have no meaning here.
+std::optional<Meaning> line_without_meaning(std::string_view line) {
+    const std::string lower = lowered(line);
+    for (const std::string_view word :
+         {"lsystem:", "endlsystem", "production:", "interpretation:", "homomorphism",
+          "decomposition", "variables", "constants", "alphabet", "productions:"}) {
+        if (lower.starts_with(word)) {
+            return Meaning{word.starts_with("var") || word.starts_with("const") ||
+                                   word.starts_with("alph") || word == "productions:"
+                               ? "papers"
+                               : "cpfg and L-Py",
+                           ""};
+        }
+    }
+    const bool is_python = (line.starts_with("import ") || line.starts_with("from ")) &&
+                           line.find(';') == std::string_view::npos;
+    if (is_python) {
+        return Meaning{"Python", ""};
+    }
+    return std::nullopt;
+}
+
+void mend_foreign_lines(DraftText& draft) {
+    Diagnostic* diagnostic = nullptr;
+    std::string source;
+    Fix fix{"", {}, false};
+    // Rules without a name get one that no other has.
+    const bool has_names =
+        draft.text.find("p1") != std::string::npos || draft.text.find("p2") != std::string::npos;
+    RuleNames names{has_names ? "rule" : "p", 0};
+    bool has_statement = false;
+    for (FreeLine& line : free_lines(draft.text)) {
+        line.text = without_blanks(line.text.substr(0, line.text.find("//")));
+        if (!is_foreign(line.text)) {
+            has_statement = has_statement || is_statement_start(line.text, 0);
+            continue;
+        }
+        // `word : ...` is a statement without its `#` if it has the parts of one.
+        std::optional<Meaning> meaning = header_meaning(line.text);
+        if (!meaning) {
+            meaning = line_without_meaning(line.text);
+        }
+        if (!meaning) {
+            if (const auto production = productions_for(line.text, names)) {
+                meaning = Meaning{"papers and other programs", *production};
+            }
+        }
+        if (!meaning) {
+            continue;
+        }
+        const auto begin = static_cast<std::size_t>(line.text.data() - draft.text.data());
+        const std::size_t end = begin + line.text.size();
+        if (diagnostic == nullptr) {
+            source = meaning->source;
+            diagnostic = &draft.report(DiagnosticCode::ForeignLine, draft.span(begin, end),
+                                       "this line is in the notation of " + source +
+                                           ", not a statement of a grammar");
+        } else if (diagnostic->labels.size() < 8) {
+            diagnostic->labels.push_back({draft.span(begin, end), "and this one"});
+        }
+        if (fix.edits.size() < 16) {
+            fix.edits.push_back({draft.span(begin, end), meaning->replacement});
+            if (meaning->replacement.empty() && diagnostic->help.size() < 4) {
+                diagnostic->help.push_back("`" + std::string(line.text.substr(0, 40)) +
+                                           "` has no counterpart here; leave it out");
+            }
+        }
+        if (meaning->replacement.empty() || !draft.replace(begin, end, meaning->replacement)) {
+            draft.blank(begin, end);
+            draft.is_incomplete = draft.is_incomplete || !meaning->replacement.empty();
+        }
+    }
+    if (diagnostic != nullptr) {
+        if (names.count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
+            diagnostic->help.emplace_back("if each letter is a module, `#set names letters;` reads "
+                                          "them so; otherwise blanks stand between names");
+        }
+        fix.title = fix.edits.size() == 1 ? "write the line in this language"
+                                          : "write these lines in this language";
+        diagnostic->fixes.push_back(std::move(fix));
+    }
+}
+
+} // namespace
+
+void mend_pasted_text(DraftText& draft) {
+    mend_line_ends(draft);
+    mend_merge(draft);
+    mend_fences(draft);
+    mend_line_numbers(draft);
+    mend_diff(draft);
+    mend_second_copy(draft);
+    mend_entities(draft);
+    mend_comment_ends(draft);
+    mend_foreign_lines(draft);
+}
+
+} // namespace lsys::lsys_grammar
