@@ -101,7 +101,10 @@ public:
     void include(NameId path, SourceSpan span);
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);
+    void set_file(NameId path, SourceSpan span);
     void set(NameId key, SourceSpan key_span);
+    /// A #material of the values set since the last statement.
+    void material(SourceSpan keyword);
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules, ExpressionId probability);
     void left_context(ModuleList left, SourceSpan less);
@@ -150,6 +153,7 @@ private:
 
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
+    [[nodiscard]] ListRange new_set_values() const;
     [[nodiscard]] bool has_room(SourceSpan span);
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);

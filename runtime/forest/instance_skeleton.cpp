@@ -10,6 +10,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     const Skeleton& all = cache.skeleton;
     Skeleton own;
     own.mesh_files = all.mesh_files;
+    own.looks = all.looks;
     own.l3d_compatible_surface = all.l3d_compatible_surface;
     own.box_segments = all.box_segments;
     own.leaf_droop = all.leaf_droop;

@@ -30,6 +30,7 @@ enum class ExpressionPlace : std::uint8_t {
     Probability,
     Function, // the body of a #function
     Curve,    // a coordinate of a #curve
+    Material, // a number of a #material
     Local,    // the value of a `let`
     Successor,
 };
@@ -69,6 +70,10 @@ public:
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
     /// The value of a single name, as after #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
+    /// Whether the name is that of a constant, known by now or defined later.
+    [[nodiscard]] bool is_constant(NameId name) const {
+        return constants_.state(name) != ConstantState::Unknown;
+    }
     /// Whether the last resolved value depends on a range.
     [[nodiscard]] bool is_random() const { return is_random_; }
     /// Number of draws since begin_statement().

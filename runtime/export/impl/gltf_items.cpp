@@ -1,6 +1,7 @@
 #include "runtime/export/impl/gltf_items.h"
 
 #include "runtime/base/large_vector.h"
+#include "runtime/meshing/looks.h"
 
 #include <glm/common.hpp>
 
@@ -8,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <meshoptimizer.h>
 
 namespace lsys {
@@ -83,14 +85,15 @@ Item<std::uint16_t, 2> texture_item(const GltfTextureForm& form, const glm::vec2
 void write_colours(const Mesh& mesh,
                    std::span<const std::uint32_t> vertices,
                    const GltfBytes& write) {
-    std::vector<Item<std::uint8_t, 4>> palette;
+    std::map<ItemColour, Item<std::uint8_t, 4>> items;
     write_each(vertices, write, [&](std::uint32_t vertex) {
-        const std::uint32_t index = mesh.colours[vertex];
-        while (palette.size() <= index) {
-            palette.push_back(
-                colour_item(palette_colour(static_cast<std::uint32_t>(palette.size()))));
+        const ItemColour colour = mesh.colours[vertex];
+        auto known = items.find(colour);
+        if (known == items.end()) {
+            known =
+                items.emplace(colour, colour_item(plain_colour(mesh.looks.get(), colour))).first;
         }
-        return palette[index];
+        return known->second;
     });
 }
 
