@@ -25,6 +25,7 @@
 #include "grammar/base/source.h"
 #include "grammar/base/stage.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -208,6 +209,28 @@ struct BytecodeCurve {
     std::vector<CurveKnot> points;
 };
 
+/// The file of a picture, relative to the grammar; empty: none.
+struct BytecodePicture {
+    std::string path;
+    std::uint32_t site = kNone;
+};
+
+/// `#material`: the appearance of a colour index.
+struct BytecodeMaterial {
+    std::uint32_t index = 0; // up to kMaxColourIndex
+    bool has_colour = false;
+    std::array<float, 3> colour{}; // sRGB, 0 to 1
+    BytecodePicture picture;
+    BytecodePicture normal;
+    bool has_roughness = false;
+    float roughness = 0.0F; // 0 to 1
+    bool has_translucency = false;
+    float translucency = 0.0F; // 0 to 1
+    bool has_sides = false;
+    bool two_sided = false;
+};
+inline constexpr std::uint32_t kMaxColourIndex = 65535;
+
 struct Bytecode {
     Settings settings;
     std::optional<std::uint32_t> generations; // value of #n
@@ -229,8 +252,9 @@ struct Bytecode {
     std::vector<BytecodeAxiom> axioms; // in file order, at least one
     bool uses_steps = false;           // some expression calls steps()
     std::vector<BytecodeCurve> curves;
-    std::uint32_t stack_depth = 0; // max stack depth of any code
-    std::uint32_t local_count = 0; // max number of slots of any code
+    std::vector<BytecodeMaterial> materials; // by rising index
+    std::uint32_t stack_depth = 0;           // the deepest stack of any code
+    std::uint32_t local_count = 0;           // the most slots of any code
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;

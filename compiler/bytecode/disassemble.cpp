@@ -20,6 +20,7 @@ public:
     std::string run() {
         header();
         symbols();
+        materials();
         for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
             global(i);
         }
@@ -81,6 +82,25 @@ private:
         for (std::size_t i = 0; i < bytecode_.folded.size(); ++i) {
             line("{:5} {}", bytecode_.symbols.size() + i,
                  code_text(static_cast<Code>(bytecode_.symbols.size() + i)));
+        }
+    }
+
+    void materials() {
+        if (!bytecode_.materials.empty()) {
+            line("\nmaterials");
+        }
+        for (const BytecodeMaterial& m : bytecode_.materials) {
+            std::string text;
+            if (m.has_colour) {
+                text += fmt::format(" colour {} {} {}", real(m.colour[0]), real(m.colour[1]),
+                                    real(m.colour[2]));
+            }
+            text += m.picture.path.empty() ? "" : fmt::format(" picture \"{}\"", m.picture.path);
+            text += m.normal.path.empty() ? "" : fmt::format(" normal \"{}\"", m.normal.path);
+            text += m.has_roughness ? " roughness " + real(m.roughness) : "";
+            text += m.has_translucency ? " translucency " + real(m.translucency) : "";
+            text += !m.has_sides ? "" : m.two_sided ? " two_sided 1" : " two_sided 0";
+            line("{:5}{}", m.index, text);
         }
     }
 

@@ -26,13 +26,14 @@ namespace lsys {
 //   7  Droop of leaves, and segments that are boxes, among the traits of the turtle.
 //   8  Local values and their slots, choices, the depth of the stack; opcodes Local to EndIf.
 //   9  Curves, distributions, weights that are computed, several axioms.
-inline constexpr std::uint32_t kModuleFileVersion = 9;
+//  10  Materials of colour indexes; operation SetRgb.
+inline constexpr std::uint32_t kModuleFileVersion = 10;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
     "then set this number"
 static_assert(kCountOf<Opcode> == 54, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleOperation> == 60, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleOperation> == 61, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TurtleProfile> == 12, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RewritingMode> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
@@ -56,10 +57,12 @@ static_assert(kFieldCount<SiteRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<PlaceRun> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TableRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeCurve> == 2, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<BytecodeMaterial> == 11, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<BytecodePicture> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeAxiom> == 4, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<WordTemplate> == 5, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeProduction> == 16, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Bytecode> == 21, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Bytecode> == 22, LSYS_VERSION_MATTERS);
 #undef LSYS_VERSION_MATTERS
 
 [[nodiscard]] std::string write_module_file(const Bytecode& bytecode);

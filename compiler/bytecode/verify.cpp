@@ -42,8 +42,8 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && curves() && symbols() && folded() && sites() && places() && globals() &&
-            axioms() && productions() && ends()) {
+        if (settings() && curves() && symbols() && folded() && sites() && materials() && places() &&
+            globals() && axioms() && productions() && ends()) {
             return std::nullopt;
         }
         return std::move(problem_);
@@ -176,6 +176,28 @@ private:
                 return fail("site range {} is out of place", i);
             }
             next = std::uint64_t{range.instruction} + 1;
+        }
+        return true;
+    }
+
+    bool materials() {
+        const auto in_unit = [](float value) { return value >= 0.0F && value <= 1.0F; };
+        const auto is_picture = [&](const BytecodePicture& picture) {
+            return printable(picture.path) && site(picture.site);
+        };
+        std::uint64_t next = 0;
+        for (const BytecodeMaterial& material : bytecode_.materials) {
+            if (material.index < next || material.index > kMaxColourIndex) {
+                return fail("a material of colour index {} is out of place", material.index);
+            }
+            next = std::uint64_t{material.index} + 1;
+            if (!std::all_of(material.colour.begin(), material.colour.end(), in_unit) ||
+                !in_unit(material.roughness) || !in_unit(material.translucency)) {
+                return fail("a number of material {} is not from 0 to 1", material.index);
+            }
+            if (!is_picture(material.picture) || !is_picture(material.normal)) {
+                return fail("a picture of material {} has no place", material.index);
+            }
         }
         return true;
     }

@@ -29,6 +29,7 @@ public:
         for (const Curve& curve : program_.curves) {
             bytecode_.curves.push_back({std::string(names_.text(curve.name)), curve.points});
         }
+        materials();
         symbols();
         globals();
         bytecode_.template_codes.reserve(program_.modules.size());
@@ -53,6 +54,29 @@ public:
     }
 
 private:
+    void materials() {
+        for (const ProgramMaterial& material : program_.materials) {
+            BytecodeMaterial& lowered = bytecode_.materials.emplace_back();
+            lowered.index = material.index;
+            lowered.has_colour = material.colour.has_value();
+            lowered.colour = material.colour.value_or(lowered.colour);
+            lowered.picture = picture(material.picture);
+            lowered.normal = picture(material.normal);
+            lowered.has_roughness = material.roughness.has_value();
+            lowered.roughness = material.roughness.value_or(0.0F);
+            lowered.has_translucency = material.translucency.has_value();
+            lowered.translucency = material.translucency.value_or(0.0F);
+            lowered.has_sides = material.two_sided.has_value();
+            lowered.two_sided = material.two_sided.value_or(false);
+        }
+        std::sort(bytecode_.materials.begin(), bytecode_.materials.end(),
+                  [](const auto& a, const auto& b) { return a.index < b.index; });
+    }
+
+    BytecodePicture picture(const MaterialPictureName& name) {
+        return {name.path, name.path.empty() ? kNone : emitter_.add_site(name.span)};
+    }
+
     void symbols() {
         bytecode_.symbols.reserve(program_.symbols.size());
         for (const Symbol& symbol : program_.symbols) {

@@ -156,7 +156,25 @@ struct Curve {
     std::vector<CurveKnot> points; // set_slopes() has set their slopes
 };
 
-/// A constant of the grammar, for dumps and for the sliders of lsview.
+/// The file of a picture, relative to the root file; empty: none.
+struct MaterialPictureName {
+    std::string path;
+    SourceSpan span; // with the quotes
+};
+
+/// `#material`: the appearance of a colour index. Keys that are not set keep the built-in look.
+struct ProgramMaterial {
+    std::uint32_t index = 0;                    // of a colour, up to 65,535
+    SourceSpan span;                            // of the index
+    std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
+    MaterialPictureName picture;
+    MaterialPictureName normal;
+    std::optional<float> roughness;
+    std::optional<float> translucency;
+    std::optional<bool> two_sided;
+};
+
+/// A constant of the grammar, for dumps and for sliders.
 struct Constant {
     NameId name = kNoName;
     SourceSpan span;
@@ -214,7 +232,8 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
-    std::vector<Production> productions; // sorted by stage: Rewrite, Decompose, Interpret
+    std::vector<ProgramMaterial> materials; // in source order, each of another index
+    std::vector<Production> productions;    // those of Stage::Rewrite first, of Interpret last
     std::uint32_t rule_count = 0;
     std::uint32_t group_count = 0;
     std::vector<Axiom> axioms; // at least one if `complete`

@@ -31,6 +31,7 @@ public:
         settings();
         symbols();
         curves();
+        materials();
         constants();
         for (const Axiom& axiom : program_.axioms) {
             out_ += "axiom";
@@ -131,6 +132,38 @@ private:
                 append_number(out_, curve.points[i].x);
                 out_ += ' ';
                 append_number(out_, curve.points[i].y);
+            }
+            out_ += '\n';
+        }
+    }
+
+    void materials() {
+        for (const ProgramMaterial& material : program_.materials) {
+            out_ += fmt::format("material {}", material.index);
+            const auto number = [&](const char* key, float value) {
+                out_ += key;
+                append_number(out_, value);
+            };
+            if (material.colour) {
+                out_ += " colour";
+                for (const float part : *material.colour) {
+                    number(" ", part);
+                }
+            }
+            if (!material.picture.path.empty()) {
+                out_ += fmt::format(" picture \"{}\"", material.picture.path);
+            }
+            if (!material.normal.path.empty()) {
+                out_ += fmt::format(" normal \"{}\"", material.normal.path);
+            }
+            if (material.roughness) {
+                number(" roughness ", *material.roughness);
+            }
+            if (material.translucency) {
+                number(" translucency ", *material.translucency);
+            }
+            if (material.two_sided) {
+                out_ += *material.two_sided ? " two_sided 1" : " two_sided 0";
             }
             out_ += '\n';
         }

@@ -42,6 +42,9 @@ constexpr TurtleCommand leaf(std::string_view name) {
     return {name, Leaf, 5, "size, nothing, three values"};
 }
 
+/// With three parameters, or more, it is SetRgb: operation_of().
+constexpr TurtleCommand kColour{"'", SetColour, 3, "index of a colour, or red, green and blue"};
+
 /// A row for each character of `names`.
 template <std::size_t size>
 constexpr Commands<size> characters(std::string_view names,
@@ -63,12 +66,9 @@ constexpr auto kPolygons =
 constexpr auto kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
 
 constexpr auto kPaths = commands({{"F", Forward}, {"f", Move}});
-constexpr auto kPens = joined(commands({{"|", TurnAround},
-                                        {"$", RollUpright},
-                                        {"!", SetWidth},
-                                        {"\"", ScaleStep},
-                                        {"'", SetColour}}),
-                              kPolygonsAndCut);
+constexpr auto kPens = joined(
+    commands({{"|", TurnAround}, {"$", RollUpright}, {"!", SetWidth}, {"\"", ScaleStep}, kColour}),
+    kPolygonsAndCut);
 
 constexpr auto kLsys =
     joined(kPaths, turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}), kPens);
@@ -214,6 +214,13 @@ const TurtleCommand* find_turtle_command(TurtleProfile profile, std::string_view
         }
     }
     return nullptr;
+}
+
+TurtleOperation operation_of(const TurtleCommand& command, std::uint32_t parameter_count) {
+    constexpr std::uint32_t kRgb = 3;
+    const bool is_rgb =
+        command.operation == SetColour && command.max_parameters >= kRgb && parameter_count >= kRgb;
+    return is_rgb ? SetRgb : command.operation;
 }
 
 bool is_structural(TurtleProfile profile, std::string_view name) {

@@ -37,6 +37,10 @@ struct TurtleCommand {
 [[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,
                                                        std::string_view name);
 
+/// The operation of the command with this number of parameters.
+[[nodiscard]] TurtleOperation operation_of(const TurtleCommand& command,
+                                           std::uint32_t parameter_count);
+
 /// Whether `name` is a bracket or polygon module: `[ ]` in every profile, `{ } .` in all but those
 /// of L3D, which has no polygons. These take no parameters and cannot be bound by #object.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);

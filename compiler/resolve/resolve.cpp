@@ -6,6 +6,7 @@
 #include "compiler/resolve/impl/definitions.h"
 #include "compiler/resolve/impl/expressions.h"
 #include "compiler/resolve/impl/folding_faults.h"
+#include "compiler/resolve/impl/materials.h"
 #include "compiler/resolve/impl/productions.h"
 #include "compiler/resolve/impl/resolution.h"
 #include "compiler/resolve/impl/set_statements.h"
@@ -65,7 +66,8 @@ public:
     explicit Resolver(Resolution& resolution)
         : resolution_(resolution), values_(resolution.program.values), constants_(resolution),
           expressions_(resolution, values_, constants_), symbols_(resolution),
-          definitions_(resolution, constants_, expressions_), declarations_(resolution, symbols_) {}
+          definitions_(resolution, constants_, expressions_), materials_(resolution, expressions_),
+          declarations_(resolution, symbols_) {}
 
     void run(SetResolver& settings) {
         const Ast& ast = resolution_.ast;
@@ -99,6 +101,9 @@ public:
                 break;
             case StatementKind::Curve:
                 expressions_.define_curve(ast.curves[statement.index]);
+                break;
+            case StatementKind::Material:
+                materials_.material(ast.materials[statement.index], statement.span);
                 break;
             case StatementKind::Generations:
                 definitions_.generations(ast.generations[statement.index], statement.span);
@@ -257,6 +262,7 @@ private:
     ExpressionResolver expressions_;
     SymbolTable symbols_;
     DefinitionResolver definitions_;
+    MaterialResolver materials_;
     DeclarationResolver declarations_;
     std::optional<SourceSpan> first_axiom_;
     bool first_has_weight_ = false;

@@ -144,6 +144,7 @@ enum class StatementKind : std::uint8_t {
     Param,       // #param NAME expr {min, max};
     Function,    // #function NAME(formals) expr;
     Curve,       // #curve NAME x y, x y, ...;
+    Material,    // #material INDEX key values ...;
     Module,      // #module NAME(formals);
     Object,      // #object NAME OBJECT;
     Include,     // #include "file"; its statements follow
@@ -211,18 +212,25 @@ struct IncludeNode {
     FileId file = kNoFile; // kNoFile until it is read
 };
 
-/// A word or number after the key of a #set.
+/// A word, number or file name after the key of a #set or in a #material.
 struct SetValue {
-    SourceSpan span;
-    bool is_word = false; // a mode, a profile or a constant
+    SourceSpan span;      // of a file with the quotes
+    bool is_word = false; // a mode, a profile or a constant; a key of a #material
     NameId word = kNoName;
-    ExpressionId value = kNoExpression; // if not a word
+    ExpressionId value = kNoExpression; // if neither a word nor a file
+    bool is_file = false;               // named by `word`; in a #material only
 };
 
 struct SetNode {
     NameId key = kNoName;
     SourceSpan key_span;
     ListRange values; // in Ast::set_values
+};
+
+/// The index, keys and their values as written; the resolver tells them apart.
+struct MaterialNode {
+    SourceSpan keyword_span; // `#material`
+    ListRange values;        // in Ast::set_values
 };
 
 struct IgnoreNode {
@@ -301,6 +309,7 @@ struct Ast {
     std::vector<ParamNode> params;
     std::vector<FunctionNode> functions;
     std::vector<CurveNode> curves;
+    std::vector<MaterialNode> materials;
     std::vector<ModuleDeclarationNode> module_declarations;
     std::vector<ObjectNode> objects;
     std::vector<IncludeNode> includes;

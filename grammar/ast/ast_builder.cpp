@@ -228,11 +228,24 @@ void AstBuilder::set_number(ExpressionId value, SourceSpan span) {
     ast_.set_values.push_back({span, false, kNoName, value});
 }
 
-void AstBuilder::set(NameId key, SourceSpan key_span) {
+void AstBuilder::set_file(NameId path, SourceSpan span) {
+    ast_.set_values.push_back({span, false, path, kNoExpression, true});
+}
+
+/// The values since the last statement.
+ListRange AstBuilder::new_set_values() const {
     const auto first = static_cast<std::uint32_t>(watermark_.set_values);
-    const auto count = static_cast<std::uint32_t>(ast_.set_values.size()) - first;
+    return {first, static_cast<std::uint32_t>(ast_.set_values.size()) - first};
+}
+
+void AstBuilder::set(NameId key, SourceSpan key_span) {
     begin_node(StatementKind::Set, ast_.sets.size());
-    ast_.sets.push_back({key, key_span, {first, count}});
+    ast_.sets.push_back({key, key_span, new_set_values()});
+}
+
+void AstBuilder::material(SourceSpan keyword) {
+    begin_node(StatementKind::Material, ast_.materials.size());
+    ast_.materials.push_back({keyword, new_set_values()});
 }
 
 void AstBuilder::ignore(SourceSpan keyword, ModuleList modules, bool considers) {
@@ -357,6 +370,9 @@ void AstBuilder::rollback() {
             break;
         case StatementKind::Curve:
             ast_.curves.pop_back();
+            break;
+        case StatementKind::Material:
+            ast_.materials.pop_back();
             break;
         case StatementKind::Module:
             ast_.module_declarations.pop_back();

@@ -102,7 +102,10 @@ public:
     void include(NameId path, SourceSpan span);
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);
+    void set_file(NameId path, SourceSpan span);
     void set(NameId key, SourceSpan key_span);
+    /// A #material of the values set since the last statement.
+    void material(SourceSpan keyword);
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules, ExpressionId probability);
     void left_context(ModuleList left, SourceSpan less);
@@ -153,6 +156,7 @@ private:
 
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
+    [[nodiscard]] ListRange new_set_values() const;
     [[nodiscard]] bool has_room(SourceSpan span);
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);

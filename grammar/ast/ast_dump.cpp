@@ -75,6 +75,10 @@ private:
             list(node.coordinates);
             return;
         }
+        case StatementKind::Material:
+            out_ += "material";
+            values(ast_.materials[statement.index].values);
+            return;
         case StatementKind::Module:
             out_ += "module ";
             modules(ast_.module_declarations[statement.index].modules);
@@ -115,11 +119,17 @@ private:
     void set(const SetNode& node) {
         out_ += "set ";
         name(node.key);
-        for (std::uint32_t i = 0; i < node.values.count; ++i) {
-            const SetValue& value = ast_.set_values[node.values.first + i];
+        values(node.values);
+    }
+
+    void values(ListRange range) {
+        for (std::uint32_t i = 0; i < range.count; ++i) {
+            const SetValue& value = ast_.set_values[range.first + i];
             out_ += ' ';
             if (value.is_word) {
                 name(value.word);
+            } else if (value.is_file) {
+                out_ += fmt::format("\"{}\"", names_.text(value.word));
             } else {
                 expression(value.value);
             }

@@ -316,6 +316,20 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           report_malformed_number(session, TEXT, span);
                           return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
+  "\""[^"\n\0]*"\""     {
+                          if (scan.keyword != Keyword::Material) {
+                              SHORTEN(1);
+                              return Token(Parser::token::TOK_OTHER, session.token());
+                          }
+                          return Token(Parser::token::TOK_STRING,
+                                       session.builder.intern(TEXT.substr(1, TEXT.size() - 2)), session.token());
+                        }
+  "\""                  {
+                          if (scan.keyword == Keyword::Material) {
+                              return unclosed_quote(session);
+                          }
+                          return Token(Parser::token::TOK_OTHER, session.token());
+                        }
   "-"                   { return Token(Parser::token::TOK_MINUS, session.token()); }
   "("                   {
                           return opening_bracket(session, OpenBracket::Kind::Group, Parser::token::TOK_LPAREN);
@@ -330,7 +344,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(separates ? Parser::token::TOK_COMMA : Parser::token::TOK_OTHER,
                                        session.token());
                         }
-  [^=:;,#A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
+  [^=:;,#"A-Za-z_0-9( \t\r\n\0\x01-\x08\x0B\x0C\x0E-\x1F\x7F\x80-\xFF-] {
                           return Token(Parser::token::TOK_OTHER, session.token());
                         }
 }

@@ -183,6 +183,9 @@ private:
         }
         add(place.sides);
         add(place.colour);
+        if (is_own(place.colour)) {
+            add(place.colour_index);
+        }
         InstanceKey values;
         values.has_vertical = branch.id < options_.depends_on_vertical.size() &&
                               options_.depends_on_vertical[branch.id];
@@ -256,6 +259,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
     Recorder recorder(options, cache);
     TurtleOptions turtle_options;
     turtle_options.mesh_lengths = options.mesh_lengths;
+    turtle_options.looks = options.looks;
     turtle_options.max_bytes = options.max_bytes;
     turtle_options.cancelled = options.cancelled;
     turtle_options.branches = &recorder;

@@ -10,6 +10,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     const Skeleton& cache_skeleton = cache.skeleton;
     Skeleton skeleton;
     skeleton.mesh_files = cache_skeleton.mesh_files;
+    skeleton.looks = cache_skeleton.looks;
     skeleton.l3d_compatible_surface = cache_skeleton.l3d_compatible_surface;
     skeleton.box_segments = cache_skeleton.box_segments;
     skeleton.leaf_droop = cache_skeleton.leaf_droop;

@@ -100,7 +100,7 @@ bool has_plain_parts(const Mesh& mesh) {
     }
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
-        const std::uint16_t own = mesh.colours[indices[part.first_index]];
+        const ItemColour own = mesh.colours[indices[part.first_index]];
         for (std::uint64_t i = 1; i < part.index_count; ++i) {
             if (mesh.colours[indices[part.first_index + i]] != own) {
                 return false;
@@ -140,6 +140,7 @@ public:
         wood_.segments = skeleton.segments;
         wood_.l3d_compatible_surface = skeleton.l3d_compatible_surface;
         wood_.box_segments = skeleton.box_segments;
+        wood_.looks = skeleton.looks;
         foliage_ = skeleton;
         foliage_.segments = {};
         foliage_.segment_origins = {};
@@ -899,7 +900,7 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
             }
             if (options.colours) {
                 mesh.colours.resize(mesh.positions.size());
-                std::fill(mesh.colours.begin(), mesh.colours.end(), std::uint16_t{0});
+                std::fill(mesh.colours.begin(), mesh.colours.end(), ItemColour{0});
             }
             if (options.segments) {
                 mesh.segments.resize(mesh.positions.size());

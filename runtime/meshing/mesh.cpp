@@ -10,6 +10,7 @@
 #include "runtime/meshing/impl/ring_segments.h"
 #include "runtime/meshing/impl/solid.h"
 #include "runtime/meshing/impl/tubes.h"
+#include "runtime/meshing/looks.h"
 
 #include <utility>
 
@@ -40,10 +41,12 @@ std::optional<Stop> build_solid(const Skeleton& skeleton,
     Mesh flat;
     MeshBuilder flat_builder(plain, flat);
     flat_builder.set_pictures(pictures_of(skeleton, user_meshes));
+    flat_builder.set_looks(skeleton.looks);
     append_polygons(skeleton, user_meshes, plain, flat_builder);
     append_objects(skeleton, user_meshes, plain, flat_builder);
     std::optional<Stop> stop = flat_builder.finish();
     MeshBuilder builder(options, mesh);
+    builder.set_looks(skeleton.looks);
     if (!stop) {
         stop = append_solid(skeleton, flat, options, builder, mesh.shells);
     }
@@ -67,6 +70,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     }
     MeshBuilder builder(options, mesh);
     builder.set_pictures(pictures_of(skeleton, user_meshes));
+    builder.set_looks(skeleton.looks);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // other objects
@@ -121,6 +125,12 @@ std::optional<Stop> make_mesh(const Skeleton& skeleton,
 }
 
 glm::vec3 palette_colour(std::uint32_t index) {
+    if (is_own(index)) {
+        const auto part = [&](unsigned shift) {
+            return linear_of_srgb(static_cast<float>(index >> shift & 0xFFU) / 255.0F);
+        };
+        return {part(16), part(8), part(0)};
+    }
     // Grammars count colours up as a plant grows, so the first ones are wood and foliage.
     static constexpr std::array<std::array<float, 3>, 25> kPalette{{
         {0.162F, 0.098F, 0.054F}, // bark

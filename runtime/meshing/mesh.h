@@ -23,6 +23,8 @@ namespace lsys {
 struct Texture; // runtime/meshing/texture.h
 
 enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
+inline constexpr float kBarkRoughness = 0.95F; // of MaterialKind::Bark
+inline constexpr float kRoughness = 0.7F;      // of others
 
 /// Appearance of a part of a mesh. Colours are linear RGBA, 0 to 1.
 struct Material {
@@ -34,6 +36,8 @@ struct Material {
     bool textured = false; // by `picture` or, if that is null, material_texture(kind)
     std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
     std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
+    std::optional<float> roughness = std::nullopt;    // not set: that of the kind
+    std::optional<float> translucency = std::nullopt; // 0 to 1; not set: the viewer's by kind
 };
 
 /// Triangles of one material: indices[first_index, first_index + index_count).
@@ -51,17 +55,18 @@ struct Mesh {
     LargeVector<glm::vec3> normals;             // unit length
     LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
     LargeVector<glm::vec4> tangents;            // empty if not asked for; w: sign of the bitangent
-    LargeVector<std::uint16_t> colours;   // palette index of each vertex; empty if not asked for
-    LargeVector<VertexSegments> segments; // empty if not asked for
+    LargeVector<ItemColour> colours;            // of each vertex; empty if not asked for
+    LargeVector<VertexSegments> segments;       // empty if not asked for
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
-    std::uint64_t shells = 0; // separate closed pieces; of MeshMethod::Solid only
+    std::shared_ptr<const Looks> looks; // of `colours`: Skeleton::looks
+    std::uint64_t shells = 0;           // separate closed pieces; of MeshMethod::Solid only
 
     [[nodiscard]] std::uint64_t byte_count() const {
         return positions.size() * sizeof(glm::vec3) + normals.size() * sizeof(glm::vec3) +
                texture_coordinates.size() * sizeof(glm::vec2) +
-               tangents.size() * sizeof(glm::vec4) + colours.size() * sizeof(std::uint16_t) +
+               tangents.size() * sizeof(glm::vec4) + colours.size() * sizeof(ItemColour) +
                segments.size() * sizeof(VertexSegments) + indices.byte_count();
     }
 };
@@ -156,7 +161,7 @@ struct UserMesh {
 /// Precondition: line < line_count().
 void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
 
-/// Colour of a palette index (linear RGB): 0 bark, 1 leaf green, 2 to 15 lighter and lighter
+/// Colour of an item (linear RGB) without a `#material`. Of an index: 0 bark, 1 leaf green, 2 to 15 lighter and lighter
 /// greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; then again
 /// from 2.
 [[nodiscard]] glm::vec3 palette_colour(std::uint32_t index);

@@ -10,7 +10,8 @@ namespace {
 bool looks_equal(const Material& a, const Material& b) {
     return a.name == b.name && a.kind == b.kind && a.colour == b.colour &&
            a.two_sided == b.two_sided && a.cut_out == b.cut_out && a.textured == b.textured &&
-           a.picture == b.picture && a.relief == b.relief;
+           a.picture == b.picture && a.relief == b.relief && a.roughness == b.roughness &&
+           a.translucency == b.translucency;
 }
 
 /// Whether `b` has the triangles and materials of `a`, so that only vertices differ.
@@ -91,6 +92,7 @@ void MeshFilmBuilder::close_shape() {
     append(mesh.texture_coordinates, last_.texture_coordinates);
     append(mesh.tangents, last_.tangents);
     append(mesh.colours, last_.colours);
+    mesh.looks = last_.looks;
     mesh.indices.append(std::move(last_.indices), static_cast<std::uint32_t>(shape.first_vertex));
     last_ = {};
 }

@@ -53,7 +53,7 @@ void append_vertex(const Mesh& mesh, std::uint64_t index, std::string& text) {
         fmt::format_to(add, " tangent ({}, {}, {}, {})", t.x, t.y, t.z, t.w);
     }
     if (!mesh.colours.empty()) {
-        fmt::format_to(add, " colour {}", mesh.colours[index]);
+        fmt::format_to(add, " colour {}", text_of(mesh.colours[index]));
     }
     if (!mesh.segments.empty()) {
         const auto [first, second] = mesh.segments[index];

@@ -1,3 +1,4 @@
+#include "runtime/base/jpeg_texels.h"
 #include "runtime/base/png_samples.h"
 #include "runtime/meshing/texture.h"
 
@@ -12,18 +13,14 @@ namespace lsys {
 
 namespace {
 
-/// Name of the format that the first bytes identify; empty for PNG and unknown ones.
+/// Name of the format that the first bytes identify; empty for PNG, JPEG and unknown ones.
 std::string_view other_format(std::string_view bytes) {
     struct Known {
         std::string_view begin;
         std::string_view name;
     };
-    constexpr std::array<Known, 6> kKnown = {{{"\xFF\xD8\xFF", "JPEG"},
-                                              {"GIF8", "GIF"},
-                                              {"BM", "BMP"},
-                                              {"RIFF", "WebP"},
-                                              {"II*", "TIFF"},
-                                              {"DDS ", "DDS"}}};
+    constexpr std::array<Known, 5> kKnown = {
+        {{"GIF8", "GIF"}, {"BM", "BMP"}, {"RIFF", "WebP"}, {"II*", "TIFF"}, {"DDS ", "DDS"}}};
     const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) {
         return bytes.starts_with(known.begin);
     });
@@ -39,22 +36,28 @@ float linear(std::uint8_t value) { // IEC 61966-2-1
 
 Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
     if (const std::string_view format = other_format(bytes); !format.empty()) {
-        return Error{fmt::format("it is a {}; only PNG is read", format)};
-    }
-    Result<PngSamples> read =
-        read_png_samples(bytes, {PngForm::Rgba, kMaxTexels, max_bytes, 0, "picture"});
-    if (!read) {
-        return read.error();
-    }
-    PngSamples& samples = read.value();
-    if (std::max(samples.columns, samples.rows) > kMaxTextureSide) {
-        return Error{fmt::format("a picture of {} by {} pixels; the most along a side is {}",
-                                 samples.columns, samples.rows, kMaxTextureSide)};
+        return Error{fmt::format("it is a {}; only PNG and JPEG are read", format)};
     }
     Texture texture;
-    texture.width = samples.columns;
-    texture.height = samples.rows;
-    texture.texels = std::move(samples.bytes);
+    if (is_jpeg(bytes)) {
+        Result<JpegTexels> read = read_jpeg_texels(bytes, kMaxTexels, max_bytes);
+        if (!read) {
+            return read.error();
+        }
+        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
+    } else {
+        Result<PngSamples> read =
+            read_png_samples(bytes, {PngForm::Rgba, kMaxTexels, max_bytes, 0, "picture"});
+        if (!read) {
+            return read.error();
+        }
+        PngSamples& samples = read.value();
+        texture = {samples.columns, samples.rows, std::move(samples.bytes)};
+    }
+    if (std::max(texture.width, texture.height) > kMaxTextureSide) {
+        return Error{fmt::format("a picture of {} by {} pixels; the most along a side is {}",
+                                 texture.width, texture.height, kMaxTextureSide)};
+    }
     return texture;
 }
 

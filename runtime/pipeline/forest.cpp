@@ -261,12 +261,13 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grammar.program.reset();
     grammar.bytecode = std::move(system->bytecode);
     MeshFiles meshes;
-    if (!step.take(read_mesh_files(path, grammar.bytecode, project, budget), meshes)) {
+    if (!step.take(read_mesh_files(path, grammar, project, budget), meshes)) {
         return step.end();
     }
     grown.user_meshes = std::move(meshes.meshes);
     CacheOptions cache = species.cache;
     cache.mesh_lengths = std::move(meshes.lengths);
+    cache.looks = std::move(meshes.looks);
     cache.generations = stage.generations;
     cache.depends_on_vertical = system->depends_on_vertical;
     cache.threads = project.threads;

@@ -44,8 +44,10 @@ struct Hero {
 };
 
 bool is_same(const Material& a, const Material& b) {
-    return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.relief) ==
-               std::tie(b.name, b.kind, b.two_sided, b.cut_out, b.textured, b.picture, b.relief) &&
+    return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.relief,
+                    a.roughness, a.translucency) == std::tie(b.name, b.kind, b.two_sided, b.cut_out,
+                                                             b.textured, b.picture, b.relief,
+                                                             b.roughness, b.translucency) &&
            a.colour == b.colour;
 }
 
@@ -64,6 +66,7 @@ void add_instance(const Mesh& mesh, InstanceMeshes& all, LargeVector<std::uint32
     append(all.mesh.texture_coordinates, mesh.texture_coordinates);
     append(all.mesh.tangents, mesh.tangents);
     append(all.mesh.colours, mesh.colours);
+    all.mesh.looks = mesh.looks;
     std::vector<MeshPart> parts = mesh.parts;
     for (MeshPart& part : parts) {
         const Material& material = mesh.materials[part.material];

@@ -54,7 +54,7 @@ Outcome<ItemOrigin> find(const PlantOptions& options,
     const Bytecode& bytecode = grammar.bytecode;
     MeshFiles meshes;
     FileBudget budget{project.limits.max_bytes};
-    if (!step.take(read_mesh_files(options.file, bytecode, project, budget), meshes)) {
+    if (!step.take(read_mesh_files(options.file, grammar, project, budget), meshes)) {
         return step.end();
     }
     Derivation derivation(bytecode, derive);

@@ -155,11 +155,12 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     TurtleOptions turtle_options;
     MeshFiles meshes;
     FileBudget budget{project.limits.max_bytes};
-    if (!step.take(read_mesh_files(options.file, bytecode, project, budget), meshes)) {
+    if (!step.take(read_mesh_files(options.file, grammar, project, budget), meshes)) {
         return step.end();
     }
     plant.user_meshes = std::move(meshes.meshes);
     turtle_options.mesh_lengths = std::move(meshes.lengths);
+    turtle_options.looks = std::move(meshes.looks);
     turtle_options.max_bytes = project.limits.max_bytes;
     turtle_options.cancelled = project.host.cancelled;
     turtle_options.seed = derive.seed;

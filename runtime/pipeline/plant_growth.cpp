@@ -162,12 +162,13 @@ PlantGrowth::begin(const PlantOptions& options, Grammar& grammar, const Project&
     auto state = std::make_unique<State>(grammar, derive);
     MeshFiles meshes;
     FileBudget budget{project.limits.max_bytes};
-    if (!step.take(read_mesh_files(options.file, grammar.bytecode, project, budget), meshes)) {
+    if (!step.take(read_mesh_files(options.file, grammar, project, budget), meshes)) {
         return step.end();
     }
     state->plant.user_meshes = std::move(meshes.meshes);
     state->plant.seed = derive.seed;
     state->turtle.mesh_lengths = std::move(meshes.lengths);
+    state->turtle.looks = std::move(meshes.looks);
     state->turtle.max_bytes = project.limits.max_bytes;
     state->turtle.cancelled = project.host.cancelled;
     state->turtle.seed = derive.seed;

@@ -412,6 +412,7 @@ SkeletonGrowth& SkeletonGrowth::operator=(SkeletonGrowth&&) noexcept = default;
 
 void SkeletonGrowth::pose(double part, Skeleton& out) const {
     out.mesh_files = state_->after.mesh_files;
+    out.looks = state_->after.looks;
     out.l3d_compatible_surface = state_->after.l3d_compatible_surface;
     out.leaf_droop = state_->after.leaf_droop;
     out.box_segments = state_->after.box_segments;

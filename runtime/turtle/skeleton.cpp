@@ -25,14 +25,22 @@ std::string frame_text(const glm::quat& q) {
     return fmt::format("({}, {}, {}, {})", q.w, q.x, q.y, q.z);
 }
 
+} // namespace
+
+std::string text_of(ItemColour colour) {
+    return is_own(colour) ? fmt::format("#{:06X}", colour - kOwnColour) : fmt::format("{}", colour);
+}
+
+namespace {
+
 void append_segment(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
     const Segment& s = skeleton.segments[index];
     fmt::format_to(std::back_inserter(text),
                    "segment {} parent {} order {} base {} frame {} length {} radius {} {} spring "
                    "{} mass {} colour {} sides {}{}",
                    index, parent_text(s.parent), s.order, vector_text(s.base), frame_text(s.frame),
-                   s.length, s.base_radius, s.tip_radius, s.spring, s.mass, s.colour, s.sides,
-                   s.linked ? " linked" : "");
+                   s.length, s.base_radius, s.tip_radius, s.spring, s.mass, text_of(s.colour),
+                   s.sides, s.linked ? " linked" : "");
 }
 
 void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
@@ -43,13 +51,13 @@ void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& t
     fmt::format_to(std::back_inserter(text),
                    "object {} {} parent {} order {} at {} frame {} size {} colour {}", index, name,
                    parent_text(o.parent), o.order, vector_text(o.position), frame_text(o.frame),
-                   o.size, o.colour);
+                   o.size, text_of(o.colour));
 }
 
 void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
     const Polygon& p = skeleton.polygons[index];
     fmt::format_to(std::back_inserter(text), "polygon {} parent {} order {} colour {}{}:", index,
-                   parent_text(p.parent), p.order, p.colour,
+                   parent_text(p.parent), p.order, text_of(p.colour),
                    p.picture == kNoPicture
                        ? std::string()
                        : fmt::format(" picture \"{}\"", skeleton.mesh_files[p.picture]));

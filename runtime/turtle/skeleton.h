@@ -12,12 +12,25 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace lsys {
 
+struct Looks; // runtime/meshing/looks.h
+
 inline constexpr std::uint32_t kNoSegment = 0xFFFFFFFFu;
+
+/// The colour of an item: an index up to kMaxColourIndex, which a `#material` or the palette gives
+/// its look; or a colour of its own, kOwnColour + red << 16 + green << 8 + blue, in sRGB.
+using ItemColour = std::uint32_t;
+inline constexpr ItemColour kOwnColour = 0x01000000u;
+[[nodiscard]] constexpr bool is_own(ItemColour colour) {
+    return colour >= kOwnColour;
+}
+/// "3", or "#664D33" for a colour of its own.
+[[nodiscard]] std::string text_of(ItemColour colour);
 
 /// A straight piece drawn by one module, from `base` by `length` along its frame's +Y.
 struct Segment {
@@ -29,13 +42,14 @@ struct Segment {
     float spring = 0.0F;               // N m / rad, of the joint at the base
     float mass = 0.0F;                 // kg
     std::uint32_t parent = kNoSegment; // the segment drawn before it on its path
-    std::uint16_t order = 0;           // number of open brackets around it: 0 is the trunk
-    std::uint16_t colour = 0;          // index into the palette
-    std::uint8_t sides = 0;            // corners of its cross-section, set by the author
-    bool linked = false;               // begins where its parent ends
-    bool forked = false;               // branches that the skeleton leaves out begin at its tip
-    bool cut = false;                  // begins within its parent, with a closed surface of its own
+    ItemColour colour = 0;
+    std::uint16_t order = 0; // number of open brackets around it: 0 is the trunk
+    std::uint8_t sides = 0;  // corners of its cross-section, set by the author
+    bool linked : 1 = false; // begins where its parent ends
+    bool forked : 1 = false; // branches that the skeleton leaves out begin at its tip
+    bool cut : 1 = false;    // begins within its parent, with a closed surface of its own
 };
+static_assert(sizeof(Segment) == 60);
 
 /// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
@@ -45,8 +59,8 @@ struct PlacedObject {
     float size = 1.0F; // factor
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     std::uint32_t parent = kNoSegment;
+    ItemColour colour = 0;
     std::uint16_t order = 0;
-    std::uint16_t colour = 0;
 };
 
 inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
@@ -57,9 +71,9 @@ struct Polygon {
     std::uint32_t corner_count = 0;
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // of the turtle at `{`
     std::uint32_t parent = kNoSegment;
-    std::uint16_t order = 0;
-    std::uint16_t colour = 0;
+    ItemColour colour = 0;
     std::uint32_t picture = kNoPicture; // in Skeleton::mesh_files
+    std::uint16_t order = 0;
 };
 
 struct Skeleton {
@@ -68,11 +82,12 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
-    bool l3d_compatible_surface = false; // surfaces as in runtime/meshing/impl/l3d_shapes.h
-    bool box_segments = false;           // meshed as boxes by MeshMethod::Default
-    float leaf_droop = 0.0F;             // value of MeshOptions::droop if that is not set
-    // Origins of the modules that drew the items, in the order of the items; for a polygon, of its
-    // `{`. Empty unless the words had origins.
+    std::shared_ptr<const Looks> looks;  // of colour indexes with a `#material`; null: none
+    bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    bool box_segments = false;           // boxes, unless another method is asked for
+    float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
+    // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
+    // had origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;
     LargeVector<Origin> polygon_origins;

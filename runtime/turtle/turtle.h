@@ -37,8 +37,9 @@ enum class TurtleFaultKind : std::uint8_t {
     UnclosedPolygon,  // a `{` without its `}`: it is not drawn
     SidesOutOfRange,  // fewer than 3 or more than 64 sides: clamped
     ColourOutOfRange, // below 0 or above 65,535: clamped
+    RgbOutOfRange,    // a part below 0 or above 1: clamped
 };
-inline constexpr std::size_t kTurtleFaultKinds = 11;
+inline constexpr std::size_t kTurtleFaultKinds = 12;
 inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
 inline constexpr std::uint32_t kMinSides = 3;
 inline constexpr std::uint32_t kMaxSides = 64;
@@ -66,8 +67,9 @@ struct TurtlePlace {
     float angle = 0.0F;          // degrees
     float second_heading = 0.0F; // degrees from the first heading to the left
     std::uint32_t sides = 0;
-    std::uint32_t colour = 0;
-    std::uint32_t order = 0; // open brackets
+    ItemColour colour = 0;
+    std::uint32_t colour_index = 0; // the last one, also where `colour` is none
+    std::uint32_t order = 0;        // open brackets
 };
 
 /// Counts of the items drawn so far.
@@ -108,6 +110,7 @@ protected:
 struct TurtleOptions {
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
+    std::shared_ptr<const Looks> looks;          // Skeleton::looks
     std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
     const std::atomic<bool>* cancelled = nullptr;
     /// Options of the derivation of the word, which productions of `#interpret` read.

@@ -54,6 +54,10 @@ Wording wording_of(TurtleFaultKind kind) {
     case TurtleFaultKind::ColourOutOfRange:
         return {DiagnosticCode::ColourOutOfRange,
                 "chooses a colour outside of 0 to 65,535, and gets the nearest of them", ""};
+    case TurtleFaultKind::RgbOutOfRange:
+        return {DiagnosticCode::ColourOutOfRange,
+                "sets a colour with a part below 0 or above 1, and gets the nearest of these",
+                "red, green and blue are from 0 to 1; bound them with `clamp`"};
     }
     return {DiagnosticCode::NotFinite, "", ""};
 }

@@ -74,11 +74,11 @@ TEST_CASE("a mesh without its picture is shown plain, with a warning at the plac
         CHECK(decode_picture(run.out).width == 64);
         CHECK(run.out != before);
     }
-    SECTION("it is no PNG") {
-        write_text(card.folder / "a card.png", "\xFF\xD8\xFF\xE0 and so on");
+    SECTION("it is neither PNG nor JPEG") {
+        write_text(card.folder / "a card.png", "GIF89a and so on");
         const LscRun run = card.view();
         CHECK(run.status == 0);
-        CHECK(run.err.find("it is a JPEG; only PNG is read") != std::string::npos);
+        CHECK(run.err.find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
     }
     SECTION("it is damaged") {
         const std::string bytes = read_text(card.folder / "a card.png");

@@ -8,7 +8,8 @@ layout(binding = 2) uniform sampler2D leaf_texture;
 in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
-flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy, 8 one colour
+flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy, 8 one colour; from
+                      // 256 on the translucency in 1/256
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -81,10 +82,10 @@ void main() {
 #ifdef BAKE
     albedo_out = vec4(sqrt(albedo), 1.0);
     float depth = dot(world_position - centre.xyz, to_eye) / centre.w;
-    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, is_translucent ? 1.0 : 0.0);
+    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, min(float(kind >> 8u) / 128.0, 1.0));
 #else
     float lit = sunlight_at(shadow_position, crown_sunlight(crown_position));
-    float translucency = is_translucent ? 0.5 : 0.0;
+    float translucency = float(kind >> 8u) / 256.0;
     colour =
         tone_mapped(apply_fog(shade_crown(albedo, normal, lit, translucency,
                                            ambient_visibility(crown_position)),

@@ -76,8 +76,9 @@ void main() {
     float open = ambient_visibility(in_crown);
     vec2 fog = fog_to(world);
     vec3 fogged_albedo = fog.y * material.colour;
-    front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, 0.5, open);
-    back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, 0.5, open);
+    float translucency = float(material.kind >> 8u) / 256.0;
+    front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, translucency, open);
+    back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, translucency, open);
     vec3 fog_only = apply_fog(vec3(0.0), fog);
 #ifdef CUT_OUT
     fog_light = fog_only;

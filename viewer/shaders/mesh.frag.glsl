@@ -2,7 +2,7 @@
 layout(binding = 1) uniform sampler2D base_texture;
 layout(binding = 2) uniform sampler2D normal_texture;
 layout(location = 0) uniform vec4 base_colour;
-layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: alpha mask, w: translucent
+layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: alpha mask, w: translucency in 1/256
 in vec3 world_position;
 in vec3 world_normal;
 in vec2 uv;
@@ -30,7 +30,7 @@ void main() {
         geometric = -geometric;
     }
     float lit = sunlight(world_position, geometric, 1.0);
-    float translucency = kind.w != 0 ? 0.5 : 0.0;
+    float translucency = float(kind.w) / 256.0;
     colour = tone_mapped(
         fogged(shade(albedo, normal, world_position, lit, translucency), world_position));
 }

@@ -224,6 +224,30 @@ void describe_curve(Stream& stream, Value& curve) {
 }
 
 template <typename Stream, typename Value>
+void describe_picture(Stream& stream, Value& picture) {
+    auto& [path, site] = picture;
+    stream.text(path);
+    stream.number(site);
+}
+
+template <typename Stream, typename Value>
+void describe_material(Stream& stream, Value& material) {
+    auto& [index, has_colour, colour, picture, normal, has_roughness, roughness, has_translucency,
+           translucency, has_sides, two_sided] = material;
+    stream.number(index);
+    stream.truth(has_colour);
+    describe_value(stream, colour);
+    describe_picture(stream, picture);
+    describe_picture(stream, normal);
+    stream.truth(has_roughness);
+    stream.real(roughness);
+    stream.truth(has_translucency);
+    stream.real(translucency);
+    stream.truth(has_sides);
+    stream.truth(two_sided);
+}
+
+template <typename Stream, typename Value>
 void describe_axiom(Stream& stream, Value& axiom) {
     auto& [word, site, draw_position, weight] = axiom;
     describe_word(stream, word);
@@ -236,8 +260,8 @@ template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, group_count, axioms, uses_steps, curves, stack_depth, local_count] =
-        bytecode;
+           rule_count, group_count, axioms, uses_steps, curves, materials, stack_depth,
+           local_count] = bytecode;
     auto&& beside = stream.beside_word();
     describe_settings(stream, settings);
     beside.optional_number(generations);
@@ -259,6 +283,7 @@ void describe(Stream& stream, Value& bytecode) {
     stream.table(axioms, [](auto& s, auto& row) { describe_axiom(s, row); });
     stream.truth(uses_steps);
     stream.table_or_none(curves, [](auto& s, auto& row) { describe_curve(s, row); });
+    beside.table(materials, [](auto& s, auto& row) { describe_material(s, row); });
     beside.number(stack_depth);
     beside.number(local_count);
 }

@@ -12,19 +12,25 @@ namespace lsys {
 
 namespace {
 
+/// Parameters that the command reads of `count`: `'` one, an index, or three, a colour.
+std::uint32_t parameters_read(const TurtleCommand& command, std::uint32_t count) {
+    const bool is_index = operation_of(command, count) == TurtleOperation::SetColour;
+    return is_index ? 1 : command.max_parameters;
+}
+
 void report(const CheckInput& input,
             const ProgramWord& word,
             std::size_t index,
             const TurtleCommand& command,
             Diagnostics& diagnostics) {
     const std::vector<SourceSpan> arguments = argument_spans(input, word, index);
-    const SourceSpan extra = command.max_parameters < arguments.size()
-                                 ? join(arguments[command.max_parameters], arguments.back())
-                                 : module_name_span(input, word, index);
-    Diagnostic& warning =
-        diagnostics.add(DiagnosticCode::ExtraParameters, extra,
-                        fmt::format("{} reads {}; more have no effect", quoted(command.name),
-                                    parameters_text(command.max_parameters)));
+    const std::uint32_t read =
+        parameters_read(command, static_cast<std::uint32_t>(arguments.size()));
+    const SourceSpan extra = read < arguments.size() ? join(arguments[read], arguments.back())
+                                                     : module_name_span(input, word, index);
+    Diagnostic& warning = diagnostics.add(DiagnosticCode::ExtraParameters, extra,
+                                          fmt::format("{} reads {}; more have no effect",
+                                                      quoted(command.name), parameters_text(read)));
     if (!command.parameters.empty()) {
         warning.notes.push_back(
             fmt::format("the parameters of {}: {}", quoted(command.name), command.parameters));
@@ -48,8 +54,8 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
             symbol.parameter_count == 0 || symbol.turtle == TurtleOperation::Nothing
                 ? nullptr
                 : find_turtle_command(program.settings.turtle, input.name(symbol.name));
-        if (command != nullptr && command->operation == symbol.turtle &&
-            symbol.parameter_count > command->max_parameters) {
+        if (command != nullptr && operation_of(*command, symbol.parameter_count) == symbol.turtle &&
+            symbol.parameter_count > parameters_read(*command, symbol.parameter_count)) {
             exceeded[i] = command;
             any = true;
         }

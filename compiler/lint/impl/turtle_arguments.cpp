@@ -1,4 +1,5 @@
-// Suspicious arguments of turtle commands: an angle in radians, a negative width.
+// Suspicious arguments of turtle commands: an angle in radians, a negative width, a part of a colour
+// that is not from 0 to 1.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -29,7 +30,35 @@ std::optional<int> degrees_if_radians(float value) {
 
 bool is_checked(const Symbol& symbol) {
     return symbol.parameter_count != 0 &&
-           (turns(symbol.turtle) || symbol.turtle == TurtleOperation::SetWidth);
+           (turns(symbol.turtle) || symbol.turtle == TurtleOperation::SetWidth ||
+            symbol.turtle == TurtleOperation::SetRgb);
+}
+
+/// Reports the first part of a colour that is not from 0 to 1.
+void check_colour(const CheckInput& input,
+                  const ProgramWord& word,
+                  std::size_t index,
+                  std::size_t argument,
+                  Diagnostics& diagnostics) {
+    constexpr std::size_t kParts = 3;
+    for (std::size_t i = 0; i < kParts; ++i) {
+        const Value& value = input.program.value(input.program.arguments[argument + i]);
+        const float part = value.opcode == Opcode::Literal ? value.literal : 0.0F;
+        if (!(part < 0.0F) && !(part > 1.0F)) {
+            continue;
+        }
+        const std::vector<SourceSpan> spans = argument_spans(input, word, index);
+        Diagnostic& diagnostic = diagnostics.add(
+            DiagnosticCode::ColourOutOfRange,
+            i < spans.size() ? spans[i] : module_name_span(input, word, index),
+            fmt::format("a part of a colour is from 0 to 1, not {}", number_text(part)));
+        diagnostic.notes.emplace_back("the nearest of these values is drawn");
+        if (part >= 2.0F && part <= 255.0F) {
+            diagnostic.help.push_back(
+                fmt::format("of colours from 0 to 255 write `{} / 255`", number_text(part)));
+        }
+        return;
+    }
 }
 
 void check_word(const CheckInput& input, const ProgramWord& word, Diagnostics& diagnostics) {
@@ -38,6 +67,10 @@ void check_word(const CheckInput& input, const ProgramWord& word, Diagnostics& d
         program, word, [&](std::size_t index, std::size_t argument, const ProgramModule& module) {
             const Symbol& symbol = program.symbol(module.symbol);
             if (!is_checked(symbol)) {
+                return;
+            }
+            if (symbol.turtle == TurtleOperation::SetRgb) {
+                check_colour(input, word, index, argument, diagnostics);
                 return;
             }
             const Value& value = program.value(program.arguments[argument]);

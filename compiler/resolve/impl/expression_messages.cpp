@@ -408,6 +408,9 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
     case ExpressionPlace::Curve:
         where = "in a curve";
         break;
+    case ExpressionPlace::Material:
+        where = "in a material";
+        break;
     case ExpressionPlace::Condition:
         where = "in a condition";
         break;

@@ -30,7 +30,8 @@ enum class ExpressionPlace : std::uint8_t {
     Probability,
     Function, // the body of a #function
     Curve,    // a coordinate of a #curve
-    Local,    // the expression of a `let`
+    Material, // a number of a #material
+    Local,    // the value of a `let`
     Successor,
 };
 
@@ -71,7 +72,11 @@ public:
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
     /// The value of a single name, for values of #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
-    /// Whether the last resolved value depends on a draw.
+    /// Whether the name is that of a constant, known by now or defined later.
+    [[nodiscard]] bool is_constant(NameId name) const {
+        return constants_.state(name) != ConstantState::Unknown;
+    }
+    /// Whether the last resolved value depends on a range.
     [[nodiscard]] bool is_random() const { return is_random_; }
     /// Number of draws since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }

@@ -55,7 +55,7 @@ SymbolId SymbolTable::make(NameId name, std::uint32_t parameter_count) {
         symbol.turtle = binding->second.object;
         symbol.mesh_file = binding->second.mesh_file;
     } else if (const TurtleCommand* command = find_turtle_command(program.settings.turtle, text)) {
-        symbol.turtle = command->operation;
+        symbol.turtle = operation_of(*command, parameter_count);
     }
     program.symbols.push_back(symbol);
     return static_cast<SymbolId>(program.symbols.size() - 1);

@@ -102,8 +102,8 @@ void LexemeReader::keyword() {
     } else if (name == "object" || name == "include") {
         shape_ = name == "include" && next == '"' ? Other : Declaration;
         area_ = Area::Object;
-    } else if (name == "set" || name == "curve") {
-        shape_ = Setting;
+    } else if (name == "set" || name == "curve" || name == "material") {
+        shape_ = name == "material" ? Material : Setting;
         area_ = Area::Set;
     } else if (name == "function") {
         shape_ = Other;
@@ -157,7 +157,8 @@ void LexemeReader::next_part() {
 void LexemeReader::token() {
     if (area_ == Area::Modules && depth_ == 0) {
         module();
-    } else if (area_ == Area::Object && depth_ == 0) {
+    } else if ((area_ == Area::Object || (area_ == Area::Set && text_[at_] == '"')) &&
+               depth_ == 0) {
         quoted();
     } else {
         expression();

@@ -154,6 +154,7 @@ bool PieceReader::begins_cell() const {
     case StatementShape::Definition:
         return index_ <= 2 || current_.opens_bounds;
     case StatementShape::Setting:
+    case StatementShape::Material:
     case StatementShape::Declaration:
         return index_ <= 2;
     case StatementShape::List:
@@ -179,6 +180,10 @@ BreakClass PieceReader::break_class() const {
     case Context:
     case Module:
         return BreakClass::Fine;
+    case Word: // a key
+        return shape_ == StatementShape::Material && parentheses_ == 0 && index_ > 2
+                   ? BreakClass::Fine
+                   : BreakClass::Never;
     default:
         // A cell begins after a `:` and after the `,` between local values.
         return (previous_.kind == Colon || (previous_.kind == Comma && parentheses_ == 0)) &&

@@ -13,9 +13,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kSpellings{
-    "",        "n",   "define", "param",    "function",  "curve",     "module", "object",
-    "include", "set", "ignore", "consider", "decompose", "interpret", "w"};
+constexpr std::array<std::string_view, 16> kSpellings{
+    "",       "n",       "define", "param",  "function", "curve",     "material",  "module",
+    "object", "include", "set",    "ignore", "consider", "decompose", "interpret", "w"};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
 constexpr std::array<std::string_view, 25> kSettings{

@@ -22,6 +22,7 @@ enum class Keyword : std::uint8_t {
     Param,
     Function,
     Curve,
+    Material,
     Module,
     Object,
     Include,

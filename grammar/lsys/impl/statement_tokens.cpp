@@ -23,12 +23,13 @@ constexpr const char* kFourParts =
     "condition";
 
 /// Tokens by Keyword.
-constexpr std::array<Token::Kind, 15> kKeywordTokens{
-    Parser::token::TOK_LABEL,     Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
-    Parser::token::TOK_PARAM,     Parser::token::TOK_FUNCTION,  Parser::token::TOK_CURVE,
-    Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,    Parser::token::TOK_INCLUDE,
-    Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,    Parser::token::TOK_CONSIDER,
-    Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET, Parser::token::TOK_W};
+constexpr std::array<Token::Kind, 16> kKeywordTokens{
+    Parser::token::TOK_LABEL,    Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
+    Parser::token::TOK_PARAM,    Parser::token::TOK_FUNCTION,  Parser::token::TOK_CURVE,
+    Parser::token::TOK_MATERIAL, Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,
+    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,
+    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET,
+    Parser::token::TOK_W};
 
 Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
     const Keyword keyword = session.scan.keyword;
@@ -45,6 +46,9 @@ Part part_after(Keyword keyword, char next) {
         }
         if (keyword == Keyword::Object || keyword == Keyword::Include) {
             return Part::ObjectName;
+        }
+        if (keyword == Keyword::Material) {
+            return Part::Setting;
         }
     }
     return Part::Opening;
@@ -122,8 +126,8 @@ Token setting_without_set(ParseSession& session, std::string_view word) {
         const std::string name(word);
         Diagnostic& diagnostic = session.report(DiagnosticCode::UnknownStatement, span,
                                                 "there is no statement `#" + name + "`");
-        const SourceSpan place{span.file, session.scanned.source_begin(key),
-                               session.scanned.source_begin(key)};
+        const SourceSpan place{span.file, session.scanned.source_begin(key_begin),
+                               session.scanned.source_begin(key_begin)};
         const std::string_view text = session.scanned.text;
         const char next = next_character(text, scan.end);
         if (next == '=' || next == ':') {
@@ -210,8 +214,8 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
         add_fix(diagnostic, "did you mean `" + name + "`?", span, name, false);
     } else {
         diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#function`, "
-                                     "`#curve`, `#module`, `#object`, `#include`, `#set`, "
-                                     "`#ignore :`, `#consider :`, `#w :`, `#decompose`, "
+                                     "`#curve`, `#material`, `#module`, `#object`, `#include`, "
+                                     "`#set`, `#ignore :`, `#consider :`, `#w :`, `#decompose`, "
                                      "`#interpret` and productions, `#name : ...`");
     }
     return meant;
@@ -321,11 +325,11 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     const std::string_view text = session.scanned.text;
     const Keyword keyword = find_keyword(word);
     const char next = word.empty() ? '\0' : next_character(text, scan.end);
-    const bool takes_words = keyword == Keyword::Define || keyword == Keyword::Param ||
-                             keyword == Keyword::Function || keyword == Keyword::Curve ||
-                             keyword == Keyword::Set || keyword == Keyword::Object ||
-                             keyword == Keyword::Include || keyword == Keyword::Module ||
-                             keyword == Keyword::Decompose || keyword == Keyword::Interpret;
+    const bool takes_words =
+        keyword == Keyword::Define || keyword == Keyword::Param || keyword == Keyword::Function ||
+        keyword == Keyword::Curve || keyword == Keyword::Set || keyword == Keyword::Material ||
+        keyword == Keyword::Object || keyword == Keyword::Include || keyword == Keyword::Module ||
+        keyword == Keyword::Decompose || keyword == Keyword::Interpret;
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
     const bool after_statement = // on the line of a statement, after its `;`
@@ -462,7 +466,8 @@ bool is_needless_sign(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
                             scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
-                            scan.keyword == Keyword::Set || scan.keyword == Keyword::Generations;
+                            scan.keyword == Keyword::Set || scan.keyword == Keyword::Material ||
+                            scan.keyword == Keyword::Generations;
     if (!scan.part_empty || !takes_none || !scan.open.empty()) {
         return false;
     }

@@ -2,6 +2,7 @@
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/meshing/looks.h"
 
 #include <algorithm>
 #include <limits>
@@ -73,7 +74,7 @@ public:
         }
         const std::uint64_t vertex_bytes =
             2 * sizeof(glm::vec3) + (textured_ ? sizeof(glm::vec2) : 0) +
-            (tangents_ ? sizeof(glm::vec4) : 0) + (colours_ ? sizeof(std::uint16_t) : 0);
+            (tangents_ ? sizeof(glm::vec4) : 0) + (colours_ ? sizeof(ItemColour) : 0);
         if (vertices * vertex_bytes + indices * sizeof(std::uint32_t) > max_bytes) {
             return limit();
         }
@@ -192,7 +193,7 @@ private:
                 mesh_.tangents[at] = glm::vec4(turn * glm::vec3(tangent), tangent.w);
             }
             if (colours_) {
-                mesh_.colours[at] = from.colours[vertex];
+                mesh_.colours[at] = without_look(from.looks.get(), from.colours[vertex]);
             }
             ++at;
         }

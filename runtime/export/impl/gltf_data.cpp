@@ -1,6 +1,7 @@
 #include "runtime/export/impl/gltf_data.h"
 
 #include "runtime/export/impl/formats.h"
+#include "runtime/meshing/looks.h"
 
 #include <glm/geometric.hpp>
 
@@ -23,9 +24,9 @@ bool has_vertex_colours(const Mesh& mesh, const MeshPart& part) {
     std::uint32_t last_colour = ~std::uint32_t{0}; // a palette index with the material's colour
     TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
-        const std::uint16_t colour = mesh.colours[indices[part.first_index + i]];
+        const ItemColour colour = mesh.colours[indices[part.first_index + i]];
         if (colour != last_colour) {
-            if (palette_colour(colour) != own) {
+            if (plain_colour(mesh.looks.get(), colour) != own) {
                 return true;
             }
             last_colour = colour;

@@ -1,10 +1,13 @@
 #include "runtime/export/impl/gltf_items.h"
 
+#include "runtime/meshing/looks.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <meshoptimizer.h>
 
 namespace lsys {
@@ -105,14 +108,15 @@ private:
 void write_colours(const Mesh& mesh,
                    std::span<const std::uint32_t> vertices,
                    const GltfBytes& write) {
-    std::vector<Item<std::uint8_t, 4>> palette;
+    std::map<ItemColour, Item<std::uint8_t, 4>> items;
     write_each(vertices, write, [&](std::uint32_t vertex) {
-        const std::uint32_t index = mesh.colours[vertex];
-        while (palette.size() <= index) {
-            palette.push_back(
-                colour_item(palette_colour(static_cast<std::uint32_t>(palette.size()))));
+        const ItemColour colour = mesh.colours[vertex];
+        auto known = items.find(colour);
+        if (known == items.end()) {
+            known =
+                items.emplace(colour, colour_item(plain_colour(mesh.looks.get(), colour))).first;
         }
-        return palette[index];
+        return known->second;
     });
 }
 

@@ -88,6 +88,10 @@ void put_material(JsonWriter& json,
     if (material.two_sided) {
         json.member("doubleSided", true);
     }
+    if (material.translucency) {
+        json.object("extras");
+        json.member("translucency", six_decimals(*material.translucency)).end();
+    }
     json.end();
 }
 

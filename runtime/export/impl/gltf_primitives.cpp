@@ -20,7 +20,7 @@ constexpr std::uint32_t kUnused = ~std::uint32_t{0};
 bool differ_in_colour_only(const Material& a, const Material& b) {
     return a.kind == b.kind && a.colour.a == b.colour.a && a.two_sided == b.two_sided &&
            a.cut_out == b.cut_out && a.textured == b.textured && a.picture == b.picture &&
-           a.relief == b.relief;
+           a.relief == b.relief && a.roughness == b.roughness && a.translucency == b.translucency;
 }
 
 bool is_in_range(const glm::vec4& colour) {

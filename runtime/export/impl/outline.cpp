@@ -1,6 +1,7 @@
 #include "runtime/export/impl/outline.h"
 
 #include "runtime/export/impl/opacity_outline.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/shapes.h"
 #include "runtime/meshing/texture.h"
 
@@ -167,7 +168,8 @@ float turn(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
 } // namespace
 
 std::vector<Outline> object_outlines(const PlacedObject& object,
-                                     const std::vector<UserMesh>& user_meshes) {
+                                     const std::vector<UserMesh>& user_meshes,
+                                     const Looks* looks) {
     Shape shape;
     if (object.kind != TurtleOperation::MeshFile) {
         shape = make_shape(object.kind, 0);
@@ -179,10 +181,17 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
         const bool own = part.takes_colour && object.colour != 0;
         outlines.push_back({extreme_points(part.positions),
                             {},
-                            palette_colour(own ? object.colour : part.material.palette)});
+                            plain_colour(looks, own ? object.colour : part.material.palette)});
         if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
             const UserMesh& mesh = user_meshes[object.mesh_file];
-            outlines.back().colour = mean_colour(*mesh.picture);
+            const Look* const look = looks == nullptr
+                                         ? nullptr
+                                         : looks->find(own ? object.colour : part.material.palette);
+            if (look == nullptr || look->picture == nullptr) {
+                outlines.back().colour =
+                    mean_colour(*mesh.picture) *
+                    (look != nullptr ? look->colour.value_or(glm::vec3(1.0F)) : glm::vec3(1.0F));
+            }
             outlines.back().loops = picture_outline(mesh);
         }
     }

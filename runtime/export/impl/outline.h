@@ -24,7 +24,8 @@ struct Outline {
 /// Outlines of the parts of an object, back to front. Depend on kind, mesh file and colour. Empty
 /// for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour of it.
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
-                                                   const std::vector<UserMesh>& user_meshes);
+                                                   const std::vector<UserMesh>& user_meshes,
+                                                   const Looks* looks);
 /// The convex hull, counter-clockwise; fewer than three corners for points on a line. Sorts
 /// `points`.
 [[nodiscard]] std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points);

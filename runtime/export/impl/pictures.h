@@ -6,6 +6,7 @@
 #include "runtime/export/export.h"
 #include "runtime/meshing/texture.h"
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -44,8 +45,15 @@ struct Pictures {
 /// ExportInfo::textures, and for pictures in files if ExportInfo::picture_prefix is empty.
 [[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
+/// The value with six decimals, which its text as a double then has too.
+[[nodiscard]] inline double six_decimals(float value) {
+    return std::round(static_cast<double>(value) * 1e6) / 1e6;
+}
 /// Roughness, 0 to 1, in formats that have one.
-[[nodiscard]] constexpr double roughness(const Material& material) {
+[[nodiscard]] inline double roughness(const Material& material) {
+    if (material.roughness) {
+        return six_decimals(*material.roughness);
+    }
     return material.kind == MaterialKind::Bark ? 0.95 : 0.7;
 }
 

@@ -3,6 +3,7 @@
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
+#include "runtime/meshing/looks.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <vector>
+#include <map>
 
 namespace lsys {
 
@@ -19,19 +20,30 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
-/// Colours of the palette as bytes, up to the last one that the mesh uses.
-std::vector<std::array<std::uint8_t, 3>> palette_bytes(const Mesh& mesh) {
-    std::uint32_t last = 0;
-    for (const std::uint16_t colour : mesh.colours) {
-        last = std::max<std::uint32_t>(last, colour);
+/// Colours of items as bytes.
+class ColourBytes {
+public:
+    explicit ColourBytes(const Looks* looks) : looks_(looks) {}
+
+    const std::array<std::uint8_t, 3>& operator[](ItemColour colour) {
+        if (colour != last_) {
+            last_ = colour;
+            const auto [known, is_new] = bytes_.try_emplace(colour);
+            if (is_new) {
+                const glm::vec3 c = plain_colour(looks_, colour);
+                known->second = {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b)};
+            }
+            last_bytes_ = known->second;
+        }
+        return last_bytes_;
     }
-    std::vector<std::array<std::uint8_t, 3>> bytes;
-    for (std::uint32_t i = 0; i <= last; ++i) {
-        const glm::vec3 colour = palette_colour(i);
-        bytes.push_back({srgb_byte(colour.r), srgb_byte(colour.g), srgb_byte(colour.b)});
-    }
-    return bytes;
-}
+
+private:
+    const Looks* looks_;
+    std::map<ItemColour, std::array<std::uint8_t, 3>> bytes_;
+    ItemColour last_ = ~ItemColour{0};
+    std::array<std::uint8_t, 3> last_bytes_{};
+};
 
 template <typename T>
 char* put_bytes(char* at, const T& value) {
@@ -59,8 +71,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
                                  : "",
                         triangle_count(mesh), small ? "int" : "uint"));
 
-    const std::vector<std::array<std::uint8_t, 3>> palette =
-        coloured ? palette_bytes(mesh) : std::vector<std::array<std::uint8_t, 3>>{};
+    ColourBytes bytes_of(mesh.looks.get());
     constexpr std::size_t kVertexBytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 3;
     for (std::size_t i = 0; i < mesh.positions.size() && !out.stopped(); ++i) {
         char* at = put_bytes(out.room(kVertexBytes), turned(job.info.up, mesh.positions[i]));
@@ -70,7 +81,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
             at = put_bytes(at, glm::vec2(t.x, 1.0F - t.y));
         }
         if (coloured) {
-            at = put_bytes(at, palette[mesh.colours[i]]);
+            at = put_bytes(at, bytes_of[mesh.colours[i]]);
         }
         out.used(at);
     }

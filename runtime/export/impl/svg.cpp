@@ -5,6 +5,7 @@
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"
 #include "runtime/export/impl/text.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
@@ -71,7 +72,9 @@ const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
     if (found == outlines_.end()) {
         const std::vector<UserMesh> none;
         const bool given = info_.user_meshes != nullptr;
-        found = outlines_.emplace(key, object_outlines(object, given ? *info_.user_meshes : none))
+        found = outlines_
+                    .emplace(key, object_outlines(object, given ? *info_.user_meshes : none,
+                                                  skeleton_.looks.get()))
                     .first;
     }
     return found->second;
@@ -149,9 +152,9 @@ void Drawing::put_segments() {
                 out_.put("\"/>\n");
             }
             if (!same) {
-                out_.put(fmt::format("{}<g stroke=\"{}\" stroke-width=\"{}\">\n",
-                                     last != nullptr ? "</g>\n" : "",
-                                     colour_text(palette_colour(segment.colour)), width));
+                out_.put(fmt::format(
+                    "{}<g stroke=\"{}\" stroke-width=\"{}\">\n", last != nullptr ? "</g>\n" : "",
+                    colour_text(plain_colour(skeleton_.looks.get(), segment.colour)), width));
             }
             out_.put("<polyline points=\"");
             put_point(glm::vec2(segment.base));
@@ -195,13 +198,18 @@ void Drawing::put_polygons() {
         for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
             points.emplace_back(skeleton_.corners[polygon.first_corner + c]);
         }
-        glm::vec3 colour = palette_colour(polygon.colour);
+        glm::vec3 colour = plain_colour(skeleton_.looks.get(), polygon.colour);
         if (polygon.picture < files.size() && files[polygon.picture].picture != nullptr) {
             const auto [found, added] = pictures.try_emplace(polygon.picture);
             if (added) {
                 found->second = mean_colour(*files[polygon.picture].picture);
             }
-            colour = found->second;
+            const Look* const look =
+                skeleton_.looks == nullptr ? nullptr : skeleton_.looks->find(polygon.colour);
+            if (look == nullptr || look->picture == nullptr) {
+                colour = found->second * (look != nullptr ? look->colour.value_or(glm::vec3(1.0F))
+                                                          : glm::vec3(1.0F));
+            }
         }
         put_filled(colour_text(colour), points);
     }

@@ -1,9 +1,12 @@
 #include "runtime/export/impl/usda_parts.h"
 
 #include "runtime/export/impl/pictures.h"
+#include "runtime/meshing/looks.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace lsys {
 
@@ -82,10 +85,12 @@ void put_material(const Material& material,
         out.put(fmt::format(
             "                normal3f inputs:normal.connect = <{}/Relief.outputs:rgb>\n", path));
     }
-    out.put("                float inputs:roughness = 0.9\n"
-            "                token outputs:surface\n"
-            "            }\n");
-    if (shown.colour) {
+    constexpr double kUsualRoughness = 0.9;
+    out.put(fmt::format("                float inputs:roughness = {}\n"
+                        "                token outputs:surface\n"
+                        "            }}\n",
+                        material.roughness ? roughness(material) : kUsualRoughness));
+    if (shown.colour || shown.relief) {
         out.put("\n            def Shader \"Place\"\n"
                 "            {\n"
                 "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
@@ -169,23 +174,22 @@ int place_digits(float size) {
 }
 
 void put_usda_colours(PieceWriter& out,
+                      const Looks* looks,
                       std::uint64_t vertices,
-                      const std::function<std::uint16_t(std::uint64_t)>& colour_of) {
-    std::vector<std::uint16_t> palette; // colours of the prim, in the order of their first vertices
-    std::vector<std::uint32_t> places;  // by colour: 1 + its index in `palette`; 0: none
+                      const std::function<ItemColour(std::uint64_t)>& colour_of) {
+    std::vector<ItemColour> palette;            // in the order of their first vertices
+    std::map<ItemColour, std::uint32_t> places; // of each colour in `palette`
+    ItemColour last = ~ItemColour{0};
     for (std::uint64_t i = 0; i < vertices; ++i) {
-        const std::uint16_t colour = colour_of(i);
-        if (colour >= places.size()) {
-            places.resize(std::size_t{colour} + 1);
-        }
-        if (places[colour] == 0) {
+        const ItemColour colour = colour_of(i);
+        if (colour != std::exchange(last, colour) &&
+            places.try_emplace(colour, static_cast<std::uint32_t>(palette.size())).second) {
             palette.push_back(colour);
-            places[colour] = static_cast<std::uint32_t>(palette.size());
         }
     }
     put_list(out, "color3f[] primvars:displayColor", palette.size(),
              [&](std::uint64_t i, char* at) {
-                 const glm::vec3 c = palette_colour(palette[i]);
+                 const glm::vec3 c = plain_colour(looks, palette[i]);
                  return put_tuple<3>(at, {c.r, c.g, c.b});
              });
     out.put(fmt::format(" (\n            interpolation = \"{}\"\n        )\n",
@@ -193,7 +197,7 @@ void put_usda_colours(PieceWriter& out,
     if (palette.size() > 1) {
         put_list(out, "int[] primvars:displayColor:indices", vertices,
                  [&](std::uint64_t i, char* at) {
-                     return put_number(at, std::uint64_t{places[colour_of(i)] - 1});
+                     return put_number(at, std::uint64_t{places.at(colour_of(i))});
                  });
         out.put("\n");
     }

@@ -96,10 +96,11 @@ struct UsdaSurface {
 };
 void put_usda_surface_head(PieceWriter& out, const UsdaSurface& surface, const Bounds& bounds);
 void put_usda_subsets(PieceWriter& out, const UsdaSurface& surface);
-/// Writes the colours of vertices. `colour_of(i)`: the palette index of vertex i.
+/// Writes the colours of vertices. `colour_of(i)`: the colour of vertex i.
 void put_usda_colours(PieceWriter& out,
+                      const Looks* looks,
                       std::uint64_t vertices,
-                      const std::function<std::uint16_t(std::uint64_t)>& colour_of);
+                      const std::function<ItemColour(std::uint64_t)>& colour_of);
 /// Writes a mesh prim. `vertex(i)`: the number in the mesh of vertex i of the prim. `turn(v,
 /// is_point)`: a vector of the mesh in the coordinates of the prim. `corner(i)`: the vertex of the
 /// prim at corner i of the triangles of all parts, called with rising i.
@@ -152,7 +153,8 @@ void put_usda_surface(PieceWriter& out,
         out.put(kVertexInterpolation);
     }
     if (is_complete(mesh, mesh.colours)) {
-        put_usda_colours(out, vertices, [&](std::uint64_t i) { return mesh.colours[vertex(i)]; });
+        put_usda_colours(out, mesh.looks.get(), vertices,
+                         [&](std::uint64_t i) { return mesh.colours[vertex(i)]; });
     }
     if (surface.put_skin) {
         surface.put_skin();

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace lsys {
 
@@ -37,13 +38,13 @@ public:
     Range(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
 
     void find(const Skeleton& skeleton, LargeVector<std::uint32_t>& nexts) {
-        std::uint32_t last_colour = ~std::uint32_t{0};
+        ItemColour last_colour = ~ItemColour{0};
         for (auto i = static_cast<std::uint32_t>(begin_); i < end_; ++i) {
             const Segment& segment = skeleton.segments[i];
             nexts[i] = segment.forked ? kForked : kNoSegment;
             if (segment.colour != last_colour) {
                 last_colour = segment.colour;
-                add_colour(segment.colour);
+                colours_.insert(segment.colour);
             }
             if (segment.parent >= i || !joins(skeleton.segments[segment.parent], segment)) {
                 continue;
@@ -57,23 +58,14 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
-    /// Colours in use, in ascending order.
-    [[nodiscard]] const std::vector<std::uint16_t>& colours() const { return colours_; }
+    /// Colours in use.
+    [[nodiscard]] const std::set<ItemColour>& colours() const { return colours_; }
 
 private:
-    void add_colour(std::uint16_t colour) {
-        used_.resize(std::max(used_.size(), colour + std::size_t{1}));
-        if (!used_[colour]) {
-            used_[colour] = true;
-            colours_.push_back(colour);
-        }
-    }
-
     std::size_t begin_;
     std::size_t end_;
     std::vector<std::uint32_t> late_;
-    std::vector<std::uint16_t> colours_;
-    std::vector<bool> used_; // by colour
+    std::set<ItemColour> colours_;
 };
 
 } // namespace
@@ -99,20 +91,14 @@ Axes find_axes(const Skeleton& skeleton, Workers& workers) {
         ranges.emplace_back(begin, std::min(begin + kSegmentsPerRange, segments));
     }
     workers.for_each(ranges.size(), [&](std::uint64_t i) { ranges[i].find(skeleton, axes.next); });
-    std::vector<bool> used(std::size_t{1} << 16);
+    std::set<ItemColour> colours;
     for (const Range& range : ranges) {
         for (const std::uint32_t child : range.late()) {
             follow(skeleton, child, axes.next);
         }
-        for (const std::uint16_t colour : range.colours()) {
-            used[colour] = true;
-        }
+        colours.insert(range.colours().begin(), range.colours().end());
     }
-    for (std::uint32_t colour = 0; colour < used.size(); ++colour) {
-        if (used[colour]) {
-            axes.colours.push_back(static_cast<std::uint16_t>(colour));
-        }
-    }
+    axes.colours.assign(colours.begin(), colours.end());
     return axes;
 }
 

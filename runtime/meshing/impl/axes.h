@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kForked = kNoSegment - 1;
 struct Axes {
     /// Per segment: the segment that continues it, kForked, or kNoSegment.
     LargeVector<std::uint32_t> next;
-    std::vector<std::uint16_t> colours; // in use, rising
+    std::vector<ItemColour> colours; // in use, rising
 };
 
 /// heading() of a unit quaternion in half the operations.

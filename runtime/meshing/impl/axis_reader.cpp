@@ -58,7 +58,7 @@ std::uint32_t fewer_sides(std::uint32_t sides) {
 /// Prefetches both cache lines that the segment may lie in.
 void prefetch(const Segment& segment) {
     __builtin_prefetch(&segment);
-    __builtin_prefetch(&segment.forked);
+    __builtin_prefetch(&segment.sides);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ struct Joint {
     float radius = 0.0F; // of the corners of the ring; 0 only at a pointed end
     glm::vec3 heading{}; // unit, of the edge; last joint: of the edge before
     float length = 0.0F; // of the edge; 0 at the last joint
-    std::uint16_t colour = 0;
+    ItemColour colour = 0;
     std::uint8_t sides = 0;
     std::uint8_t rings = 1; // more where the axis bends by more than 60 degrees
 };

@@ -34,7 +34,7 @@ constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 struct Parts {
     std::vector<MeshBuilder::PartSize> sizes;   // by rising material
     std::vector<std::span<std::uint32_t>> room; // for the indices of each
-    std::map<std::uint16_t, std::size_t> of_colour;
+    std::map<ItemColour, std::size_t> of_colour;
 };
 
 /// Sizes after `steps` subdivision steps: each makes a quad for each corner of a face.

@@ -204,7 +204,7 @@ void CatmullClark::refine() {
         edges_of[child + 2] = 2 * edges + before;
         edges_of[child + 3] = 2 * edges_[before] + (before > twin_before ? 1U : 0U);
         to.face_ends[half] = child + 4;
-        to.colours[half] = mesh_.colours.empty() ? std::uint16_t{0} : mesh_.colours[face_of(half)];
+        to.colours[half] = mesh_.colours.empty() ? std::uint32_t{0} : mesh_.colours[face_of(half)];
         if (!to.segments.empty()) {
             to.segments[half] = mesh_.segments[face_of(half)];
         }

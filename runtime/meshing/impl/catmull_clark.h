@@ -25,7 +25,7 @@ struct PolygonMesh {
     LargeVector<float> radii;             // of the stem at vertices, smoothed too; may be empty
     LargeVector<std::uint32_t> corners;   // of all faces, one after the other
     LargeVector<std::uint32_t> face_ends; // in corners
-    LargeVector<std::uint16_t> colours;   // of faces
+    LargeVector<std::uint32_t> colours;   // of faces
     LargeVector<std::uint32_t> segments;  // of faces; may be empty
 };
 

@@ -219,7 +219,7 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
             vertices += std::exchange(piece.vertices, vertices);
             indices += std::exchange(piece.indices, indices);
         }
-        const auto palette = static_cast<std::uint16_t>(groups.groups[group].key);
+        const auto palette = static_cast<ItemColour>(groups.groups[group].key);
         sizes.push_back(
             {.material = wood_material(palette), .index_count = indices, .word = "wood"});
     }

@@ -3,6 +3,7 @@
 #include "grammar/base/hash.h"
 #include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/impl/raster.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 
 #include <glm/common.hpp>
@@ -304,9 +305,9 @@ void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view)
             const LinearTexture& texture = canvas.textures.of(material);
             glm::vec3 colour(material.colour);
             if (mesh.colours.size() == mesh.positions.size() && material.picture == nullptr) {
-                colour = w.x * palette_colour(mesh.colours[corners[0]]) +
-                         w.y * palette_colour(mesh.colours[corners[1]]) +
-                         w.z * palette_colour(mesh.colours[corners[2]]);
+                colour = w.x * plain_colour(mesh.looks.get(), mesh.colours[corners[0]]) +
+                         w.y * plain_colour(mesh.looks.get(), mesh.colours[corners[1]]) +
+                         w.z * plain_colour(mesh.looks.get(), mesh.colours[corners[2]]);
             }
             if (!texture.texels.empty()) {
                 colour *= glm::vec3(texture.at(coordinates(corners, w)));

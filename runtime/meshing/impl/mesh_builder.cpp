@@ -1,6 +1,7 @@
 #include "runtime/meshing/impl/mesh_builder.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/meshing/looks.h"
 
 #include <fmt/format.h>
 
@@ -52,9 +53,14 @@ bool has_material(const std::vector<Material>& materials, const std::string& nam
                        [&name](const Material& each) { return each.name == name; });
 }
 
+/// "3", or "6699CC" for a colour of its own: some readers of OBJ take `#` for a comment.
+std::string name_of_colour(ItemColour colour) {
+    return is_own(colour) ? fmt::format("{:06X}", colour - kOwnColour) : fmt::format("{}", colour);
+}
+
 } // namespace
 
-MaterialKey wood_material(std::uint16_t palette) {
+MaterialKey wood_material(ItemColour palette) {
     return palette == 0 ? MaterialKey{.kind = MaterialKind::Bark, .textured = true}
                         : MaterialKey{.kind = MaterialKind::Plain, .palette = palette};
 }
@@ -63,21 +69,22 @@ Material make_material(const MaterialKey& key, std::span<const std::string> word
     Material material;
     switch (key.kind) {
     case MaterialKind::Bark:
-        material.name = key.palette == 0 ? "bark" : fmt::format("bark {}", key.palette);
+        material.name =
+            key.palette == 0 ? "bark" : fmt::format("bark {}", name_of_colour(key.palette));
         break;
     case MaterialKind::Leaf:
         material.name = key.textured ? "leaf" : "polygon";
         if (key.palette != 1) {
-            material.name += fmt::format(" {}", key.palette);
+            material.name += fmt::format(" {}", name_of_colour(key.palette));
         }
         break;
     case MaterialKind::Flower:
-        material.name = fmt::format("flower {}", key.palette);
+        material.name = fmt::format("flower {}", name_of_colour(key.palette));
         break;
     case MaterialKind::Plain:
         material.name = words.empty() ? "colour" : fmt::format("{}", fmt::join(words, " and "));
         if (words.empty() || key.palette != kGreyPalette) {
-            material.name += fmt::format(" {}", key.palette);
+            material.name += fmt::format(" {}", name_of_colour(key.palette));
         }
         break;
     }
@@ -114,6 +121,7 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
     use_or_clear(mesh.segments, options.segments);
     mesh.parts.clear();
     mesh.materials.clear();
+    mesh.looks = nullptr;
 }
 
 /// Checks the limits and counts the bytes of triangles; sets stop_ and returns false if they do not
@@ -126,11 +134,10 @@ bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
         stop_ = Stop::Failed;
         return false;
     }
-    const std::uint64_t bytes_of_vertex = 2 * sizeof(glm::vec3) +
-                                          (options_.texture_coordinates ? sizeof(glm::vec2) : 0) +
-                                          (options_.tangents ? sizeof(glm::vec4) : 0) +
-                                          (options_.colours ? sizeof(std::uint16_t) : 0) +
-                                          (options_.segments ? sizeof(VertexSegments) : 0);
+    const std::uint64_t bytes_of_vertex =
+        2 * sizeof(glm::vec3) + (options_.texture_coordinates ? sizeof(glm::vec2) : 0) +
+        (options_.tangents ? sizeof(glm::vec4) : 0) + (options_.colours ? sizeof(ItemColour) : 0) +
+        (options_.segments ? sizeof(VertexSegments) : 0);
     const std::uint64_t limit = options_.max_bytes;
     const std::uint64_t vertex_bytes = (vertices_ + vertices) * bytes_of_vertex;
     if (vertex_bytes > limit || triangle_bytes_ + triangle_bytes > limit - vertex_bytes) {
@@ -273,6 +280,7 @@ std::optional<Stop> MeshBuilder::finish() {
             material.relief = pictures.relief;
             material.name = pictures.name;
         }
+        apply_look(mesh_.looks.get(), part.material.palette, material);
         const std::string name = material.name;
         for (int number = 2; has_material(mesh_.materials, material.name); ++number) {
             material.name = fmt::format("{}, {}", name, number);

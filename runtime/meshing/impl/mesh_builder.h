@@ -20,7 +20,7 @@ inline constexpr std::uint16_t kGreyPalette = 24;
 /// Identity of a material. Parts of a mesh are sorted by it.
 struct MaterialKey {
     MaterialKind kind = MaterialKind::Plain;
-    std::uint16_t palette = 0;
+    ItemColour palette = 0;
     bool two_sided = false;
     bool cut_out = false;
     bool textured = false;
@@ -39,9 +39,8 @@ struct FilePictures {
 };
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
-[[nodiscard]] MaterialKey wood_material(std::uint16_t palette);
-/// `words`: names of the items drawn with it, such as "wood" and "sphere"; they name a plain
-/// material.
+[[nodiscard]] MaterialKey wood_material(ItemColour palette);
+/// `words`: what is drawn with it: "wood", "sphere"; they name a plain material.
 [[nodiscard]] Material make_material(const MaterialKey& key,
                                      std::span<const std::string> words = {});
 
@@ -50,7 +49,7 @@ struct MeshVertex {
     glm::vec3 normal{};
     glm::vec2 texture_coordinate{};
     glm::vec4 tangent{};
-    std::uint16_t palette = 0;
+    ItemColour palette = 0;
     std::uint32_t segment = kNoSegment; // that carries the vertex
 };
 
@@ -62,7 +61,7 @@ struct MeshBlock {
     std::span<glm::vec3> normals;
     std::span<glm::vec2> texture_coordinates;
     std::span<glm::vec4> tangents;
-    std::span<std::uint16_t> colours;
+    std::span<ItemColour> colours;
     std::span<VertexSegments> segments;
     std::span<std::uint32_t> indices;
 
@@ -91,6 +90,8 @@ public:
     [[nodiscard]] const MeshOptions& options() const { return options_; }
     /// Sets the pictures of files, by MaterialKey::picture.
     void set_pictures(std::vector<FilePictures> pictures) { pictures_ = std::move(pictures); }
+    /// Sets the looks of colour indexes; null: none.
+    void set_looks(std::shared_ptr<const Looks> looks) { mesh_.looks = std::move(looks); }
     /// Nothing until a limit is exceeded; else the Stop that make_mesh() returns.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }

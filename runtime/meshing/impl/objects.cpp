@@ -21,6 +21,9 @@ namespace {
 
 constexpr std::uint64_t kVerticesPerPiece = 1U << 15;
 
+constexpr unsigned kColourBits = 25;
+static_assert(kTurtleOperationCount < 1U << 7); // the bits of a kind
+
 /// Kind, file and colour in one number, in the order of parts.
 std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
     if (object.size == 0.0F ||
@@ -28,7 +31,8 @@ std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
         return kNoGroup;
     }
     const std::uint64_t file = object.kind == TurtleOperation::MeshFile ? object.mesh_file : 0;
-    return std::uint64_t{static_cast<std::uint8_t>(object.kind)} << 48 | file << 16 | object.colour;
+    return std::uint64_t{static_cast<std::uint8_t>(object.kind)} << 57 | file << kColourBits |
+           object.colour;
 }
 
 bool shows_pictures(const UserMesh& mesh) {
@@ -40,7 +44,7 @@ struct Instances {
     const Skeleton& skeleton;
     std::span<const std::uint32_t> items; // objects
     const ShapePart& part;
-    std::uint16_t palette;
+    ItemColour palette;
     float droop;
     MeshBlock block;
 
@@ -184,8 +188,8 @@ void append_objects(const Skeleton& skeleton,
     for (const Group& group : groups.groups) {
         const std::span<const std::uint32_t> items =
             std::span(groups.items).subspan(group.first, group.count);
-        if (group.key >> 16 != shape_key) {
-            shape_key = group.key >> 16;
+        if (group.key >> kColourBits != shape_key) {
+            shape_key = group.key >> kColourBits;
             const PlacedObject& object = skeleton.objects[items.front()];
             shape = object.kind == TurtleOperation::MeshFile
                         ? make_shape(user_meshes[object.mesh_file])
@@ -199,7 +203,7 @@ void append_objects(const Skeleton& skeleton,
                 }
             }
         }
-        const auto colour = static_cast<std::uint16_t>(group.key & 0xFFFFu);
+        const auto colour = static_cast<ItemColour>(group.key & ((1U << kColourBits) - 1U));
         for (const ShapePart& part : shape.parts) {
             if (part.positions.empty()) {
                 continue;

@@ -3,6 +3,7 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/groups.h"
 #include "runtime/meshing/impl/triangulate.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 
 #include <glm/geometric.hpp>
@@ -136,7 +137,7 @@ void triangulate(const Job& job, Piece& piece) {
 
 void write_vertices(const Skeleton& skeleton,
                     const Polygon& polygon,
-                    std::uint16_t palette,
+                    ItemColour palette,
                     std::uint64_t first_vertex,
                     const MeshBlock& block,
                     std::vector<glm::dvec2>& flat) {
@@ -164,7 +165,7 @@ void write_vertices(const Skeleton& skeleton,
     }
 }
 
-void write(const Job& job, const Piece& piece, std::uint16_t palette, const MeshBlock& block) {
+void write(const Job& job, const Piece& piece, ItemColour palette, const MeshBlock& block) {
     std::uint64_t vertex = piece.first_vertex;
     std::uint64_t index = piece.first_index;
     std::size_t read = 0;
@@ -183,13 +184,16 @@ void write(const Job& job, const Piece& piece, std::uint16_t palette, const Mesh
     }
 }
 
-constexpr unsigned kPictureShift = 16;
+constexpr unsigned kPictureShift = 32;
 
-/// Key of the part of a polygon; parts are sorted by it. Upper bits: index of the picture + 1, 0 for
-/// none. Lower 16 bits: colour, leaf green for a polygon with a picture.
-std::uint64_t key_of(const Polygon& polygon, const std::vector<UserMesh>& user_meshes) {
+/// Number of the picture, from 1, and the colour, in the order of parts.
+std::uint64_t
+key_of(const Polygon& polygon, const std::vector<UserMesh>& user_meshes, const Looks* looks) {
     if (polygon.picture < user_meshes.size() && user_meshes[polygon.picture].picture != nullptr) {
-        return std::uint64_t{polygon.picture + 1U} << kPictureShift | 1U; // leaf green
+        // Without a `#material` the colour is that of the picture.
+        const bool has_look = looks != nullptr && looks->find(polygon.colour) != nullptr;
+        return std::uint64_t{polygon.picture + 1U} << kPictureShift |
+               (has_look ? std::max(polygon.colour, 1U) : 1U); // leaf green
     }
     return std::max<std::uint64_t>(polygon.colour, 1); // 0 means leaf green
 }
@@ -215,7 +219,7 @@ void append_polygons(const Skeleton& skeleton,
                      const MeshOptions& options,
                      MeshBuilder& builder) {
     const Groups groups = group_items(skeleton.polygons.size(), [&](std::uint64_t i) {
-        return key_of(skeleton.polygons[i], user_meshes);
+        return key_of(skeleton.polygons[i], user_meshes, skeleton.looks.get());
     });
     const Job job{.skeleton = skeleton, .items = groups.items};
     Workers workers(options.threads);
@@ -230,7 +234,7 @@ void append_polygons(const Skeleton& skeleton,
             vertices += piece.vertex_count;
             indices += piece.triangles.size();
         }
-        const auto palette = static_cast<std::uint16_t>(group.key);
+        const auto palette = static_cast<ItemColour>(group.key & 0xFFFFFFFFU);
         const auto picture = static_cast<std::uint16_t>(group.key >> kPictureShift);
         const MaterialKey material{.kind = palette == 1 ? MaterialKind::Leaf : MaterialKind::Plain,
                                    .palette = palette,

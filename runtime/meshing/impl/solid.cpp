@@ -194,7 +194,7 @@ std::optional<Stop> append_solid(const Skeleton& skeleton,
     constexpr std::uint32_t kUnused = ~0U;
     std::vector<std::uint32_t> number(surface->vertices.size(), kUnused);
     std::uint32_t vertices = 0;
-    std::map<std::uint16_t, std::uint64_t> indices_of_palette;
+    std::map<ItemColour, std::uint64_t> indices_of_palette;
     const auto palette_of = [&](const std::array<std::uint32_t, 3>& triangle) {
         return solid.shapes[surface->vertices[triangle[0]].shape].palette;
     };
@@ -207,7 +207,7 @@ std::optional<Stop> append_solid(const Skeleton& skeleton,
         }
     }
     std::vector<MeshBuilder::PartSize> parts;
-    std::map<std::uint16_t, std::size_t> part_of_palette;
+    std::map<ItemColour, std::size_t> part_of_palette;
     for (const auto& [palette, count] : indices_of_palette) {
         part_of_palette[palette] = parts.size();
         parts.push_back(

@@ -20,7 +20,7 @@ struct SolidShape {
     double base_radius = 0.0;
     double tip_radius = 0.0;
     bool is_triangle = false;
-    std::uint16_t palette = 0;
+    ItemColour palette = 0;
     std::uint32_t segment = kNoSegment; // that carries the shape
     // Members of a cone:
     glm::dvec3 axis{};       // unit length

@@ -79,7 +79,7 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
 }
 
 void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
-    using Key = std::tuple<bool, std::uint8_t, std::uint32_t, std::uint16_t>;
+    using Key = std::tuple<bool, std::uint8_t, std::uint32_t, ItemColour>;
     std::map<Key, std::uint32_t> numbers;
     const std::size_t objects = skeleton.objects.size();
     const std::size_t count = objects + skeleton.polygons.size();
@@ -334,6 +334,7 @@ void thin_skeleton(const Skeleton& skeleton,
     thin = {};
     segments.clear();
     thin.mesh_files = skeleton.mesh_files;
+    thin.looks = skeleton.looks;
     thin.leaf_droop = skeleton.leaf_droop;
     std::vector<std::uint32_t> places;
     thin_wood(skeleton, order, thinning, places, thin, segments);

@@ -5,6 +5,7 @@
 #include "runtime/meshing/impl/axis_reader.h"
 #include "runtime/meshing/triangle_list.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,7 +13,23 @@
 namespace lsys {
 
 /// Index of each colour in Axes::colours.
-using ColourSlots = std::vector<std::uint32_t>;
+class ColourSlots {
+public:
+    /// `colours`: rising.
+    explicit ColourSlots(std::span<const ItemColour> colours) : colours_(colours) {}
+
+    /// Precondition: one of the colours.
+    std::uint32_t operator[](ItemColour colour) const {
+        if (colours_.size() == 1) {
+            return 0;
+        }
+        const auto place = std::lower_bound(colours_.begin(), colours_.end(), colour);
+        return static_cast<std::uint32_t>(place - colours_.begin());
+    }
+
+private:
+    std::span<const ItemColour> colours_;
+};
 
 class TubeTriangles {
 public:

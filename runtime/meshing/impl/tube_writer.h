@@ -59,7 +59,7 @@ private:
         glm::vec3 wide_binormal{};
         double arc = 0.0;
         std::uint32_t sides = 0;
-        std::uint16_t colour = 0;
+        ItemColour colour = 0;
     };
 
     void advance(const Run& run, std::size_t end);

@@ -266,10 +266,9 @@ private:
 void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
     Workers workers(options.threads);
     const Axes axes = find_axes(skeleton, workers);
-    ColourSlots slots(axes.colours.empty() ? 0 : axes.colours.back() + std::size_t{1});
+    const ColourSlots slots(axes.colours);
     std::vector<MeshBuilder::WholePart> parts;
-    for (const std::uint16_t colour : axes.colours) {
-        slots[colour] = static_cast<std::uint32_t>(parts.size());
+    for (const ItemColour colour : axes.colours) {
         parts.push_back({.material = wood_material(colour), .triangles = {}, .word = "wood"});
     }
     std::vector<Piece> pieces = make_pieces(skeleton.segments.size(), parts.size());

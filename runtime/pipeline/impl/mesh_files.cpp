@@ -290,16 +290,104 @@ private:
     std::vector<MaterialLibrary> libraries_;
 };
 
+/// The warning or, if a limit of memory is reached, the error that a picture of a material is
+/// missing.
+Diagnostic
+picture_diagnostic(const Error& error, const BytecodePicture& picture, const Grammar& grammar) {
+    const bool is_limit = error.kind == ErrorKind::Limit;
+    Diagnostic diagnostic =
+        make_diagnostic(is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::MaterialPicture,
+                        {}, error.message);
+    if (picture.site != kNone) {
+        const Site& site = grammar.bytecode.sites[picture.site];
+        if (grammar.is_module_file) {
+            diagnostic.notes.push_back(fmt::format(
+                "at {}:{}:{}", grammar.bytecode.files[static_cast<std::size_t>(site.span.file)],
+                site.line, site.column));
+        } else {
+            diagnostic.span = site.span;
+        }
+    }
+    diagnostic.help.emplace_back(is_limit ? "raise the limit with `--max-memory`"
+                                          : "the path is relative to the file that holds the "
+                                            "`#material`; PNG and JPEG files are read");
+    return diagnostic;
+}
+
+/// Reads the pictures of `#material`. A missing one is left out with a warning.
+std::optional<Stop> read_looks(const std::filesystem::path& folder,
+                               const Grammar& grammar,
+                               FileBudget& budget,
+                               Step& step,
+                               std::shared_ptr<const Looks>& looks) {
+    if (grammar.bytecode.materials.empty()) {
+        return std::nullopt;
+    }
+    std::optional<Stop> stop;
+    const auto load = [&](const BytecodePicture& name) -> std::shared_ptr<const Texture> {
+        if (name.path.empty() || stop) {
+            return nullptr;
+        }
+        const std::string path = (folder / name.path).string();
+        std::shared_ptr<const Texture>& picture = budget.pictures[path];
+        if (picture == nullptr) {
+            Result<Texture> read = read_picture_file(path, budget.left, step.project());
+            if (!read) {
+                const bool may_go_on =
+                    step.diagnose(picture_diagnostic(read.error(), name, grammar), grammar.sources);
+                if (read.error().kind == ErrorKind::Limit) {
+                    stop = Stop::Limit;
+                } else if (!may_go_on) {
+                    stop = Stop::Diagnosed;
+                }
+                return nullptr;
+            }
+            budget.take(read.value().texels.size());
+            picture = std::make_shared<const Texture>(std::move(read.value()));
+        }
+        return picture;
+    };
+    auto all = std::make_shared<Looks>();
+    for (const BytecodeMaterial& material : grammar.bytecode.materials) {
+        Look look;
+        if (material.has_colour) {
+            look.colour = {linear_of_srgb(material.colour[0]), linear_of_srgb(material.colour[1]),
+                           linear_of_srgb(material.colour[2])};
+        }
+        look.picture = load(material.picture);
+        look.relief = load(material.normal);
+        if (stop) {
+            return stop;
+        }
+        if (material.has_roughness) {
+            look.roughness = material.roughness;
+        }
+        if (material.has_translucency) {
+            look.translucency = material.translucency;
+        }
+        if (material.has_sides) {
+            look.two_sided = material.two_sided;
+        }
+        add_look(material.index, std::move(look), *all);
+    }
+    looks = std::move(all);
+    return std::nullopt;
+}
+
 } // namespace
 
 Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
-                                   const Bytecode& bytecode,
+                                   const Grammar& grammar,
                                    const Project& project,
                                    FileBudget& budget) {
     Step step(project);
     MeshFiles files;
     bool ok = true;
+    const Bytecode& bytecode = grammar.bytecode;
     const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
+    if (const std::optional<Stop> stop = read_looks(folder, grammar, budget, step, files.looks)) {
+        return step.end(*stop);
+    }
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
         const bool is_of_polygons =

@@ -1,12 +1,15 @@
-// The mesh files of `#object`, with the pictures that their material files name.
+// The mesh files of `#object`, with the pictures that their material files name, and the pictures of
+// `#material`.
 #pragma once
 
-#include "compiler/bytecode/bytecode.h"
 #include "grammar/base/outcome.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/file_budget.h"
 #include "runtime/pipeline/project.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,13 +17,14 @@ namespace lsys {
 
 struct MeshFiles {
     std::vector<UserMesh> meshes; // in the order of the MeshFile symbols
-    std::vector<float> lengths;   // extent along +Y, by symbol; empty if there are no meshes
+    std::vector<float> lengths;   // along +Y, by index of the symbol; empty if there are no meshes
+    std::shared_ptr<const Looks> looks; // of `#material`; null without any
 };
 
-/// Reads the mesh files, whose paths are relative to `grammar_file` or absolute. A picture that is
+/// Reads the mesh files and the pictures of materials, whose paths are relative to `grammar_file` or absolute. A picture that is
 /// missing or cannot be shown is left out with a warning at its place. `budget` counts the memory.
 [[nodiscard]] Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
-                                                 const Bytecode& bytecode,
+                                                 const Grammar& grammar,
                                                  const Project& project,
                                                  FileBudget& budget);
 

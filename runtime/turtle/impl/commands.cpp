@@ -139,6 +139,7 @@ TurtlePlace Turtle::State::current_place() const {
     place.second_heading = static_cast<float>(now.second_heading);
     place.sides = now.sides;
     place.colour = now.colour;
+    place.colour_index = now.colour_index;
     place.order = order();
     return place;
 }
@@ -231,7 +232,25 @@ void Turtle::State::set_colour(double index) {
     if (fitting != std::round(index)) {
         note(TurtleFaultKind::ColourOutOfRange);
     }
-    now.colour = static_cast<std::uint16_t>(fitting);
+    now.colour_index = static_cast<std::uint16_t>(fitting);
+    now.colour = now.colour_index;
+}
+
+/// A colour without an index: red, green and blue in sRGB, 0 to 1.
+void Turtle::State::set_rgb(const float* parts) {
+    constexpr double kMaxByte = 255.0;
+    ItemColour colour = 0;
+    bool fits = true;
+    for (int i = 0; i < 3; ++i) {
+        const auto part = static_cast<double>(parts[i]);
+        const double fitting = std::clamp(part, 0.0, 1.0);
+        fits = fits && fitting == part;
+        colour = colour << 8 | static_cast<ItemColour>(std::round(fitting * kMaxByte));
+    }
+    if (!fits) {
+        note(TurtleFaultKind::RgbOutOfRange);
+    }
+    now.colour = kOwnColour + colour;
 }
 
 void Turtle::State::scale_angle(float factor) {
@@ -375,7 +394,10 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         scale_angle(1.0F / argument(settings.angle_scale));
         return true;
     case TurtleOperation::SetColour:
-        set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour + 1.0);
+        set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour_index + 1.0);
+        return true;
+    case TurtleOperation::SetRgb:
+        set_rgb(arguments);
         return true;
     case TurtleOperation::Save:
         return save();

@@ -77,8 +77,9 @@ bool Turtle::State::secondary_forward(const Action& action, const float* argumen
 
 /// Adds to the index of the colour, modulo kColours; skips 0, the background.
 void Turtle::State::add_colour(float number, double sign) {
-    double colour = std::fmod(
-        static_cast<double>(now.colour) + sign * std::trunc(static_cast<double>(number)), kColours);
+    double colour = std::fmod(static_cast<double>(now.colour_index) +
+                                  sign * std::trunc(static_cast<double>(number)),
+                              kColours);
     colour += colour < 0.0 ? kColours : 0.0;
     if (colour == 0.0) {
         colour = sign > 0.0 ? 1.0 : kColours - 1.0;

@@ -41,8 +41,9 @@ struct Brush {
     float angle = 0.0F;                 // degrees
     HalfAngle turn;                     // half of `angle`
     double second_heading = 0.0;        // degrees from the first heading to the left
-    std::uint32_t segment = kNoSegment; // the last segment of the current path
-    std::uint16_t colour = 0;
+    std::uint32_t segment = kNoSegment; // the last one drawn on the path
+    ItemColour colour = 0;
+    std::uint16_t colour_index = 0; // the last one
     std::uint8_t sides = 0;
     bool moved = false; // whether the turtle has moved since `segment` was drawn
 };
@@ -69,6 +70,7 @@ struct Turtle::State {
         : bytecode(program), options(std::move(wanted)), table(make_actions(program, options)) {
         const Settings& settings = bytecode.settings;
         skeleton.mesh_files = table.mesh_files;
+        skeleton.looks = options.looks;
         interprets = program.has(Stage::Interpret);
         traits = settings.traits;
         has_tropism = settings.has_tropism;
@@ -90,6 +92,7 @@ struct Turtle::State {
         now.turn = half_angle(static_cast<double>(settings.angle));
         now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
         now.colour = traits.first_colour;
+        now.colour_index = traits.first_colour;
         if (traits.first_turn != 0.0F) {
             yaw(now.pose, half_angle(static_cast<double>(traits.first_turn)));
         }
@@ -144,6 +147,7 @@ struct Turtle::State {
     void set_width(float width);
     void set_sides(float sides);
     void set_colour(double index);
+    void set_rgb(const float* parts);
     void scale_angle(float factor);
     void turn_left(double degrees);
     void half_turn_snapped();

@@ -96,9 +96,10 @@ TEST_CASE("whatever is wrong with a saved state is said") {
     CHECK(message(with_byte(8, kStateFileVersion + 1)) ==
           "the saved state was made by a newer lsc (its format is version 3, this one reads 2)");
     CHECK(message(with_byte(12, 4)) == "the saved state was made by an older lsc (its bytecode is "
-                                       "version 4, this one reads 9): derive it again");
-    CHECK(message(with_byte(12, kModuleFileVersion + 1)) ==
-          "the saved state was made by a newer lsc (its bytecode is version 10, this one reads 9)");
+                                       "version 4, this one reads 10): derive it again");
+    CHECK(
+        message(with_byte(12, kModuleFileVersion + 1)) ==
+        "the saved state was made by a newer lsc (its bytecode is version 11, this one reads 10)");
 
     BytecodeBuilder other = plant_builder();
     other.production("s : f : * : f f");

@@ -116,7 +116,7 @@ TEST_CASE("objects have a part for each material and colour") {
     CHECK(mesh.parts[1].index_count == leaf);
     for (const MeshPart& part : mesh.parts) {
         for (std::uint64_t i = 0; i < part.index_count; ++i) {
-            const std::uint16_t palette = mesh.colours[mesh.indices[part.first_index + i]];
+            const ItemColour palette = mesh.colours[mesh.indices[part.first_index + i]];
             REQUIRE(glm::vec3(mesh.materials[part.material].colour) == palette_colour(palette));
         }
     }

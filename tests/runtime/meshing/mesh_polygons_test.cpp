@@ -306,7 +306,7 @@ TEST_CASE("polygons have a part for each colour and do not depend on threads") {
         CHECK_FALSE(material.cut_out);
     }
     std::size_t corners = 0;
-    for (const std::uint16_t colour : one.colours) {
+    for (const ItemColour colour : one.colours) {
         corners += colour == 1 ? 1U : 0U;
     }
     CHECK(corners > one.colours.size() / 3);

@@ -44,6 +44,9 @@ void give_operations(Bytecode& bytecode) {
                 symbol.turtle = operation;
             }
         }
+        if (symbol.turtle == SetColour && symbol.parameter_count == 3) {
+            symbol.turtle = SetRgb;
+        }
     }
 }
 
@@ -70,6 +73,27 @@ Drawing draw(const std::string& word) {
 }
 
 } // namespace
+
+TEST_CASE("a colour of its own leaves the index as it was") {
+    const Drawing drawing = draw("'(3)F['(0.2,0.4,1)F'F]'(0,0,0)[F]F'F");
+    CHECK(drawing.status == std::nullopt);
+    const LargeVector<Segment>& segments = drawing.skeleton.segments;
+    REQUIRE(segments.size() == 6);
+    CHECK(segments[0].colour == 3);
+    CHECK(segments[1].colour == kOwnColour + 0x3366FF);
+    CHECK(segments[2].colour == 4);
+    CHECK(segments[3].colour == kOwnColour);
+    CHECK(segments[4].colour == kOwnColour);
+    CHECK(segments[5].colour == 4);
+    CHECK(text_of(segments[1].colour) == "#3366FF");
+    CHECK(drawing.fault(TurtleFaultKind::RgbOutOfRange).count == 0);
+}
+
+TEST_CASE("parts of a colour are clamped to 0 and 1") {
+    const Drawing drawing = draw("'(1.5,-2,0.5)F");
+    CHECK(drawing.skeleton.segments[0].colour == kOwnColour + 0xFF0080);
+    CHECK(drawing.fault(TurtleFaultKind::RgbOutOfRange).count == 1);
+}
 
 TEST_CASE("ten million rotations leave the frame orthonormal and exact") {
     // Each repetition of the word restores the frame, so the last F has the direction of the first.

@@ -47,6 +47,7 @@ static_assert(sizeof(MaterialRecord) == 16);
 constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
 constexpr std::uint32_t kTranslucent = 2;
 constexpr std::uint32_t kBumpy = 4;
+constexpr unsigned kTranslucencyShift = 8;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -104,12 +105,13 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
         MaterialRecord record;
         record.colour = glm::vec3(material.colour);
         // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
-        const bool is_translucent = material.two_sided || material.kind == MaterialKind::Leaf ||
-                                    material.kind == MaterialKind::Flower;
+        const bool is_thin = material.two_sided || material.kind == MaterialKind::Leaf ||
+                             material.kind == MaterialKind::Flower;
+        const auto translucency = static_cast<std::uint32_t>(translucency_step(material, is_thin));
         const bool is_bumpy = material.relief != nullptr ||
                               (material.textured && material.kind == MaterialKind::Bark);
-        record.kind = (material.textured ? kTextured : 0) | (is_translucent ? kTranslucent : 0) |
-                      (is_bumpy ? kBumpy : 0);
+        record.kind = (material.textured ? kTextured : 0) | (translucency > 0 ? kTranslucent : 0) |
+                      (is_bumpy ? kBumpy : 0) | translucency << kTranslucencyShift;
         const auto same =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;

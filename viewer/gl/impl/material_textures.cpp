@@ -100,6 +100,11 @@ upload(Device& device, Texture texture, GLenum format, bool cut_out, bool repeat
 
 } // namespace
 
+int translucency_step(const Material& material, bool is_thin) {
+    const float part = material.translucency.value_or(is_thin ? 0.5F : 0.0F);
+    return static_cast<int>(std::lround(part * 256.0F));
+}
+
 GLuint MaterialTextures::base(MaterialKind kind) {
     TextureObject& object = bases_[static_cast<std::size_t>(kind)];
     if (!object) {

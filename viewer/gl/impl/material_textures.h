@@ -8,6 +8,10 @@
 
 namespace lsys::view {
 
+/// Part of the light from behind that passes through, in 1/256. `is_thin`: the half passes where the
+/// material does not say.
+[[nodiscard]] int translucency_step(const Material& material, bool is_thin);
+
 class MaterialTextures {
 public:
     explicit MaterialTextures(Device& device) : device_(&device) {}

@@ -79,15 +79,16 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
         const TextureObject& relief = reliefs_[part.material];
         const bool bumpy = relief || (material.textured && material.kind == MaterialKind::Bark);
         const TextureObject& picture = pictures_[part.material];
-        const bool is_translucent = material.kind == MaterialKind::Leaf ||
-                                    material.kind == MaterialKind::Flower ||
-                                    (picture && material.two_sided);
+        const bool is_thin = material.kind == MaterialKind::Leaf ||
+                             material.kind == MaterialKind::Flower ||
+                             (picture && material.two_sided);
+        const int translucency = translucency_step(material, is_thin);
         if (shaded) {
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
                         material.colour.a);
         }
         glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
-                    is_translucent ? 1 : 0);
+                    translucency);
         if (material.textured) {
             glBindTextureUnit(kBaseTexture,
                               picture ? picture.name() : textures.base(material.kind));

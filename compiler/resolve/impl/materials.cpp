@@ -1,0 +1,272 @@
+#include "compiler/resolve/impl/materials.h"
+
+#include "compiler/resolve/impl/definitions.h"
+#include "grammar/base/counted_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace lsys {
+
+struct MaterialKey {
+    enum class Kind : std::uint8_t { Colour, Picture, Normal, Roughness, Translucency, TwoSided };
+    std::string_view name;
+    Kind kind;
+    std::uint32_t count; // of values
+    const char* wanted;  // text after "takes "
+};
+
+namespace {
+
+using KeyKind = MaterialKey::Kind;
+constexpr auto kMaxIndex = static_cast<float>(kMaxColourIndex);
+
+/// The keys, in the order in which messages list them. `color` is `colour`.
+constexpr std::array<MaterialKey, 7> kKeys{{
+    {"colour", KeyKind::Colour, 3, "three numbers from 0 to 1: red, green and blue"},
+    {"picture", KeyKind::Picture, 1, "a file name in quotes"},
+    {"normal", KeyKind::Normal, 1, "a file name in quotes"},
+    {"roughness", KeyKind::Roughness, 1, "a number from 0 to 1"},
+    {"translucency", KeyKind::Translucency, 1, "a number from 0 to 1"},
+    {"two_sided", KeyKind::TwoSided, 1, "0 or 1"},
+    {"color", KeyKind::Colour, 3, "three numbers from 0 to 1: red, green and blue"},
+}};
+
+constexpr std::size_t kListedKeys = 6; // without `color`
+
+} // namespace
+
+void MaterialResolver::material(const MaterialNode& node, SourceSpan statement) {
+    expressions_.begin_statement();
+    const auto is_number = [&](const SetValue& value) { return !value.is_word && !value.is_file; };
+    if (node.values.count == 0 || !is_number(resolution_.ast.set_values[node.values.first])) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial,
+            node.values.count == 0 ? statement : resolution_.ast.set_values[node.values.first].span,
+            "`#material` begins with the index of a colour");
+        error.help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`; a constant stands "
+                                "in parentheses: `#material (bark) ...`");
+        return;
+    }
+    const SetValue first_value = resolution_.ast.set_values[node.values.first];
+    const std::optional<std::uint32_t> index = read_index(first_value);
+    ProgramMaterial material;
+    material.index = index.value_or(0);
+    material.span = first_value.span;
+    read_entries(node, material);
+    if (!index) {
+        return;
+    }
+    const auto [first, is_new] = first_.try_emplace(*index, first_value.span);
+    if (!is_new) {
+        report_duplicate(resolution_, first_value.span, first->second,
+                         fmt::format("material of index {}", *index));
+        return;
+    }
+    resolution_.program.materials.push_back(std::move(material));
+}
+
+std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value) {
+    const std::optional<float> number =
+        expressions_.constant_value(expressions_.resolve(value.value, ExpressionPlace::Material));
+    if (!number || std::isnan(*number)) {
+        return std::nullopt; // reported
+    }
+    if (!(*number >= 0.0F && *number <= kMaxIndex) || *number != std::floor(*number)) {
+        resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, value.span,
+            fmt::format("the index of a colour is a whole number from 0 to 65,535, not {}",
+                        number_text(*number)));
+        return std::nullopt;
+    }
+    return static_cast<std::uint32_t>(*number);
+}
+
+void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& material) {
+    std::vector<Entry> entries;
+    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile: not met
+    bool ok = true;
+    bool is_skipping = false; // values of a key in error
+    for (std::uint32_t i = 1; i < node.values.count; ++i) {
+        const SetValue value = resolution_.ast.set_values[node.values.first + i];
+        if (!value.is_word) {
+            if (entries.empty() && !is_skipping) {
+                resolution_.diagnostics
+                    .add(DiagnosticCode::BadMaterial, value.span,
+                         "a key stands behind the index, not a value")
+                    .help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
+                return;
+            }
+            if (!is_skipping) {
+                ++entries.back().values.count;
+            }
+            continue;
+        }
+        const std::string_view name = resolution_.text(value.word);
+        const MaterialKey* key = nullptr;
+        for (const MaterialKey& each : kKeys) {
+            key = each.name == name ? &each : key;
+        }
+        is_skipping = key == nullptr;
+        if (key == nullptr) {
+            report_unknown_key(value, entries.empty() ? Entry{} : entries.back());
+            ok = false;
+            if (!entries.empty() && entries.back().values.count < entries.back().key->count) {
+                entries.pop_back(); // the word stands for its value
+            }
+            continue;
+        }
+        SourceSpan& first = first_of[static_cast<std::size_t>(key->kind)];
+        if (first.file != kNoFile) {
+            report_duplicate(resolution_, value.span, first,
+                             fmt::format("`{}` of one material", name));
+            is_skipping = true;
+            continue;
+        }
+        first = value.span;
+        entries.push_back({key, value.span, {node.values.first + i + 1, 0}});
+    }
+    if (entries.empty() && ok && node.values.count == 1) {
+        Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::BadMaterial, material.span,
+                                                        "a material without any key");
+        error.help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
+    }
+    for (const Entry& entry : entries) {
+        read_entry(entry, material);
+    }
+}
+
+void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& before) {
+    const std::string_view name = resolution_.text(word.word);
+    const bool lacks_value = before.key != nullptr && before.values.count < before.key->count;
+    if (lacks_value && expressions_.is_constant(word.word)) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, word.span,
+            fmt::format("a constant stands in parentheses here: `({})`", name));
+        add_fix(error, fmt::format("write `({})`", name), word.span, fmt::format("({})", name),
+                true);
+        return;
+    }
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::UnknownKey, word.span, fmt::format("a material has no key `{}`", name));
+    std::vector<std::string_view> keys;
+    for (const MaterialKey& key : kKeys) {
+        keys.push_back(key.name);
+    }
+    const std::string nearest = suggestions_.nearest(name, keys);
+    if (!nearest.empty()) {
+        suggest(error, word.span, nearest);
+        return;
+    }
+    keys.resize(kListedKeys);
+    error.help.push_back(fmt::format("the keys are `{}`", fmt::join(keys, "`, `")));
+}
+
+void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material) {
+    const MaterialKey& key = *entry.key;
+    if (entry.values.count != key.count) {
+        resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, entry.span,
+            entry.values.count == 0 ? fmt::format("`{}` takes {}", key.name, key.wanted)
+                                    : fmt::format("`{}` takes {}; {} stand{} here", key.name,
+                                                  key.wanted, counted(entry.values.count, "value"),
+                                                  entry.values.count == 1 ? "s" : ""));
+        return;
+    }
+    const SetValue first = resolution_.ast.set_values[entry.values.first];
+    switch (key.kind) {
+    case KeyKind::Colour: {
+        std::array<float, 3> colour{};
+        for (std::uint32_t i = 0; i < colour.size(); ++i) {
+            const std::optional<float> part =
+                number_of(entry, resolution_.ast.set_values[entry.values.first + i]);
+            if (!part) {
+                return; // reported
+            }
+            colour[i] = *part;
+        }
+        material.colour = colour;
+        return;
+    }
+    case KeyKind::Picture:
+        read_picture(entry, material.picture);
+        return;
+    case KeyKind::Normal:
+        read_picture(entry, material.normal);
+        return;
+    case KeyKind::Roughness:
+        material.roughness = number_of(entry, first);
+        return;
+    case KeyKind::Translucency:
+        material.translucency = number_of(entry, first);
+        return;
+    case KeyKind::TwoSided:
+        if (const std::optional<float> number = number_of(entry, first)) {
+            material.two_sided = *number != 0.0F;
+        }
+        return;
+    }
+}
+
+/// A number from 0 to 1; of `two_sided` one of the two.
+std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetValue& value) {
+    const MaterialKey& key = *entry.key;
+    if (value.is_file) {
+        resolution_.diagnostics.add(DiagnosticCode::BadMaterial, value.span,
+                                    fmt::format("`{}` takes {}", key.name, key.wanted));
+        return std::nullopt;
+    }
+    const std::optional<float> number =
+        expressions_.constant_value(expressions_.resolve(value.value, ExpressionPlace::Material));
+    if (!number || std::isnan(*number)) {
+        return std::nullopt; // reported
+    }
+    const bool is_switch = key.kind == KeyKind::TwoSided;
+    if (!(*number >= 0.0F && *number <= 1.0F) ||
+        (is_switch && *number != 0.0F && *number != 1.0F)) {
+        Diagnostic& error = resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, value.span,
+            fmt::format("`{}` takes {}, not {}", key.name, key.wanted, number_text(*number)));
+        error.labels.push_back({entry.span, "the key"});
+        if (key.kind == KeyKind::Colour && *number >= 2.0F && *number <= 255.0F) {
+            error.help.push_back(
+                fmt::format("of colours from 0 to 255 write `({} / 255)`", number_text(*number)));
+        }
+        return std::nullopt;
+    }
+    return number;
+}
+
+void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& picture) {
+    const SetValue file = resolution_.ast.set_values[entry.values.first];
+    if (!file.is_file || resolution_.text(file.word).empty()) {
+        resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, file.span,
+            file.is_file ? "a file without a name"
+                         : fmt::format("`{}` takes {}", entry.key->name, entry.key->wanted));
+        return;
+    }
+    picture = {path_of(file), file.span};
+}
+
+/// The path of the file relative to the root file, as written in another one.
+std::string MaterialResolver::path_of(const SetValue& file) const {
+    const std::string name(resolution_.text(file.word));
+    const FileId root = resolution_.ast.files[0].file;
+    const auto folder_of = [&](FileId id) {
+        const std::string& path = resolution_.sources.file(id).path();
+        return path.substr(0, path.rfind('/') + 1);
+    };
+    if (name.starts_with('/') || file.span.file == root) {
+        return name;
+    }
+    const std::string folder = folder_of(file.span.file);
+    const std::string root_folder = folder_of(root);
+    return folder.starts_with(root_folder) ? folder.substr(root_folder.size()) + name
+                                           : folder + name;
+}
+
+} // namespace lsys

@@ -1,0 +1,47 @@
+// Resolves #material: an index, then keys with their values (docs/language.md section 7.7).
+#pragma once
+
+#include "compiler/resolve/impl/expressions.h"
+#include "compiler/resolve/impl/resolution.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace lsys {
+
+struct MaterialKey;
+
+class MaterialResolver {
+public:
+    MaterialResolver(Resolution& resolution, ExpressionResolver& expressions)
+        : resolution_(resolution), expressions_(expressions) {}
+
+    /// Adds a statement to Program::materials, or reports its mistakes. Constants are those before
+    /// the statement.
+    void material(const MaterialNode& node, SourceSpan statement);
+
+private:
+    /// A key of the statement and its values, as written.
+    struct Entry {
+        const MaterialKey* key = nullptr;
+        SourceSpan span;
+        ListRange values; // in Ast::set_values
+    };
+    [[nodiscard]] std::optional<std::uint32_t> read_index(const SetValue& value);
+    void read_entries(const MaterialNode& node, ProgramMaterial& material);
+    void report_unknown_key(const SetValue& word, const Entry& before);
+    void read_entry(const Entry& entry, ProgramMaterial& material);
+    [[nodiscard]] std::optional<float> number_of(const Entry& entry, const SetValue& value);
+    void read_picture(const Entry& entry, MaterialPictureName& picture);
+    [[nodiscard]] std::string path_of(const SetValue& file) const;
+
+    Resolution& resolution_;
+    ExpressionResolver& expressions_;
+    Suggestions suggestions_;
+    std::unordered_map<std::uint32_t, SourceSpan> first_; // by index
+};
+
+} // namespace lsys

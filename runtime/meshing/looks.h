@@ -1,0 +1,49 @@
+// Looks: the appearance of colour indexes that have a `#material` (docs/language.md section 7.7),
+// with its pictures read. Made by the pipeline; meshers give it to materials.
+#pragma once
+
+#include "runtime/turtle/skeleton.h"
+
+#include <glm/vec3.hpp>
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace lsys {
+
+struct Texture; // runtime/meshing/texture.h
+struct Material;
+
+/// Of a colour index; what is not set keeps the built-in look.
+struct Look {
+    std::optional<glm::vec3> colour;                  // linear
+    std::shared_ptr<const Texture> picture = nullptr; // multiplied by the colour
+    std::shared_ptr<const Texture> relief = nullptr;  // normals, as bark_normals()
+    std::optional<float> roughness;                   // 0 to 1
+    std::optional<float> translucency;                // 0 to 1
+    std::optional<bool> two_sided;
+};
+
+struct Looks {
+    std::map<ItemColour, Look> of_index;
+    std::map<ItemColour, glm::vec3> plain; // colours without pictures: those times mean texels
+
+    [[nodiscard]] const Look* find(ItemColour colour) const {
+        const auto found = of_index.find(colour);
+        return found == of_index.end() ? nullptr : &found->second;
+    }
+};
+
+/// Adds the look of a colour index.
+void add_look(ItemColour index, Look look, Looks& looks);
+/// Linear value of a part of an sRGB colour, 0 to 1 (IEC 61966-2-1).
+[[nodiscard]] float linear_of_srgb(float part);
+/// The linear colour of an item in formats without pictures, and of vertices. `looks` may be null.
+[[nodiscard]] glm::vec3 plain_colour(const Looks* looks, ItemColour colour);
+/// A colour that looks the same without `looks`, to 1/255 of each part; an index without a look stays.
+[[nodiscard]] ItemColour without_look(const Looks* looks, ItemColour colour);
+/// Gives a material the look of its colour; `looks` may be null.
+void apply_look(const Looks* looks, ItemColour colour, Material& material);
+
+} // namespace lsys
