@@ -594,7 +594,7 @@ TEST_CASE("leaves that stay have the area of all leaves", "[levels]") {
         thin_skeleton(skeleton, order, {.foliage = kept}, shapes, shapes, thin, segments);
         REQUIRE(thin.objects.size() == kept);
         double kept_area = 0.0;
-        std::map<std::uint16_t, double> by_colour;
+        std::map<ItemColour, double> by_colour;
         for (const PlacedObject& leaf : thin.objects) {
             const double leaf_area =
                 static_cast<double>(leaf.size) * static_cast<double>(leaf.size);
