@@ -174,7 +174,12 @@ std::optional<LikelyComment> comment_behind_modules(std::string_view text,
     if (before == std::string_view::npos || before + 1 < begin) {
         return std::nullopt;
     }
-    return LikelyComment{comment, first == 0 && has_foreign_word(text, comment, end, letters)};
+    // Arguments and comments `/* ... */` have words that are no modules either.
+    const std::string_view line = text.substr(comment, line_end(text, comment) - comment);
+    const bool has_words_of_others =
+        line.find('(') != std::string_view::npos || line.find("/*") != std::string_view::npos;
+    return LikelyComment{comment, first == 0 && !has_words_of_others &&
+                                      has_foreign_word(text, comment, end, letters)};
 }
 
 void report_missing_semicolon(ParseSession& session) {

@@ -298,7 +298,7 @@ TEST_CASE("a file that is no TOML has one message") {
                       "  note: while reading a key-value pair\n"},
         {"[terrain]\nkind = flat\n", "2:9-9: expected `false`, saw `fl` [scene-syntax]\n"
                                      "  note: while reading a boolean\n"
-                                     "  help: a text stands in quotes: `kind = \"noise\"`\n"},
+                                     "  help: a text stands in quotes: `kind = \"flat\"`\n"},
         {"[terrain]\n[terrain]\n",
          "2:1-1: cannot redefine existing table `terrain` [scene-syntax]\n"
          "  note: while reading a table header\n"
