@@ -2,8 +2,12 @@
 #include "grammar/lsys/impl/draft_text.h"
 #include "grammar/lsys/impl/lookahead.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 namespace lsys::lsys_grammar {
@@ -937,10 +941,37 @@ private:
     Keyword keyword_ = Keyword::Label;
 };
 
+/// Mends `colour #6b4423` if it stands at `at`: three numbers from 0 to 1 are meant.
+void mend_hexadecimal_colour(DraftText& draft, std::size_t at) {
+    constexpr std::size_t kDigits = 6;
+    const std::string_view before = without_blanks(std::string_view(draft.masked).substr(0, at));
+    const std::string_view digits = std::string_view(draft.masked).substr(at + 1, kDigits);
+    const std::size_t end = at + 1 + kDigits;
+    unsigned value = 0;
+    const auto [stop, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (!(before.ends_with("colour") || before.ends_with("color")) || digits.size() < kDigits ||
+        error != std::errc() || stop != digits.data() + kDigits ||
+        (end < draft.masked.size() && is_word_character(draft.masked[end]))) {
+        return;
+    }
+    const auto part = [value](unsigned shift) { return (value >> shift & 0xFFU) / 255.0; };
+    const std::string numbers = fmt::format("{:.2g} {:.2g} {:.2g}", part(16), part(8), part(0));
+    const SourceSpan place = draft.span(at, end);
+    Diagnostic& diagnostic = draft.report(DiagnosticCode::ForeignForm, place,
+                                          "a colour is three numbers from 0 to 1, not hexadecimal");
+    add_fix(diagnostic, "write `" + numbers + "`", place, numbers, false);
+    draft.replace(at, end, "0 0 0");
+}
+
 } // namespace
 
 void mend_foreign_forms(DraftText& draft) {
     draft.mask();
+    for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
+         at = draft.masked.find('#', at + 1)) {
+        mend_hexadecimal_colour(draft, at);
+    }
     for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
          at = draft.masked.find('#', at)) {
         const std::string_view text = draft.masked;
