@@ -127,6 +127,58 @@ void fold_modules(const DeriveOptions& options, Bytecode& bytecode) {
     }
 }
 
+namespace {
+
+/// Reports a derivation that is certain to exceed the limit on modules; returns whether it is.
+bool exceeds_limit(const DeriveOptions& derive, const Grammar& grammar, Step& step) {
+    const std::optional<LimitReport> limit =
+        predict_limit(grammar.bytecode, derive.generations, derive.limits);
+    if (limit) {
+        step.diagnose(limit_diagnostic(*limit, derive.limits, grammar.bytecode,
+                                       !grammar.is_module_file),
+                      grammar.sources);
+    }
+    return limit.has_value();
+}
+
+/// Lets `derive` report to the host. `expected` outlives the derivation.
+void report_progress(const Bytecode& bytecode,
+                     const Project& project,
+                     std::vector<double>& expected,
+                     DeriveOptions& derive) {
+    if (!project.host.progress) {
+        return;
+    }
+    expected = expect_modules(bytecode, derive.generations);
+    derive.progress = [&expected, &project, generations = derive.generations](
+                          std::uint32_t generation, std::uint64_t modules) {
+        project.host.progress({generation, generations, modules, expected});
+    };
+}
+
+} // namespace
+
+Outcome<DerivedWord>
+derive_word(const PlantOptions& options, Grammar& grammar, const Project& project) {
+    Step step(project);
+    DeriveOptions derive = derive_options(options, grammar.bytecode, project);
+    if (exceeds_limit(derive, grammar, step)) {
+        return step.end(Stop::Limit);
+    }
+    fold_modules(derive, grammar.bytecode);
+    std::vector<double> expected;
+    report_progress(grammar.bytecode, project, expected, derive);
+    Derivation derivation(grammar.bytecode, derive);
+    if (const std::optional<Stop> stop = derivation.derive()) {
+        if (stop != Stop::Cancelled) {
+            step.diagnose(derivation_diagnostic(derivation.end(), derive.limits, grammar),
+                          grammar.sources);
+        }
+        return step.end(*stop);
+    }
+    return step.done(DerivedWord{derivation.take_word(), derive.generations, derive.seed});
+}
+
 Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project) {
     Step step(project);
     Bytecode& bytecode = grammar.bytecode;
@@ -138,20 +190,12 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
         if (const std::optional<std::string> reason = streaming_obstacle(bytecode)) {
             return step.fail(fmt::format("--stream: {}", *reason));
         }
-    } else if (const std::optional<LimitReport> limit =
-                   predict_limit(bytecode, derive.generations, derive.limits)) {
-        step.diagnose(limit_diagnostic(*limit, derive.limits, bytecode, !grammar.is_module_file),
-                      grammar.sources);
+    } else if (exceeds_limit(derive, grammar, step)) {
         return step.end(Stop::Limit);
     }
     fold_modules(derive, bytecode);
     std::vector<double> expected;
-    if (project.host.progress) {
-        expected = expect_modules(bytecode, derive.generations);
-        derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
-            project.host.progress({generation, derive.generations, modules, expected});
-        };
-    }
+    report_progress(bytecode, project, expected, derive);
     TurtleOptions turtle_options;
     MeshFiles meshes;
     FileBudget budget{project.limits.max_bytes};

@@ -3,6 +3,7 @@
 
 #include "grammar/base/outcome.h"
 #include "runtime/derive/derive.h"
+#include "runtime/derive/word.h"
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/grammar.h"
@@ -43,6 +44,18 @@ derive_options(const PlantOptions& options, const Bytecode& bytecode, const Proj
 /// Folds all modules that a derivation from the axiom can reach (fold_reached()): the bytecode then
 /// derives the same words faster, with other module codes.
 void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
+
+/// A word with its grammar: the codes of the word are those of the grammar's folded bytecode.
+struct DerivedWord {
+    Word word;
+    std::uint32_t generations = 0;
+    std::uint64_t seed = 0;
+};
+
+/// Derives the grammar, of the options by `generations`, `seed` and `origins`. Folds the bytecode of
+/// the grammar (fold_modules()).
+[[nodiscard]] Outcome<DerivedWord>
+derive_word(const PlantOptions& options, Grammar& grammar, const Project& project);
 
 /// Derives the grammar and draws its word. Folds the bytecode of the grammar (fold_modules()).
 [[nodiscard]] Outcome<Plant>

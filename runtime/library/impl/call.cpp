@@ -1,0 +1,101 @@
+#include "runtime/library/impl/call.h"
+
+#include "grammar/base/message_levels.h"
+#include "runtime/program/host.h"
+#include "runtime/program/memory_size.h"
+
+#include <fmt/format.h>
+
+#include "runtime/library/impl/message_data.h"
+
+#include <memory>
+
+namespace lsys::v0 {
+
+namespace {
+
+Result<std::string> checked(FileContents contents, const ReadLimit& limit) {
+    if (!contents.found) {
+        return Error{contents.reason.empty() ? "no such file" : std::move(contents.reason)};
+    }
+    const std::uint64_t size = contents.bytes.size();
+    if (size > limit.max_bytes) {
+        return Error{
+            fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
+    }
+    if (size > limit.memory) {
+        return Error{fmt::format("it has {} bytes, more than Limits::max_bytes leaves", size),
+                     ErrorKind::Limit};
+    }
+    return std::move(contents.bytes);
+}
+
+} // namespace
+
+Call::Call(const Project& project) {
+    if (project.host.cancelled != nullptr) {
+        cancelled_ = project.host.cancelled;
+    }
+    inner_.host = make_file_host(cancelled_);
+    if (project.host.read_file) {
+        inner_.host.read_file = [this, read = project.host.read_file](
+                                    const std::string& path,
+                                    const ReadLimit& limit) -> Result<std::string> {
+            return checked(guarded([&] { return read(path); }, FileContents{}), limit);
+        };
+        inner_.host.read_named_file = inner_.host.read_file;
+        inner_.host.file_exists = [this, read = project.host.read_file](const std::string& path) {
+            return guarded([&] { return read(path).found; }, false);
+        };
+    }
+    if (project.host.progress) {
+        inner_.host.progress = [this, report = project.host.progress](
+                                   const DerivationProgress& progress) {
+            const Progress shown{progress.generation, progress.generations, progress.modules};
+            if (!guarded([&] { return report(shown); }, false)) {
+                cancelled_->store(true);
+            }
+        };
+    }
+    inner_.limits.max_modules = project.limits.max_modules;
+    inner_.limits.max_bytes =
+        project.limits.max_bytes != 0 ? project.limits.max_bytes : half_of_memory();
+    inner_.threads = project.threads;
+    const auto set_levels = [&](const std::vector<std::string>& codes, MessageLevel level) {
+        for (const std::string& code : codes) {
+            if (std::optional<std::string> mistake = inner_.levels.set(level, code)) {
+                refusal_ = std::move(mistake);
+            }
+        }
+    };
+    set_levels(project.allow, MessageLevel::Allow);
+    set_levels(project.deny, MessageLevel::Deny);
+}
+
+Messages Call::error(std::string text) {
+    ::lsys::Messages messages;
+    messages.add_error(std::move(text));
+    return public_messages(std::move(messages));
+}
+
+Messages Call::public_messages(::lsys::Messages messages) {
+    return Messages(make_message_data(std::move(messages)));
+}
+
+Status Call::public_status(Stop stop) {
+    switch (stop) {
+    case Stop::Diagnosed:
+        return Status::Diagnosed;
+    case Stop::Failed:
+        return Status::Failed;
+    case Stop::Limit:
+        return Status::Limit;
+    case Stop::OutOfMemory:
+        return Status::OutOfMemory;
+    case Stop::Cancelled:
+        break;
+    }
+    return Status::Cancelled;
+}
+
+} // namespace lsys::v0

@@ -1,0 +1,93 @@
+// Call: a public function at work: the project of the caller as one of the pipeline, and the outcome
+// of the pipeline as one for the caller.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/pipeline/project.h"
+
+#include <lsys/outcome.h>
+#include <lsys/project.h>
+
+#include <atomic>
+#include <exception>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace lsys::v0 {
+
+class Call {
+public:
+    explicit Call(const Project& project);
+    ~Call() = default;
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+    [[nodiscard]] ::lsys::Project& project() { return inner_; }
+
+    /// Makes an outcome for the caller. `work` returns one of the pipeline, and `make` a public
+    /// value of its value. Throws what a function of the host has thrown.
+    template <typename T, typename Work, typename Make>
+    [[nodiscard]] Outcome<T> run(const Work& work, const Make& make) {
+        try {
+            if (refusal_) {
+                return {Status::Failed, error(*refusal_)};
+            }
+            auto outcome = work();
+            throw_caught();
+            Messages messages = public_messages(std::move(outcome.messages()));
+            if (!outcome) {
+                return {public_status(outcome.stop()), std::move(messages)};
+            }
+            return {make(std::move(outcome.value())), std::move(messages)};
+        } catch (const std::bad_alloc&) {
+            throw_caught();
+            return {Status::OutOfMemory, error("there is not enough memory")};
+        } catch (const std::length_error&) {
+            throw_caught();
+            return {Status::OutOfMemory, error("there is not enough memory")};
+        }
+    }
+
+    /// `write` as a sink of an export, which keeps what it throws.
+    template <typename Write>
+    [[nodiscard]] auto guarded_sink(Write write) {
+        return [this, write = std::move(write)](std::string_view piece) {
+            return guarded([&] { return write(piece); }, false);
+        };
+    }
+
+private:
+    [[nodiscard]] static Messages error(std::string text);
+    [[nodiscard]] static Messages public_messages(::lsys::Messages messages);
+    [[nodiscard]] static Status public_status(Stop stop);
+
+    /// Calls `function`; if it throws, keeps the exception, cancels the call and returns
+    /// `otherwise`.
+    template <typename T, typename Function>
+    [[nodiscard]] T guarded(const Function& function, T otherwise) {
+        try {
+            return function();
+        } catch (...) {
+            caught_ = std::current_exception();
+            cancelled_->store(true);
+            return otherwise;
+        }
+    }
+    void throw_caught() const {
+        if (caught_) {
+            std::rethrow_exception(caught_);
+        }
+    }
+
+    ::lsys::Project inner_;
+    std::optional<std::string> refusal_; // a code of Project::allow or deny that does not exist
+    std::atomic<bool> own_cancelled_{false};
+    std::atomic<bool>* cancelled_ = &own_cancelled_; // or Host::cancelled
+    std::exception_ptr caught_;
+};
+
+} // namespace lsys::v0

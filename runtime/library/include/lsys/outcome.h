@@ -1,0 +1,58 @@
+// Outcome: what a call of the library returns: a value or the reason why there is none, and in both
+// cases the messages of the call.
+#pragma once
+
+#include <lsys/api.h>
+#include <lsys/messages.h>
+
+#include <cassert>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace lsys::LSYS_INTERFACE {
+
+enum class Status : std::uint8_t {
+    Ok,
+    Diagnosed,   // mistakes of the author of a grammar or scene
+    Failed,      // a file cannot be read, an option does not fit
+    Limit,       // a limit of Limits
+    OutOfMemory, // a failed allocation
+    Cancelled,   // by Host::progress or Host::cancelled
+};
+
+/// The name of a status in words: "out of memory".
+[[nodiscard]] LSYS_API const char* text_of(Status status) noexcept;
+
+template <typename T>
+class [[nodiscard]] Outcome {
+public:
+    Outcome(T value, Messages messages)
+        : value_(std::move(value)), messages_(std::move(messages)) {}
+    /// Precondition: not Status::Ok.
+    Outcome(Status status, Messages messages) : status_(status), messages_(std::move(messages)) {}
+
+    [[nodiscard]] bool ok() const { return value_.has_value(); }
+    explicit operator bool() const { return ok(); }
+    [[nodiscard]] Status status() const { return status_; }
+    [[nodiscard]] const Messages& messages() const { return messages_; }
+
+    /// Precondition: ok().
+    [[nodiscard]] T& operator*() {
+        assert(ok());
+        return *value_;
+    }
+    [[nodiscard]] const T& operator*() const {
+        assert(ok());
+        return *value_;
+    }
+    [[nodiscard]] T* operator->() { return &**this; }
+    [[nodiscard]] const T* operator->() const { return &**this; }
+
+private:
+    std::optional<T> value_;
+    Status status_ = Status::Ok;
+    Messages messages_;
+};
+
+} // namespace lsys::LSYS_INTERFACE

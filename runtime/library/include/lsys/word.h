@@ -1,0 +1,79 @@
+// Word: a derived string of modules, packed: a code for each module, and the binary32 parameters of
+// those codes that store any, in order.
+#pragma once
+
+#include <lsys/api.h>
+#include <lsys/grammar.h>
+#include <lsys/outcome.h>
+#include <lsys/project.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::LSYS_INTERFACE {
+
+struct DeriveOptions {
+    std::optional<std::uint32_t> generations; // unset: Grammar::generations(), else 0
+    std::optional<std::uint64_t> seed;        // unset: Grammar::seed()
+};
+
+/// What a code of a word stands for. A module whose arguments are the same wherever it is written
+/// has a code with `constants`, and stores no parameters.
+struct ModuleKind {
+    std::string name;                   // "F", "+", "leaf"
+    std::uint32_t stored_parameters = 0; // in Word::parameters() for each such module
+    std::vector<float> constants;        // its parameters, if none are stored
+};
+
+/// A module of a word. Valid as long as the word.
+struct Module {
+    std::string_view name;
+    std::span<const float> parameters;
+};
+
+/// A derived word. Cheap to copy, immutable, safe to use from several threads at once.
+class LSYS_API Word {
+public:
+    [[nodiscard]] std::uint64_t size() const;           // number of modules
+    [[nodiscard]] std::uint32_t generation() const;
+    [[nodiscard]] std::uint64_t seed() const;
+
+    /// The codes of all modules, unsigned integers of code_bytes() bytes (1, 2 or 4) each.
+    [[nodiscard]] const void* codes() const;
+    [[nodiscard]] std::uint32_t code_bytes() const;
+    /// The stored parameters of all modules, in order.
+    [[nodiscard]] std::span<const float> parameters() const;
+    /// By code.
+    [[nodiscard]] const std::vector<ModuleKind>& kinds() const;
+
+    /// Calls visit(module) for modules `first` to `first + count` in order, until it returns false.
+    /// Finding the first takes time linear in `first`.
+    void visit(std::uint64_t first,
+               std::uint64_t count,
+               const std::function<bool(const Module& module)>& visit) const;
+    /// The text of the word, which parses again as an axiom of its grammar.
+    [[nodiscard]] std::string text() const;
+    /// Hands the text to `write` in pieces, until it returns false. Returns whether all was
+    /// written.
+    bool write_text(const std::function<bool(std::string_view piece)>& write) const;
+
+    struct Data;
+    explicit Word(std::shared_ptr<const Data> data) noexcept;
+    [[nodiscard]] const Data& data() const { return *data_; }
+
+private:
+    std::shared_ptr<const Data> data_; // never null
+};
+
+[[nodiscard]] LSYS_API Outcome<Word> derive(const Grammar& grammar,
+                                            const DeriveOptions& options = {},
+                                            const Project& project = {});
+
+} // namespace lsys::LSYS_INTERFACE

@@ -1,0 +1,28 @@
+"""Exceptions of the package."""
+
+
+class LsysError(Exception):
+    """A call has failed: a file cannot be read, an option does not fit.
+
+    The text is that of the messages; `diagnostics` has them as data.
+    """
+
+    def __init__(self, text="", diagnostics=()):
+        super().__init__(text)
+        self.diagnostics = list(diagnostics)
+
+
+class GrammarError(LsysError):
+    """Mistakes in a grammar. The text shows them with the lines of the source."""
+
+
+class LimitError(LsysError):
+    """`max_modules`, `max_bytes` or the memory of the machine is used up."""
+
+
+class Cancelled(LsysError):
+    """A callback has ended the call."""
+
+
+class GrammarWarning(UserWarning):
+    """A grammar that compiles but may not mean what it says."""
