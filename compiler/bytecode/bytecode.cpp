@@ -29,7 +29,7 @@ class Digest {
 public:
     [[nodiscard]] std::uint64_t result() const { return finish(state_); }
 
-    IgnoringStream beside_word() { return {}; }
+    IgnoringStream outside_digest() { return {}; }
     void implied(bool value) { number(std::uint64_t{value}); }
     template <typename Value>
     void number(const Value& value) {

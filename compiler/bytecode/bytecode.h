@@ -247,10 +247,10 @@ struct Bytecode {
     std::vector<SiteRange> site_ranges;          // by ascending instruction
     std::vector<PlaceRun> template_places;       // by ascending `first`
     std::vector<BytecodeProduction> productions; // by stage, then in file order
-    std::uint32_t rule_count = 0;
-    std::uint32_t group_count = 0;
-    std::vector<BytecodeAxiom> axioms; // in file order, at least one
-    bool uses_steps = false;           // some expression calls steps()
+    std::uint32_t rule_count = 0;                // rules: productions with equal predecessors
+    std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts
+    std::vector<BytecodeAxiom> axioms;     // in file order, at least one
+    bool uses_steps = false;               // some expression calls steps()
     std::vector<BytecodeCurve> curves;
     std::vector<BytecodeMaterial> materials; // by rising index
     std::uint32_t stack_depth = 0;           // the deepest stack of any code

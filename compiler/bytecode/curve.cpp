@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 /// The slope of the line from a point to the next one.
-double secant(const CurveKnot& from, const CurveKnot& to) {
+double slope_between(const CurveKnot& from, const CurveKnot& to) {
     return (static_cast<double>(to.y) - static_cast<double>(from.y)) /
            (static_cast<double>(to.x) - static_cast<double>(from.x));
 }
@@ -19,26 +19,27 @@ double secant(const CurveKnot& from, const CurveKnot& to) {
 
 void set_slopes(std::span<CurveKnot> points) {
     const std::size_t last = points.size() - 1;
-    points[0].slope = secant(points[0], points[1]);
-    points[last].slope = secant(points[last - 1], points[last]);
+    points[0].slope = slope_between(points[0], points[1]);
+    points[last].slope = slope_between(points[last - 1], points[last]);
     for (std::size_t i = 1; i < last; ++i) {
-        const double before = secant(points[i - 1], points[i]);
-        const double behind = secant(points[i], points[i + 1]);
-        const bool same_sign = (before > 0.0 && behind > 0.0) || (before < 0.0 && behind < 0.0);
-        points[i].slope = same_sign ? (before + behind) / 2.0 : 0.0;
+        const double slope_before = slope_between(points[i - 1], points[i]);
+        const double slope_behind = slope_between(points[i], points[i + 1]);
+        const bool same_sign = (slope_before > 0.0 && slope_behind > 0.0) ||
+                               (slope_before < 0.0 && slope_behind < 0.0);
+        points[i].slope = same_sign ? (slope_before + slope_behind) / 2.0 : 0.0;
     }
     for (std::size_t i = 0; i < last; ++i) {
-        const double line = secant(points[i], points[i + 1]);
-        if (line == 0.0) {
+        const double secant_slope = slope_between(points[i], points[i + 1]);
+        if (secant_slope == 0.0) {
             points[i].slope = 0.0;
             points[i + 1].slope = 0.0;
             continue;
         }
-        const double alpha = points[i].slope / line;
-        const double beta = points[i + 1].slope / line;
-        const double square = alpha * alpha + beta * beta;
-        if (square > 9.0) {
-            const double factor = 3.0 / std::sqrt(square);
+        const double alpha = points[i].slope / secant_slope;
+        const double beta = points[i + 1].slope / secant_slope;
+        const double squared_length = alpha * alpha + beta * beta;
+        if (squared_length > 9.0) {
+            const double factor = 3.0 / std::sqrt(squared_length);
             points[i].slope *= factor;
             points[i + 1].slope *= factor;
         }

@@ -67,7 +67,8 @@ private:
             line("generations {}", *bytecode_.generations);
         }
         line("{}, {}, {} of {}", counted(bytecode_.rule_count, "rule"),
-             counted(bytecode_.group_count, "group"), counted(bytecode_.code_count(), "code"),
+             counted(bytecode_.context_group_count, "group"),
+             counted(bytecode_.code_count(), "code"),
              counted(code_width(bytecode_.code_count()), "byte"));
     }
 

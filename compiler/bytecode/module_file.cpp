@@ -39,7 +39,7 @@ class Writer {
 public:
     explicit Writer(std::string& out) : out_(out) {}
 
-    Writer& beside_word() { return *this; }
+    Writer& outside_digest() { return *this; }
     void implied(bool /*value*/) {}
     template <std::unsigned_integral T>
     void number(const T& value) {
@@ -97,7 +97,7 @@ class Reader {
 public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}
 
-    Reader& beside_word() { return *this; }
+    Reader& outside_digest() { return *this; }
     void implied(bool /*value*/) {}
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] std::size_t left() const { return bytes_.size(); }
@@ -144,14 +144,15 @@ public:
         number(given);
         value = has ? std::optional(given) : std::nullopt;
     }
-    /// Makes at most as many rows as the remaining bytes can hold.
+    /// Same as table(): only the digest treats an empty table specially.
     template <typename Row, typename Function>
     void table_or_none(std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
+    /// Makes at most as many rows as the remaining bytes can hold.
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
-        std::string smallest; // a row with empty texts
+        std::string smallest; // bytes of a row with empty texts, the min size of a row
         Writer writer(smallest);
         const Row empty{};
         row(writer, empty);

@@ -89,7 +89,7 @@ struct Settings {
 };
 
 /// Whether the derived word depends on a setting.
-enum class SettingUse : std::uint8_t { Word, Beside };
+enum class SettingUse : std::uint8_t { AffectsWord, NoEffectOnWord };
 /// Line of the program dump that shows a setting. None: no line made from settings.def shows it.
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 

@@ -20,7 +20,7 @@ struct RangeCheck : IgnoringStream {
     bool all_enumerators = true;
     bool all_finite = true;
 
-    RangeCheck& beside_word() { return *this; }
+    RangeCheck& outside_digest() { return *this; }
     template <typename Enum>
     void tag(const Enum& value) {
         all_enumerators = all_enumerators && is_enumerator(value);
@@ -337,9 +337,9 @@ private:
             }
         }
         if (rule_example.size() != bytecode_.rule_count ||
-            group_example.size() != bytecode_.group_count) {
+            group_example.size() != bytecode_.context_group_count) {
             return fail("{} rules and {} groups are named, {} and {} found", bytecode_.rule_count,
-                        bytecode_.group_count, rule_example.size(), group_example.size());
+                        bytecode_.context_group_count, rule_example.size(), group_example.size());
         }
         return true;
     }

@@ -14,7 +14,7 @@ ProductionIndex::ProductionIndex(const Bytecode& bytecode) : bytecode_(&bytecode
             }
         }
     });
-    by_group_ = GroupedLists(bytecode.group_count, [&](auto&& add) {
+    by_group_ = GroupedLists(bytecode.context_group_count, [&](auto&& add) {
         for (std::uint32_t p = 0; p < rewriting.count; ++p) {
             if (bytecode.productions[p].stochastic) {
                 add(bytecode.productions[p].group, p);

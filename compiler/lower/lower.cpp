@@ -25,7 +25,7 @@ public:
         bytecode_.generations = program_.generations;
         bytecode_.files = program_.files;
         bytecode_.rule_count = program_.rule_count;
-        bytecode_.group_count = program_.group_count;
+        bytecode_.context_group_count = program_.context_group_count;
         for (const Curve& curve : program_.curves) {
             bytecode_.curves.push_back({std::string(names_.text(curve.name)), curve.points});
         }

@@ -107,8 +107,8 @@ struct Production {
     NameId name = kNoName;
     SourceSpan name_span;
     SourceSpan span;
-    std::uint32_t rule = 0;
-    std::uint32_t group = 0;
+    std::uint32_t rule = 0;  // index of the rule, below Program::rule_count
+    std::uint32_t group = 0; // index of the group, below Program::context_group_count
     bool has_left = false;
     bool has_right = false;
     ProgramPattern left;
@@ -234,9 +234,9 @@ struct Program {
     std::vector<Curve> curves;
     std::vector<ProgramMaterial> materials; // in source order, each of another index
     std::vector<Production> productions;    // those of Stage::Rewrite first, of Interpret last
-    std::uint32_t rule_count = 0;
-    std::uint32_t group_count = 0;
-    std::vector<Axiom> axioms; // at least one if `complete`
+    std::uint32_t rule_count = 0;           // rules: productions with equal predecessors
+    std::uint32_t context_group_count = 0;  // groups: productions of a rule with equal contexts
+    std::vector<Axiom> axioms;              // at least one if `complete`
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;

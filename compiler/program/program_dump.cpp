@@ -44,7 +44,7 @@ public:
             out_ += '\n';
         }
         out_ += fmt::format("productions: {}, {}\n", counted(program_.rule_count, "rule"),
-                            counted(program_.group_count, "group"));
+                            counted(program_.context_group_count, "group"));
         for (const Production& each : program_.productions) {
             production(each);
         }

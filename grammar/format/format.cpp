@@ -64,7 +64,8 @@ public:
     }
 
 private:
-    /// Writes the line ends before a group of statements or a comment of its own.
+    /// Writes the separator before a statement group or a standalone comment: line ends, or a blank
+    /// after a block comment on the same line.
     void begin_item(const Lexeme& first, bool after_comment) {
         if (out_.empty()) {
             return;
@@ -100,7 +101,7 @@ private:
                                        : text_width(comment.substr(line + 1));
     }
 
-    /// Writes the statements of rows_.
+    /// Lines up and writes the statement group in rows_, and clears it.
     void flush() {
         line_up(rows_);
         const bool commented = std::any_of(rows_.begin(), rows_.end(), [](const LayoutRow& row) {

@@ -427,7 +427,7 @@ ExitStatus write_animation(Export& run, PlantPhysics& physics) {
 /// because the check settles the plant many times.
 ExitStatus check_weight(const Export& run, const PhysicsOptions& options) {
     Diagnostics warning =
-        weigh_for_warning(run.plant.skeleton, run.grammar.bytecode.settings, options);
+        make_fall_warning(run.plant.skeleton, run.grammar.bytecode.settings, options);
     return warning.all().empty() ? ExitStatus::Ok : run.console.show(warning, *run.grammar.sources);
 }
 

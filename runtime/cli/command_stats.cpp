@@ -305,7 +305,7 @@ ExitStatus report_weight(const StatsCommand& command,
     forces.gravity = *command.gravity;
     forces.load = settings.load;
     forces.threads = command.run.threads;
-    const WeightReport report = weigh(plant.skeleton, settings, forces);
+    const WeightReport report = make_weight_report(plant.skeleton, settings, forces);
     const std::string text =
         command.messages.format == MessageFormat::Json ? weight_json(report) : weight_text(report);
     if (const Result<void> written = write_file("-", text, console); !written) {

@@ -41,7 +41,8 @@ struct FixedGrammar {
     std::uint64_t fix_count = 0;
     /// Files with certain fixes that are outside the scope.
     std::set<std::string> out_of_scope;
-    /// The compiled repaired text with the remaining diagnostics, whose fixes are offers.
+    /// The compiled repaired text with the remaining diagnostics, whose fixes are not
+    /// machine-applicable.
     CompiledText compiled;
 };
 inline constexpr std::size_t kMaxFixLines = 50;
@@ -60,8 +61,8 @@ enum class FixChoice : std::uint8_t { Certain, Offered };
                                     FixChoice choice,
                                     FixedGrammar& fixed);
 
-/// Turns the fixes in `compiled`, the result of compiling `text`, into offers unless fix_text()
-/// would apply them.
+/// Clears Fix::machine_applicable of the fixes in `compiled`, the result of compiling `text`, that
+/// fix_text() would not apply.
 [[nodiscard]] Result<void> offer_doubtful_fixes(const std::string& path,
                                                 const GrammarText& text,
                                                 const GrammarOptions& options,

@@ -1,5 +1,6 @@
-// Messages to the grammar's author about errors and limits of a derivation. Made from facts and
-// bytecode alone, so that they are the same for a source file and for a .lsb file.
+// Messages to the grammar's author about errors and limits of a derivation. Made from a
+// RuntimeError or LimitReport and the bytecode alone, so that they are the same for a source file
+// and for a .lsb file.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

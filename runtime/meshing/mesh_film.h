@@ -1,6 +1,6 @@
-// MeshFilm: the meshes of successive frames as shapes whose vertices move. Frames with the same
-// triangles and materials are one shape; where a frame differs in these, another shape begins. Made
-// of the frames of a growth by MeshFilmBuilder; written by runtime/export as morph targets.
+// MeshFilm: successive frames of a growing plant as morph-target shapes. Frames with the same
+// triangles and materials are one shape, whose vertices move; a frame that differs in these begins
+// another shape. Made by MeshFilmBuilder; written by runtime/export as morph targets.
 #pragma once
 
 #include "runtime/meshing/mesh.h"

@@ -126,16 +126,18 @@ private:
 /// Energy lost in the last rounds of settle() against the friction of the ground.
 class RecentRounds {
 public:
-    /// `in_many`: a stage with many bodies; `is_last`: the last one.
-    RecentRounds(bool in_many, bool is_last)
-        : in_many_(in_many), stage_friction_(is_last ? kLastStageFriction : kStageFriction) {}
+    /// `has_many_bodies`: whether this is a stage after the first, with at least kManyBodies bodies;
+    /// `is_last`: whether no stage follows.
+    RecentRounds(bool has_many_bodies, bool is_last)
+        : has_many_bodies_(has_many_bodies),
+          stage_friction_(is_last ? kLastStageFriction : kStageFriction) {}
 
-    void add(double share, double fall, double slide) {
-        if (!in_many_) {
-            fall_ = kRememberedShare * fall_ + fall;
+    void add(double share, double energy_loss, double slide) {
+        if (!has_many_bodies_) {
+            energy_loss_ = kRememberedShare * energy_loss_ + energy_loss;
             slide_ = kRememberedShare * slide_ + slide;
         } else if (share > 0.0) {
-            falls_[count_ % kStageRounds] = fall;
+            energy_losses_[count_ % kStageRounds] = energy_loss;
             slides_[count_ % kStageRounds] = slide;
             ++count_;
         }
@@ -143,9 +145,9 @@ public:
 
     /// Whether friction would hold the plant.
     [[nodiscard]] bool is_held() const {
-        return in_many_
-                   ? count_ >= kStageRounds && sum_of(falls_) < stage_friction_ * sum_of(slides_)
-                   : fall_ < kRestFriction * slide_;
+        return has_many_bodies_ ? count_ >= kStageRounds &&
+                                      sum_of(energy_losses_) < stage_friction_ * sum_of(slides_)
+                                : energy_loss_ < kRestFriction * slide_;
     }
 
 private:
@@ -155,12 +157,12 @@ private:
         return std::accumulate(last.begin(), last.end(), 0.0);
     }
 
-    bool in_many_;
+    bool has_many_bodies_;
     double stage_friction_;
-    double fall_ = 0.0;  // J, of all rounds, older ones weighing less
-    double slide_ = 0.0; // J, see Energies; in the same way
-    Last falls_{};       // J, of the last rounds that moved the plant
-    Last slides_{};
+    double energy_loss_ = 0.0; // J, decaying sum over all rounds
+    double slide_ = 0.0;       // J, the same of Energies::slide
+    Last energy_losses_{};     // J, of the last rounds that moved the plant
+    Last slides_{};            // J, of the same rounds
     std::size_t count_ = 0;
 };
 
@@ -306,10 +308,10 @@ struct PlantPhysics::State {
     }
 
     struct Step {
-        double share = 0.0; // part of the solved motion that was taken
-        double turn = 0.0;  // rad, max of the whole solved motion
-        double fall = 0.0;  // J, energy lost, with the work of the wind
-        double slide = 0.0; // J, work of the ground friction
+        double share = 0.0;       // part of the solved motion that was taken
+        double turn = 0.0;        // rad, max of the whole solved motion
+        double energy_loss = 0.0; // J, decrease of the energy plus the work done by the wind
+        double slide = 0.0;       // J, work of the ground friction
     };
     /// Moves the plant to rest where each joint bears its own segment only: joint by joint, from
     /// the root to the tips.
@@ -336,20 +338,23 @@ struct PlantPhysics::State {
     }
 
     /// Makes a step; without `keep_velocity` it ends at standstill.
-    Step advance(const Forces& now, bool keep_velocity) {
-        solve_spins(plant, now, workers);
-        const int trials = now.exactness > 0.0 ? kInexactTrials : kTrials;
+    Step advance(const Forces& current_forces, bool keep_velocity) {
+        solve_spins(plant, current_forces, workers);
+        const int trials = current_forces.exactness > 0.0 ? kInexactTrials : kTrials;
         double share = 1.0;
         double turn = 0.0;
         for (int trial = 0; trial <= trials; ++trial) {
             share = trial == trials ? 0.0 : share;
             const Energies energies =
-                move_bodies(plant, now, share * now.step, keep_velocity ? share : 0.0, workers);
+                move_bodies(plant, current_forces, share * current_forces.step,
+                            keep_velocity ? share : 0.0, workers);
             turn = trial == 0 ? energies.turn : turn;
-            const double allowed = energy + std::max(now.windy ? energies.work : 0.0, 0.0);
-            const bool known = std::isfinite(energies.potential + energies.kinetic);
-            if (share > 0.0 && !(known && energies.potential <=
-                                              allowed + kRounding * energies.potential_magnitude)) {
+            const double allowed =
+                energy + std::max(current_forces.windy ? energies.work : 0.0, 0.0);
+            const bool is_finite = std::isfinite(energies.potential + energies.kinetic);
+            if (share > 0.0 &&
+                !(is_finite &&
+                  energies.potential <= allowed + kRounding * energies.potential_magnitude)) {
                 share *= kTrialShare;
                 continue;
             }
@@ -368,22 +373,23 @@ struct PlantPhysics::State {
 
     enum class End { Rest, Falling, OutOfRounds };
     struct Rounds {
-        std::uint32_t most = 0;    // max rounds that are left
-        bool in_stage = false;     // the first pose comes from another stage
-        bool is_last = false;      // no stage follows
-        bool stop_falling = false; // ends when the plant turns out to fall
+        std::uint32_t left = 0;         // max rounds that may still be made
+        bool starts_from_stage = false; // the first pose is the result of a coarser stage
+        bool is_last = false;           // no stage follows
+        bool stop_falling = false;      // ends with End::Falling when the plant falls
     };
-    /// Makes rounds of settle() and subtracts them from `rounds.most`.
-    End make_rounds(Forces now, double tolerance, Rounds& rounds) {
+    /// Makes rounds of settle() and subtracts them from `rounds.left`.
+    End make_rounds(Forces current_forces, double tolerance, Rounds& rounds) {
         BoundWeight bound_weight;
-        now.exactness = 0.0;
-        RecentRounds recent(rounds.in_stage && plant.poses.size() >= kManyBodies, rounds.is_last);
-        for (std::uint32_t round = 0; rounds.most > 0; ++round) {
-            const Step made = advance(now, false);
-            --rounds.most;
-            // In the first round of a stage twigs fall that the stages before did not have.
-            if (!(rounds.in_stage && round == 0)) {
-                recent.add(made.share, made.fall, made.slide);
+        current_forces.exactness = 0.0;
+        RecentRounds recent(rounds.starts_from_stage && plant.poses.size() >= kManyBodies,
+                            rounds.is_last);
+        for (std::uint32_t round = 0; rounds.left > 0; ++round) {
+            const Step made = advance(current_forces, false);
+            --rounds.left;
+            // In the first round of a stage the twigs fall that the coarser stages left out.
+            if (!(rounds.starts_from_stage && round == 0)) {
+                recent.add(made.share, made.energy_loss, made.slide);
             }
             if (made.turn <= tolerance || (made.share == 1.0 && recent.is_held())) {
                 return End::Rest;
@@ -392,14 +398,15 @@ struct PlantPhysics::State {
                 return End::Falling;
             }
             bound_weight.update(made.share == 1.0);
-            now.exactness = 1.0 - bound_weight.value();
+            current_forces.exactness = 1.0 - bound_weight.value();
         }
         return End::OutOfRounds;
     }
 
     /// Poses of all bodies when the plant has settled in stages; the state does not change.
-    [[nodiscard]] std::vector<BodyPose>
-    settled_in_stages(const std::vector<CoarsePlant>& stages, const Forces& now, double tolerance) {
+    [[nodiscard]] std::vector<BodyPose> settled_in_stages(const std::vector<CoarsePlant>& stages,
+                                                          const Forces& current_forces,
+                                                          double tolerance) {
         PlantBodies whole;
         std::swap(plant, whole);
         const double energy_before = energy;
@@ -411,9 +418,9 @@ struct PlantPhysics::State {
             plant.poses = coarse_poses(stage, poses);
             update_energy();
             const std::size_t most = kStageWork * whole.poses.size() / plant.poses.size();
-            Rounds rounds{.most = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
-                          .in_stage = &stage != &stages.front()};
-            make_rounds(now, tolerance, rounds);
+            Rounds rounds{.left = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
+                          .starts_from_stage = &stage != &stages.front()};
+            make_rounds(current_forces, tolerance, rounds);
             spread_poses(stage, plant.poses, poses);
             for (const std::uint32_t b : stage.whole) {
                 known[b] = 1;
@@ -426,10 +433,10 @@ struct PlantPhysics::State {
     }
 
     /// settle() with LoadRule::Carried, from standstill.
-    bool come_to_rest(const Forces& now, double tolerance, std::uint32_t max_rounds) {
+    bool come_to_rest(const Forces& current_forces, double tolerance, std::uint32_t max_rounds) {
         const bool may_fall = plant.poses.size() >= kMinCoarsened;
-        Rounds rounds{.most = max_rounds, .stop_falling = may_fall};
-        End end = make_rounds(now, tolerance, rounds);
+        Rounds rounds{.left = max_rounds, .stop_falling = may_fall};
+        End end = make_rounds(current_forces, tolerance, rounds);
         rounds.stop_falling = false;
         if (end != End::Falling) {
             return end == End::Rest;
@@ -438,20 +445,20 @@ struct PlantPhysics::State {
         if (!stages.empty()) {
             const std::vector<BodyPose> before = plant.poses;
             const double energy_before = energy;
-            plant.poses = settled_in_stages(stages, now, tolerance);
+            plant.poses = settled_in_stages(stages, current_forces, tolerance);
             update_energy();
-            rounds.in_stage = true;
+            rounds.starts_from_stage = true;
             rounds.is_last = true;
-            end = make_rounds(now, tolerance, rounds);
-            if (now.windy || energy <= energy_before) {
+            end = make_rounds(current_forces, tolerance, rounds);
+            if (current_forces.windy || energy <= energy_before) {
                 return end == End::Rest;
             }
             plant.poses = before;
             update_energy();
             energy = energy_before;
-            rounds.in_stage = false;
+            rounds.starts_from_stage = false;
         }
-        return make_rounds(now, tolerance, rounds) == End::Rest;
+        return make_rounds(current_forces, tolerance, rounds) == End::Rest;
     }
 };
 
@@ -478,12 +485,12 @@ const PhysicsOptions& PlantPhysics::options() const {
 
 void PlantPhysics::step() {
     State& s = *state_;
-    Forces now = s.forces;
+    Forces current_forces = s.forces;
     const auto gust = static_cast<double>(s.options.wind.gust);
-    now.wind *=
+    current_forces.wind *=
         std::max(1.0 + gust * gust_at(s.time, static_cast<double>(s.options.gust_period)), 0.0);
-    s.advance(now, true);
-    s.time += now.step;
+    s.advance(current_forces, true);
+    s.time += current_forces.step;
 }
 
 bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
@@ -492,13 +499,13 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
         s.settle_own_loads();
         return true;
     }
-    Forces long_step = s.forces;
-    long_step.step = kRestStep;
-    long_step.damping = 0.0;
-    long_step.friction = 0.0;
+    Forces rest_forces = s.forces;
+    rest_forces.step = kRestStep;
+    rest_forces.damping = 0.0;
+    rest_forces.friction = 0.0;
     scale_velocities(s.plant, 0.0, s.workers);
     s.update_energy();
-    return s.come_to_rest(long_step, tolerance, max_rounds);
+    return s.come_to_rest(rest_forces, tolerance, max_rounds);
 }
 
 std::uint32_t settle_rounds(std::size_t segments) {

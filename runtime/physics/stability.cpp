@@ -54,14 +54,17 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
     return true;
 }
 
-/// Measures the trunk: the segments of order 0, without the first segments of further plants.
+/// Measures the trunk: the segments of order 0 of the first plant.
 void measure_trunk(const Skeleton& rest, double gravity, Stability& out) {
     double bending = 0.0; // integral of E I
     double mass = 0.0;
     double widths = 0.0;
+    std::vector<bool> is_trunk(rest.segments.size(), false);
     for (std::size_t i = 0; i < rest.segments.size(); ++i) {
         const Segment& segment = rest.segments[i];
-        if (segment.order != 0 || (i > 0 && segment.parent == kNoSegment)) {
+        is_trunk[i] = segment.order == 0 &&
+                      (segment.parent == kNoSegment ? i == 0 : is_trunk[segment.parent]);
+        if (!is_trunk[i]) {
             continue;
         }
         const auto length = static_cast<double>(segment.length);

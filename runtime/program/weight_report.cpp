@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMaxWeighRounds = 2000;
+constexpr std::uint32_t kMaxSettleRounds = 2000;
 
 /// `value` rounded up to two significant digits.
 double rounded_up(double value) {
@@ -48,11 +48,12 @@ bool has_one_spring(const Skeleton& plant) {
 
 } // namespace
 
-WeightReport weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options) {
+WeightReport
+make_weight_report(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options) {
     WeightReport report;
     report.gravity = static_cast<double>(options.gravity);
     report.stability = stability_of(plant, options);
-    report.height_left = bent_height(plant, options, kMaxWeighRounds);
+    report.height_left = bent_height(plant, options, kMaxSettleRounds);
     if (report.stands()) {
         return report;
     }
@@ -133,12 +134,12 @@ Diagnostics fall_warning(const WeightReport& report) {
 }
 
 Diagnostics
-weigh_for_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options) {
-    if (!(options.gravity > 0.0F) || plant.segments.size() > kMaxWeighedSegments) {
+make_fall_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options) {
+    if (!(options.gravity > 0.0F) || plant.segments.size() > kMaxFallWarningSegments) {
         return {};
     }
     options.wind = {};
-    return fall_warning(weigh(plant, settings, options));
+    return fall_warning(make_weight_report(plant, settings, options));
 }
 
 ExitStatus

@@ -29,21 +29,21 @@ struct WeightReport {
 /// Settles the plant under the gravity of `options`. If the plant falls, searches for widths and
 /// springs with which it stands.
 [[nodiscard]] WeightReport
-weigh(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
+make_weight_report(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
 
 [[nodiscard]] std::string weight_text(const WeightReport& report);
 /// The report as a JSON object with a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);
 
-/// Max number of segments of a plant that is weighed only for a warning, since each trial settles
-/// the whole plant.
-inline constexpr std::size_t kMaxWeighedSegments = 20'000;
+/// Max number of segments of a plant that make_fall_warning() checks, since each trial settles the
+/// whole plant.
+inline constexpr std::size_t kMaxFallWarningSegments = 20'000;
 /// The warning of a plant that falls; empty if it stands.
 [[nodiscard]] Diagnostics fall_warning(const WeightReport& report);
-/// fall_warning() of the plant under the gravity of `options`, without wind. Empty for a plant that
-/// is too large to be weighed, and without gravity.
+/// Checks the plant under the gravity of `options`, without wind, and returns its fall_warning().
+/// Empty without gravity and for plants of more than kMaxFallWarningSegments segments.
 [[nodiscard]] Diagnostics
-weigh_for_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options);
+make_fall_warning(const Skeleton& plant, const Settings& settings, PhysicsOptions options);
 /// Prints the warning if the plant falls. Returns AuthorErrors if the warning counts as an error,
 /// as with --deny warnings.
 [[nodiscard]] ExitStatus

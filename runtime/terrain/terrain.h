@@ -94,14 +94,15 @@ private:
 
 inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9 GB of mesh
 
-/// Pictures of the surface of the ground, as tiles side by side. Columns run along X, rows along Z.
+/// Repeating textures of the ground; a tile is `width` by `depth`. Columns run along X, rows along
+/// Z.
 struct GroundPictures {
     std::shared_ptr<const Texture> colour;  // null: no pictures
-    std::shared_ptr<const Texture> normals; // normal map, as of bark_normals(); may be null
-    double origin_x = 0.0;                  // m, a corner of a tile
-    double origin_z = 0.0;
-    double width = 4.0; // m, of a tile along X
-    double depth = 4.0; // m, of a tile along Z
+    std::shared_ptr<const Texture> normals; // normal map like bark_normals(); null: none
+    double origin_x = 0.0;                  // m, corner of a tile
+    double origin_z = 0.0;                  // m
+    double width = 4.0;                     // m, size of a tile along X
+    double depth = 4.0;                     // m, size of a tile along Z
 };
 
 /// Options of a mesh of the ground: cells along X and Z.

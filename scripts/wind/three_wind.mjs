@@ -20,16 +20,16 @@ attribute vec2 uv1;
 attribute vec2 uv2;
 #endif
 vec3 inWind(vec3 at) {
-    const float turn = 6.283185307;
-    float high = max(at.y, 0.0) / windHeight;
-    vec3 trunk = windSway.x * windHeight * high * high * (0.7 + 0.3 * sin(turn * windTime / 3.1)) *
-        windVector;
+    const float TWO_PI = 6.283185307;
+    float relativeHeight = max(at.y, 0.0) / windHeight;
+    vec3 trunk = windSway.x * windHeight * relativeHeight * relativeHeight *
+        (0.7 + 0.3 * sin(TWO_PI * windTime / 3.1)) * windVector;
     vec3 bough = windSway.y * windHeight * (1.0 - uv2.y) * (0.5 + 0.5 * uv1.x / windHeight) *
-        (0.5 + 0.5 * sin(turn * (windTime / 1.3 + uv2.x))) * windVector;
-    float lever = 0.01 * windHeight;
+        (0.5 + 0.5 * sin(TWO_PI * (windTime / 1.3 + uv2.x))) * windVector;
+    float minLength = 0.01 * windHeight;
     at += trunk + bough;
-    at.y -= 0.5 * dot(trunk, trunk) / max(high * windHeight, lever) +
-        0.5 * dot(bough, bough) / max(uv1.y, lever);
+    at.y -= 0.5 * dot(trunk, trunk) / max(relativeHeight * windHeight, minLength) +
+        0.5 * dot(bough, bough) / max(uv1.y, minLength);
     return at;
 }
 `;

@@ -12,14 +12,15 @@
 //   Seconds  the node Time, in s
 // Transform the result with TransformVector from local to world space. Turn on "Use Full Precision
 // UVs" of the static mesh: heights and distances are in metres.
-float turn = 6.283185307;
+float two_pi = 6.283185307;
 float pivot = 100.0 * UV1.x;
-float lever = 0.01 * Height;
-float high = max(At.z, 0.0) / Height;
-float3 trunk = Sway.x * Height * high * high * (0.7 + 0.3 * sin(turn * Seconds / 3.1)) * Wind.xyz;
+float min_length = 0.01 * Height;
+float relative_height = max(At.z, 0.0) / Height;
+float3 trunk = Sway.x * Height * relative_height * relative_height *
+    (0.7 + 0.3 * sin(two_pi * Seconds / 3.1)) * Wind.xyz;
 float3 bough = Sway.y * Height * (1.0 - UV2.y) * (0.5 + 0.5 * pivot / Height) *
-    (0.5 + 0.5 * sin(turn * (Seconds / 1.3 + UV2.x))) * Wind.xyz;
-float3 way = trunk + bough;
-way.z -= 0.5 * dot(trunk, trunk) / max(high * Height, lever) +
-    0.5 * dot(bough, bough) / max(100.0 * UV1.y, lever);
-return way;
+    (0.5 + 0.5 * sin(two_pi * (Seconds / 1.3 + UV2.x))) * Wind.xyz;
+float3 displacement = trunk + bough;
+displacement.z -= 0.5 * dot(trunk, trunk) / max(relative_height * Height, min_length) +
+    0.5 * dot(bough, bough) / max(100.0 * UV1.y, min_length);
+return displacement;

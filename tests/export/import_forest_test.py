@@ -143,7 +143,7 @@ def check_compiler(compiler, folder):
     fails(lambda: compiler.run_lsc(program, ["loud"], 10.0), "a:1:1: error: no")
     fails(lambda: compiler.run_lsc(program, ["silent"], 10.0), "status 3")
     fails(lambda: compiler.run_lsc(program, ["slow"], 0.2), "0.2 s", "limit")
-    fails(lambda: compiler.Written(program, ["other"], 10.0).__enter__(), "series")
+    fails(lambda: compiler.TemporaryGlb(program, ["other"], 10.0).__enter__(), "series")
     fails(lambda: compiler.split_options("--sides '"), "options")
     assert compiler.split_options("--set tropism='0 -1 0 0.2'") == ["--set", "tropism=0 -1 0 0.2"]
 

@@ -133,10 +133,10 @@ int main(int argument_count, char** arguments) {
     if (!terrain) {
         return 1;
     }
-    TerrainMeshOptions fine;
-    fine.columns = 20;
-    fine.rows = 16;
-    const Result<Mesh> ground = make_terrain_mesh(terrain.value(), fine);
+    TerrainMeshOptions ground_options;
+    ground_options.columns = 20;
+    ground_options.rows = 16;
+    const Result<Mesh> ground = make_terrain_mesh(terrain.value(), ground_options);
     if (!ground) {
         return 1;
     }
@@ -158,28 +158,30 @@ int main(int argument_count, char** arguments) {
     info.generator = "write_forest";
     info.cell = 50.0F;
     info.picture_prefix = "forest";
-    bool all = true;
+    bool succeeded = true;
     for (const ExportFormat format : export_formats()) {
         const FormatTraits& traits = traits_of(format);
         const auto path = [&](const char* name) {
             return folder / fmt::format("{}.{}", name, traits.name);
         };
         if (traits.write_forest != nullptr) {
-            all = write_forest(path("forest"), scene, format, ForestForm::Instanced, info) && all;
+            succeeded = write_forest(path("forest"), scene, format, ForestForm::Instanced, info) &&
+                        succeeded;
         }
         if (traits.expands_forest) {
-            all = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) && all;
+            succeeded = write_forest(path("expanded"), scene, format, ForestForm::Expanded, info) &&
+                        succeeded;
         }
     }
     for (const auto& [name, compression] : {std::pair{"quantize", ExportCompression::Quantize},
                                             std::pair{"meshopt", ExportCompression::Meshopt}}) {
-        ForestExportInfo small = info;
-        small.compression = compression;
+        ForestExportInfo compressed_info = info;
+        compressed_info.compression = compression;
         for (const auto& [prefix, form] : {std::pair{"forest", ForestForm::Instanced},
                                            std::pair{"expanded", ForestForm::Expanded}}) {
-            all = write_forest(folder / fmt::format("{}.{}.glb", prefix, name), scene,
-                               ExportFormat::Glb, form, small) &&
-                  all;
+            succeeded = write_forest(folder / fmt::format("{}.{}.glb", prefix, name), scene,
+                                     ExportFormat::Glb, form, compressed_info) &&
+                        succeeded;
         }
     }
     const auto pictures = make_forest_picture_files(scene, ExportFormat::Usda, info);
@@ -191,7 +193,7 @@ int main(int argument_count, char** arguments) {
     for (const char* extension : {"ply", "glb", "gltf"}) {
         std::ofstream file(folder / (std::string("baked.") + extension), std::ios::binary);
         const auto format = format_of_path(std::string("baked.") + extension);
-        all = export_mesh(baked_mesh, {}, *format, {}, into(file)).ok() && all;
+        succeeded = export_mesh(baked_mesh, {}, *format, {}, into(file)).ok() && succeeded;
     }
     const std::string facts = facts_of(scene, baked_mesh);
     std::ofstream(folder / "facts.json") << facts;
@@ -202,5 +204,5 @@ int main(int argument_count, char** arguments) {
         counts << name << ' ' << baked_mesh.positions.size() << ' ' << baked_mesh.indices.size() / 3
                << ' ' << baked_mesh.parts.size() << '\n';
     }
-    return all && counts.good() ? 0 : 1;
+    return succeeded && counts.good() ? 0 : 1;
 }

@@ -57,13 +57,13 @@ bool write_pictures(const std::filesystem::path& folder,
                     ExportFormat format,
                     const ExportInfo& info) {
     const Outcome<std::vector<PictureFile>> files = make_picture_files(mesh, format, info);
-    bool fine = files.ok();
+    bool succeeded = files.ok();
     for (const PictureFile& picture : files.value()) {
         std::ofstream file(folder / picture.name, std::ios::binary);
         file << picture.bytes;
-        fine = fine && file.good();
+        succeeded = succeeded && file.good();
     }
-    return fine;
+    return succeeded;
 }
 
 /// A crooked line with a branch and a polygon; its widths decrease.
@@ -125,18 +125,18 @@ int main(int argument_count, char** arguments) {
                     .generator = "write_meshes",
                     .mtl_name = "",
                     .picture_prefix = ""};
-    bool fine = true;
+    bool succeeded = true;
     std::ofstream counts(folder / "counts.txt");
     for (const auto& [name, mesh] : meshes) {
         info.mtl_name = std::string(name) + ".mtl";
         info.picture_prefix = name;
-        fine = write_file(folder / info.mtl_name, mesh, {}, info) && fine;
+        succeeded = write_file(folder / info.mtl_name, mesh, {}, info) && succeeded;
         for (const ExportFormat format : export_formats()) {
             const FormatTraits& traits = traits_of(format);
             if (traits.uses_mesh) {
                 const std::string file = fmt::format("{}.{}", name, traits.name);
-                fine = write_pictures(folder, mesh, format, info) && fine;
-                fine = write_file(folder / file, mesh, {}, info) && fine;
+                succeeded = write_pictures(folder, mesh, format, info) && succeeded;
+                succeeded = write_file(folder / file, mesh, {}, info) && succeeded;
             }
         }
         for (const auto& [ending, compression] :
@@ -151,14 +151,14 @@ int main(int argument_count, char** arguments) {
             if (compression == ExportCompression::None) {
                 form.buffer_name = fmt::format("{}.separate.bin", name);
                 form.picture_prefix = fmt::format("{}.separate", name);
-                fine = write_pictures(folder, mesh, ExportFormat::Gltf, form) && fine;
-                fine = write_buffer(folder / form.buffer_name, mesh, form) && fine;
+                succeeded = write_pictures(folder, mesh, ExportFormat::Gltf, form) && succeeded;
+                succeeded = write_buffer(folder / form.buffer_name, mesh, form) && succeeded;
             }
-            fine = write_file(folder / file, mesh, {}, form) && fine;
+            succeeded = write_file(folder / file, mesh, {}, form) && succeeded;
         }
         counts << name << ' ' << mesh.positions.size() << ' ' << mesh.indices.size() / 3 << ' '
                << mesh.parts.size() << '\n';
     }
-    fine = write_file(folder / "drawing.svg", {}, drawing(), info) && fine;
-    return fine && counts.good() ? 0 : 1;
+    succeeded = write_file(folder / "drawing.svg", {}, drawing(), info) && succeeded;
+    return succeeded && counts.good() ? 0 : 1;
 }

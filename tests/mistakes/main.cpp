@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Row = std::vector<std::string>;
 
-/// The mean that every persona is to reach.
+/// Mean grade that the mistakes of each persona should reach.
 constexpr double kGoal = 2.7;
 
 /// The rows of a table; columns stand between tabs.
@@ -43,7 +43,7 @@ std::string persona_of(const std::string& name) {
     return name.substr(0, name.rfind('-'));
 }
 
-/// The mistakes whose name contains a filter.
+/// The mistakes whose name begins with a filter; all without filters.
 std::vector<lsys::tests::ListedCase> read_cases(const lsys::tests::UiOptions& options) {
     std::vector<lsys::tests::ListedCase> cases;
     for (const Row& row : read_table(options.root / "mistakes.tsv")) {
@@ -82,7 +82,8 @@ struct Mean {
     [[nodiscard]] double value() const { return sum / static_cast<double>(count); }
 };
 
-/// Whether the grades reach the floors, each mistake has a grade, and no floor is too low.
+/// Returns the exit status: 0 if the grades reach the floors, each mistake has a grade, and the
+/// floor is 2.7 for each persona whose mean has reached 2.7.
 int check_grades(const fs::path& root) {
     int failures = 0;
     const auto fail = [&](const std::string& what) {

@@ -193,7 +193,7 @@ std::vector<glm::dvec4> rotations_of(const Exported& file, std::size_t number) {
 struct Primitive {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
-    bool wide = false;
+    bool has_wide_indices = false; // of 32 bits, not 16
 };
 
 Primitive read_primitive(const Exported& file, const json& primitive) {
@@ -207,8 +207,8 @@ Primitive read_primitive(const Exported& file, const json& primitive) {
         }
     }
     const std::size_t indices = primitive["indices"];
-    read.wide = file.document["accessors"][indices]["componentType"] == 5125;
-    if (read.wide) {
+    read.has_wide_indices = file.document["accessors"][indices]["componentType"] == 5125;
+    if (read.has_wide_indices) {
         read.indices = items_of<std::uint32_t>(file, indices);
     } else {
         CHECK(file.document["accessors"][indices]["componentType"] == 5123);
@@ -394,14 +394,14 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     wood.add_species(kLeafyBush, 6);
     wood.add_species("#set names letters; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : FA;",
                      7);
-    // Its primitives need 32-bit indices.
+    // A species whose primitives need 32-bit indices.
     wood.add_species("#set names letters; #w : F; #p : F : * : F+F;", 13, 0.0F);
     wood.add_trees(900);
     const Exported file = exported(wood.scene(), ExportFormat::Glb);
     REQUIRE(!file.stop);
-    std::uint64_t vertices = 0; // of all primitives
-    std::uint64_t wide = 0;
-    std::uint64_t nested = 0;
+    std::uint64_t vertices = 0;         // of all primitives
+    std::uint64_t wide_primitives = 0;  // with 32-bit indices
+    std::uint64_t nested_instances = 0; // in branches of other instances
     for (const json& drawn : file.document["meshes"]) {
         // The name is "species S I": instance I of species S.
         const std::string name = drawn["name"];
@@ -411,13 +411,13 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
         const auto parts = meshes.parts_of(instance);
         REQUIRE(drawn["primitives"].size() == parts.size());
         const ForestStage& stage = wood.forest.species[species].stages[0];
-        nested += stage.cache.instances[instance].slot > 0 ? 1U : 0U;
+        nested_instances += stage.cache.instances[instance].slot > 0 ? 1U : 0U;
         for (std::size_t p = 0; p < parts.size(); ++p) {
             const json& written = drawn["primitives"][p];
             const Primitive primitive = read_primitive(file, written);
             vertices += primitive.positions.size();
-            wide += primitive.wide ? 1U : 0U;
-            CHECK(primitive.wide == (primitive.positions.size() >= 65'536));
+            wide_primitives += primitive.has_wide_indices ? 1U : 0U;
+            CHECK(primitive.has_wide_indices == (primitive.positions.size() >= 65'536));
             REQUIRE(primitive.indices.size() == parts[p].index_count);
             Bounds used;
             std::uint64_t elsewhere = 0;
@@ -437,8 +437,8 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
             }
         }
     }
-    CHECK(wide > 0);
-    CHECK(nested > 20);
+    CHECK(wide_primitives > 0);
+    CHECK(nested_instances > 20);
     // Nested instances share their vertices in the file: the file has few more than the heroes
     // have.
     std::uint64_t vertices_in_file = 0;

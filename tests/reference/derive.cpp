@@ -48,8 +48,9 @@ struct Stop {
     RunError error;
 };
 
-// Input of one step, or of one pass of a rule: `word` of age `age`.
-struct Reading {
+// Input of a pass, which rewrites `word` of age `age` once: a generation or, in sequential
+// rewriting and #decompose, a part of one.
+struct PassInput {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
@@ -58,49 +59,49 @@ struct Reading {
     bool decomposes = false;
 };
 
-Environment environment_of(const Reading& reading, const Bindings& bindings) {
+Environment environment_of(const PassInput& pass, const Bindings& bindings) {
     Environment environment;
-    environment.constants = &reading.system.constants;
-    environment.functions = &reading.system.functions;
+    environment.constants = &pass.system.constants;
+    environment.functions = &pass.system.functions;
     environment.formals = bindings;
-    environment.step = static_cast<float>(reading.age);
-    environment.steps = static_cast<float>(reading.system.steps);
+    environment.step = static_cast<float>(pass.age);
+    environment.steps = static_cast<float>(pass.system.steps);
     return environment;
 }
 
 [[noreturn]] void
-stop(const Reading& reading, const Production& production, std::size_t position, Failure failure) {
-    throw Stop{RunError{failure, production.label, position, reading.age, reading.word[position]}};
+stop(const PassInput& pass, const Production& production, std::size_t position, Failure failure) {
+    throw Stop{RunError{failure, production.label, position, pass.age, pass.word[position]}};
 }
 
 // "A production matches a module when name and count agree, the contexts match, and the condition
 // holds."
-bool matches(const Reading& reading,
+bool matches(const PassInput& pass,
              const Production& production,
              std::size_t position,
              Bindings& bindings) {
     bindings.clear();
-    if (!matches_around(production, reading.word, position, reading.system.ignored, bindings)) {
+    if (!matches_around(production, pass.word, position, pass.system.ignored, bindings)) {
         return false;
     }
     if (!production.condition) {
         return true;
     }
-    const float value = evaluate(*production.condition, environment_of(reading, bindings));
+    const float value = evaluate(*production.condition, environment_of(pass, bindings));
     if (!std::isfinite(value)) {
-        stop(reading, production, position, Failure::NotFinite);
+        stop(pass, production, position, Failure::NotFinite);
     }
     return value != 0.0F;
 }
 
 // The random number that chooses between the productions that match at `position`.
-float draw_of_choice(const Reading& reading, std::size_t rule, std::size_t position) {
-    const System& system = reading.system;
+float draw_of_choice(const PassInput& pass, std::size_t rule, std::size_t position) {
+    const System& system = pass.system;
     if (system.one_choice_a_generation) {
         const std::uint64_t place = std::uint64_t{0} - 1 - rule;
-        return uniform(system.seed, place, reading.age, 0);
+        return uniform(system.seed, place, pass.age, 0);
     }
-    return uniform(system.seed, position, reading.age, reading.first_draw);
+    return uniform(system.seed, position, pass.age, pass.first_draw);
 }
 
 struct Choice {
@@ -111,20 +112,20 @@ struct Choice {
 // "Productions are tried in file order. If the first that matches has no `~`, it is taken.
 // Otherwise the choice is among all matching `~` productions whose predecessor and contexts have
 // the same names and counts, with weights p, normalised."
-Choice choose(const Reading& reading, std::size_t position) {
-    const System& system = reading.system;
+Choice choose(const PassInput& pass, std::size_t position) {
+    const System& system = pass.system;
     std::vector<Choice> candidates;
     Entry first;
-    for (const Entry& entry : reading.decomposes ? system.decompositions : system.productions) {
+    for (const Entry& entry : pass.decomposes ? system.decompositions : system.productions) {
         const Production& production = *entry.production;
-        if (reading.only_rule && entry.rule != *reading.only_rule) {
+        if (pass.only_rule && entry.rule != *pass.only_rule) {
             continue;
         }
         if (!candidates.empty() && (!production.probability || entry.group != first.group)) {
             continue;
         }
         Choice candidate{&production, {}};
-        if (!matches(reading, production, position, candidate.bindings)) {
+        if (!matches(pass, production, position, candidate.bindings)) {
             continue;
         }
         if (!production.probability) {
@@ -142,18 +143,18 @@ Choice choose(const Reading& reading, std::size_t position) {
     float sum = 0;
     std::vector<float> weights;
     for (const Choice& candidate : candidates) {
-        const float weight = evaluate(*candidate.production->probability,
-                                      environment_of(reading, candidate.bindings));
+        const float weight =
+            evaluate(*candidate.production->probability, environment_of(pass, candidate.bindings));
         sum += weight;
         if (!std::isfinite(weight) || weight < 0 || !std::isfinite(sum)) {
-            stop(reading, *candidate.production, position, Failure::BadWeight);
+            stop(pass, *candidate.production, position, Failure::BadWeight);
         }
         weights.push_back(weight);
     }
     if (sum == 0) {
         return {}; // "the module counts as not matched"
     }
-    const float u = draw_of_choice(reading, first.rule, position);
+    const float u = draw_of_choice(pass, first.rule, position);
     float running = 0;
     std::size_t taken = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -168,31 +169,30 @@ Choice choose(const Reading& reading, std::size_t position) {
 }
 
 // Appends the successor to `out`; its ranges are numbered in the order of their closing braces.
-void rewrite(const Reading& reading, const Choice& choice, std::size_t position, Word& out) {
-    const System& system = reading.system;
+void rewrite(const PassInput& pass, const Choice& choice, std::size_t position, Word& out) {
+    const System& system = pass.system;
     const Production& production = *choice.production;
     const bool choice_took_a_draw = production.probability && !system.one_choice_a_generation;
-    std::uint64_t draw = reading.first_draw + (choice_took_a_draw ? 1 : 0);
+    std::uint64_t draw = pass.first_draw + (choice_took_a_draw ? 1 : 0);
 
-    Environment environment = environment_of(reading, choice.bindings);
-    environment.draw = [&] { return uniform(system.seed, position, reading.age, draw++); };
+    Environment environment = environment_of(pass, choice.bindings);
+    environment.draw = [&] { return uniform(system.seed, position, pass.age, draw++); };
     const auto value_of = [&](const Expr& expr) {
         try {
             return evaluate(expr, environment);
         } catch (const BadRange&) {
-            stop(reading, production, position, Failure::BadRange);
+            stop(pass, production, position, Failure::BadRange);
         }
     };
     for (const auto& [name, expr] : production.locals) {
         environment.formals[name] = value_of(expr); // a local value may be infinite or NaN
     }
     for (const ModuleUse& use : production.successor) {
-        Module module{
-            use.name, {}, {&use, production.label, reading.age + (reading.decomposes ? 0 : 1)}};
+        Module module{use.name, {}, {&use, production.label, pass.age + (pass.decomposes ? 0 : 1)}};
         for (const Expr& argument : use.arguments) {
             const float value = value_of(argument);
             if (!std::isfinite(value)) {
-                stop(reading, production, position, Failure::NotFinite);
+                stop(pass, production, position, Failure::NotFinite);
             }
             module.values.push_back(value);
         }
@@ -202,20 +202,20 @@ void rewrite(const Reading& reading, const Choice& choice, std::size_t position,
 
 // Rewrites the word once from left to right, as in leftmost rewriting. In parallel rewriting a
 // predecessor is one module, so that this is also the step that rewrites all modules at once.
-Word read_once(const Reading& reading, Derivation& derivation) {
+Word run_pass(const PassInput& pass, Derivation& derivation) {
     Word out;
     std::size_t position = 0;
-    while (position < reading.word.size()) {
-        const Choice choice = choose(reading, position);
+    while (position < pass.word.size()) {
+        const Choice choice = choose(pass, position);
         if (choice.production == nullptr) { // copied, with its origin
-            out.push_back(reading.word[position]);
+            out.push_back(pass.word[position]);
             ++position;
             continue;
         }
-        rewrite(reading, choice, position, out);
+        rewrite(pass, choice, position, out);
         ++derivation.applications[choice.production->label];
         position += choice.production->predecessor.size();
-        if (out.size() > reading.system.max_modules) {
+        if (out.size() > pass.system.max_modules) {
             throw TooLarge{};
         }
     }
@@ -247,10 +247,10 @@ Word without_cuts(const System& system, const Word& word) {
 // Applies passes of #decompose to the word of an age, until none applies or the depth limit is
 // reached.
 Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& derivation) {
-    for (std::uint32_t pass = 0; pass < system.decompose_depth; ++pass) {
-        Reading reading{system, word, age, kFirstDecomposeDraw + kDrawsOfARule * pass, {}, true};
+    for (std::uint32_t i = 0; i < system.decompose_depth; ++i) {
+        PassInput pass{system, word, age, kFirstDecomposeDraw + kDrawsOfARule * i, {}, true};
         const std::map<std::string, std::uint64_t> before = derivation.applications;
-        Word next = read_once(reading, derivation);
+        Word next = run_pass(pass, derivation);
         if (before == derivation.applications) {
             return word;
         }
@@ -267,8 +267,8 @@ Word next_word(const System& system,
     if (mode == "sequential") {
         Word current = word;
         for (std::uint32_t k = 0; k < system.rewriting_rules; ++k) {
-            const Reading reading{system, current, age, kDrawsOfARule * k, k};
-            current = read_once(reading, derivation);
+            const PassInput pass{system, current, age, kDrawsOfARule * k, k};
+            current = run_pass(pass, derivation);
         }
         return current;
     }
@@ -277,9 +277,9 @@ Word next_word(const System& system,
             return word;
         }
         const std::size_t rule = age % system.rewriting_rules;
-        return read_once(Reading{system, word, age, 0, rule}, derivation);
+        return run_pass(PassInput{system, word, age, 0, rule}, derivation);
     }
-    return read_once(Reading{system, word, age, 0, std::nullopt}, derivation);
+    return run_pass(PassInput{system, word, age, 0, std::nullopt}, derivation);
 }
 
 // Gives constants and axiom their values, in the order of the text.

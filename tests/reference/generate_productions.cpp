@@ -295,27 +295,29 @@ std::vector<float> ProductionMaker::shares(int count) {
 // Predecessor and contexts, cut from a stored skeleton or made of random species.
 Production ProductionMaker::shape(bool letters) {
     Production shape;
-    const bool long_ones = plan_.rewriting != "parallel";
-    const std::size_t length = long_ones && random_.percent(35) ? 2 + random_.below(2) : 1;
+    const bool allows_several_modules = plan_.rewriting != "parallel";
+    const std::size_t length =
+        allows_several_modules && random_.percent(35) ? 2 + random_.below(2) : 1;
     const bool in_context = random_.percent(plan_.context_percent);
     const std::size_t sides = random_.below(10);
     const int size = random_.percent(60) ? 1 : random_.between(2, 3);
     const Skeleton& skeleton = common_skeleton(letters);
     const std::optional<std::size_t> place = place_in(skeleton, length, random_);
-    const bool cut = place && random_.percent(in_context || length > 1 ? 85 : 25);
+    const bool from_skeleton = place && random_.percent(in_context || length > 1 ? 85 : 25);
     for (std::size_t i = 0; i < length; ++i) {
-        const Species& species = cut ? skeleton[*place + i] : active_species(letters);
+        const Species& species = from_skeleton ? skeleton[*place + i] : active_species(letters);
         shape.predecessor.push_back({species.name, std::vector<std::string>(species.count)});
     }
     if (in_context && sides < 6) {
-        shape.left = cut ? cut_left(skeleton, *place, size, plan_.ignored) : Pattern{};
+        shape.left = from_skeleton ? cut_left(skeleton, *place, size, plan_.ignored) : Pattern{};
         if (shape.left->empty()) {
             shape.left = context(size, false, 0, letters);
         }
     }
     if (in_context && sides > 3) {
-        const std::size_t end = cut ? *place + length : 0;
-        shape.right = cut ? cut_right(skeleton, end, size, plan_.ignored, random_) : Pattern{};
+        const std::size_t end = from_skeleton ? *place + length : 0;
+        shape.right =
+            from_skeleton ? cut_right(skeleton, end, size, plan_.ignored, random_) : Pattern{};
         if (shape.right->empty()) {
             shape.right = context(size, plan_.brackets, 0, letters);
         }

@@ -320,9 +320,9 @@ private:
         }
     }
 
-    // Whether the tokens would be read as one without a blank.
+    // Whether the scanner would read the tokens as one if no blank stood between them.
     [[nodiscard]] bool merge(const Token& previous, const Token& token) const {
-        // The module `.`; a number is never a `.` alone.
+        // A lone `.` is the module, never part of a number, so it merges with nothing.
         if (previous.text == "." || token.text == ".") {
             return false;
         }

@@ -395,7 +395,7 @@ TEST_CASE("constants and the axiom draw before the derivation") {
     request.seed = 5;
     request.definitions = {{"K", -7.0F}};
     const Word defined = derive(grammar, request).words[0];
-    // -D does not free the number of the range.
+    // The ranges of K keep their draw numbers although -D replaces its value.
     CHECK(defined[0].values == std::vector<float>{word[0].values[0], -7.0F});
 }
 

@@ -290,7 +290,7 @@ Bytecode BytecodeBuilder::build() const {
         bytecode.productions.push_back(std::move(production));
     }
     bytecode.rule_count = static_cast<std::uint32_t>(rules.size());
-    bytecode.group_count = static_cast<std::uint32_t>(groups.size());
+    bytecode.context_group_count = static_cast<std::uint32_t>(groups.size());
     const CodeNeeds needs = needs_of(bytecode.instructions);
     bytecode.stack_depth = needs.stack_depth;
     bytecode.local_count = needs.local_count;

@@ -201,7 +201,7 @@ TEST_CASE("impostors are as light as their branches, with the sun behind and aga
     CHECK(difference.mean < 1.9);
 }
 
-TEST_CASE("the counts of a forest are told, and the same every run") {
+TEST_CASE("the counts of a forest are reported, and the same every run") {
     const std::vector<std::string> arguments = {
         LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--count", "4000",   "--camera",
         "eye 350,0,350 target 290,0,290 fov 60",         "--size",  "160x90", "--screenshot"};
@@ -216,7 +216,7 @@ TEST_CASE("the counts of a forest are told, and the same every run") {
     CHECK(stats["trees"] == 4000);
     CHECK(stats["errors"].empty());
     CHECK(stats["draws"] <= 16);
-    CHECK(stats["passes"]["shadow"]["draws"] == 1); // in two pictures together
+    CHECK(stats["passes"]["shadow"]["draws"] == 1); // one draw call in total for the two frames
     CHECK(stats["passes"]["impostors"]["triangles"] > 0);
     CHECK(stats["passes"]["terrain"]["triangles"] > 0);
     CHECK(stats["trees_drawn"]["impostors"] > 0);

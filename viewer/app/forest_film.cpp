@@ -11,7 +11,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The current growth. Used by the film's thread only.
+/// The current growth. Used by the growth thread only.
 struct FilmState {
     std::shared_ptr<const ForestDocument> document; // the document from which `growth` was begun
     Scene scene;

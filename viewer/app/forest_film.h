@@ -12,9 +12,9 @@
 namespace lsys::view {
 
 struct ForestFilmRequest {
-    // The film does not read the trees of the document, which the window may change.
+    // The growth thread does not read the trees of the document, which the window may change.
     std::shared_ptr<const ForestDocument> document;
-    std::uint32_t years = 0; // years of the last moment of the film
+    std::uint32_t years = 0; // years of the last moment of the growth
     RunOptions run;
     GrowthMoment moment;
     SteadyClock::time_point since;
@@ -32,7 +32,7 @@ struct ForestFilmMoment {
 
 class ForestFilm {
 public:
-    /// `done` is called on the film's thread whenever take() has a moment.
+    /// `done` is called on the growth thread whenever take() has a moment.
     explicit ForestFilm(std::function<void()> done);
 
     /// Continues the growth of the previous moment if the document is the same.

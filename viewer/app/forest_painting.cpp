@@ -269,13 +269,13 @@ ForestPainting::outline(const glm::dvec3& place, float radius, bool erases) cons
     constexpr std::array<std::uint8_t, 4> kErases = {255, 110, 90, 255};
     std::vector<LineVertex> lines;
     const Terrain& terrain = *document_->grown.terrain;
-    const float wide = std::max(radius, 0.25F);
+    const float shown_radius = std::max(radius, 0.25F);
     const auto corner = [&](std::uint32_t i) {
         const float angle =
             2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(kCorners);
-        const float x = static_cast<float>(place.x) + wide * std::cos(angle);
-        const float z = static_cast<float>(place.z) + wide * std::sin(angle);
-        return glm::vec3(x, terrain.height(x, z) + 0.02F * wide, z);
+        const float x = static_cast<float>(place.x) + shown_radius * std::cos(angle);
+        const float z = static_cast<float>(place.z) + shown_radius * std::sin(angle);
+        return glm::vec3(x, terrain.height(x, z) + 0.02F * shown_radius, z);
     };
     for (std::uint32_t i = 0; i < kCorners; ++i) {
         lines.push_back({corner(i), erases ? kErases : kPaints});

@@ -96,11 +96,12 @@ void draw_years(ForestView& view) {
     }
     ForestViewSettings& settings = view.settings;
     auto years = static_cast<int>(view.years());
-    const bool dominates = view.document() != nullptr &&
-                           view.document()->scene.placement.method == PlacementMethod::Domination;
-    const std::uint32_t farthest = dominates ? 2 * default_years : default_years;
-    if (ImGui::SliderInt(dominates ? "Years" : "Stages on", &years, 0,
-                         static_cast<int>(std::max({farthest, view.years(), 1U})))) {
+    const bool is_domination =
+        view.document() != nullptr &&
+        view.document()->scene.placement.method == PlacementMethod::Domination;
+    const std::uint32_t max_years = is_domination ? 2 * default_years : default_years;
+    if (ImGui::SliderInt(is_domination ? "Years" : "Stages on", &years, 0,
+                         static_cast<int>(std::max({max_years, view.years(), 1U})))) {
         view.set_years(static_cast<std::uint32_t>(std::max(years, 0)));
     }
     if (ImGui::Button(settings.plays ? "Pause" : "Play")) {

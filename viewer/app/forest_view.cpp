@@ -327,7 +327,7 @@ bool ForestView::plays_smoothly() const {
            document_->scene.placement.method == PlacementMethod::Domination;
 }
 
-/// Shows the trees that the film has made.
+/// Shows the trees made by the growth thread (ForestFilm).
 void ForestView::take_moment() {
     std::optional<ForestFilmMoment> film_moment = film_->take();
     if (!film_moment || film_moment->document != document_) {
@@ -348,7 +348,7 @@ void ForestView::take_moment() {
     changed_ = true;
 }
 
-/// Ends the film and shows the forest of a whole year.
+/// Ends playing and shows the forest of a whole year.
 void ForestView::end_growth(std::uint32_t years) {
     settings.plays = false;
     grown_.reset();
@@ -378,8 +378,8 @@ void ForestView::grow() {
         film_ = std::make_unique<ForestFilm>(wake_);
     }
     take_moment();
-    const bool is_made = requested_ == settings.edits && !loader_.is_busy();
-    if (!is_made || failed() || film_->is_busy()) {
+    const bool is_up_to_date = requested_ == settings.edits && !loader_.is_busy();
+    if (!is_up_to_date || failed() || film_->is_busy()) {
         last_growth_ = now;
         return;
     }
@@ -406,15 +406,15 @@ void ForestView::grow() {
                     now,
                     false});
     settings.edits.years = year;
-    requested_->years = year; // the film shows this year, so the loader must not make it
+    requested_->years = year; // made by the growth thread, so the loader must not make it
 }
 
 void ForestView::grow_by_years() {
     const SteadyClock::time_point now = SteadyClock::now();
     const double passed = std::chrono::duration<double>(now - last_growth_).count();
     const double years_passed = passed * static_cast<double>(settings.years_per_second);
-    const bool is_made = requested_ == settings.edits && !loader_.is_busy();
-    if (!is_made || years_passed < 1.0) {
+    const bool is_up_to_date = requested_ == settings.edits && !loader_.is_busy();
+    if (!is_up_to_date || years_passed < 1.0) {
         return;
     }
     last_growth_ = now;

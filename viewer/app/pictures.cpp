@@ -36,7 +36,7 @@ PhysicsOptions forces_of(const ViewOptions& options, const PlantDocument& docume
 /// Warns of a plant that falls under its weight, as `lsc` does.
 ExitStatus
 check_weight(const ViewOptions& options, const PlantDocument& document, const Console& console) {
-    Diagnostics warning = weigh_for_warning(
+    Diagnostics warning = make_fall_warning(
         document.plant.skeleton, document.grammar.bytecode.settings, forces_of(options, document));
     return warning.all().empty() ? ExitStatus::Ok
                                  : console.show(warning, *document.grammar.sources);

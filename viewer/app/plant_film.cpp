@@ -11,7 +11,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The current growth. Used by the film's thread only.
+/// The current growth. Used by the growth thread only.
 struct FilmState {
     std::optional<ViewOptions> options; // options with which `growth` was begun
     Grammar grammar;

@@ -12,7 +12,7 @@
 namespace lsys::view {
 
 struct FilmRequest {
-    ViewOptions options; // of the plant; the film ends at its generations
+    ViewOptions options; // of the plant; the growth ends at its generations
     GrowthMoment moment;
     SteadyClock::time_point since;
     bool again = false;
@@ -31,7 +31,7 @@ struct FilmMoment {
 
 class PlantFilm {
 public:
-    /// `done` is called on the film's thread whenever take() has a moment.
+    /// `done` is called on the growth thread whenever take() has a moment.
     explicit PlantFilm(std::function<void()> done);
 
     /// Continues the derivation of the previous moment if the plant is the same.

@@ -23,7 +23,8 @@ constexpr double kMaxTimeStep = 0.1;
 
 } // namespace
 
-WeighOutcome weigh_plant(const WeighRequest& request, const std::atomic<bool>& /*cancelled*/) {
+StandingOutcome check_plant_stands(const StandingRequest& request,
+                                   const std::atomic<bool>& /*cancelled*/) {
     return catch_out_of_memory(
         [&] {
             Settings settings = request.document->grammar.bytecode.settings;
@@ -31,11 +32,11 @@ WeighOutcome weigh_plant(const WeighRequest& request, const std::atomic<bool>& /
             settings.spring *= request.bending.stiffness;
             const Skeleton plant = stiffened(request.document->plant.skeleton, Stiffening::Springs,
                                              static_cast<double>(request.bending.stiffness));
-            return WeighOutcome{request.document,
-                                weigh_for_warning(plant, settings, request.bending.forces)};
+            return StandingOutcome{request.document,
+                                   make_fall_warning(plant, settings, request.bending.forces)};
         },
         [&] {
-            return WeighOutcome{request.document, {}};
+            return StandingOutcome{request.document, {}};
         }); // the simulation will report missing memory
 }
 

@@ -24,21 +24,21 @@ struct Bending {
     float stiffness = 1.0F; // factor of the spring constants of all segments
 };
 
-/// Work for another thread: weighs a plant.
-struct WeighRequest {
+/// Work for another thread: checks whether a plant stands under its weight.
+struct StandingRequest {
     std::shared_ptr<const PlantDocument> document;
     Bending bending;
     SteadyClock::time_point since;
     bool again = false;
 };
-struct WeighOutcome {
+struct StandingOutcome {
     std::shared_ptr<const PlantDocument> document;
-    /// Says that the plant falls under its weight; empty: it stands, or is too large to be weighed.
+    /// make_fall_warning(): empty if the plant stands or is too large to be checked.
     Diagnostics warning;
 };
-[[nodiscard]] WeighOutcome weigh_plant(const WeighRequest& request,
-                                       const std::atomic<bool>& cancelled);
-using PlantWeigher = LatestRequestWorker<WeighRequest, WeighOutcome>;
+[[nodiscard]] StandingOutcome check_plant_stands(const StandingRequest& request,
+                                                 const std::atomic<bool>& cancelled);
+using StandingChecker = LatestRequestWorker<StandingRequest, StandingOutcome>;
 
 class PlantMotion {
 public:

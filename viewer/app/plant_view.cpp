@@ -112,7 +112,7 @@ bool PlantView::update() {
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
         requested_.reset(); // moments of growth do not bend, so request the plant itself
     }
-    has_news = weigh() || has_news;
+    has_news = check_standing() || has_news;
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
@@ -166,7 +166,7 @@ void PlantView::swap(LoadOutcome outcome) {
     drop_unknown_definitions();
     motion_.reset();
     bending_.reset();
-    weighed_.reset();
+    checked_bending_.reset();
     warns_of_fall_ = false;
     film_.reset(); // its files may have changed
     shows_growth_ = false;
@@ -242,7 +242,7 @@ void PlantView::widen_film_ground() {
     }
 }
 
-/// Shows the moment that the film has made.
+/// Shows the moment made by the growth thread (PlantFilm).
 void PlantView::take_moment() {
     std::optional<FilmMoment> film_moment = film_->take();
     if (!film_moment) {
@@ -297,7 +297,7 @@ void PlantView::grow() {
     film_->request(options, {generation, growth_position_ - std::floor(growth_position_)});
     settings.generations = generation;
     if (requested_) {
-        // The film shows this generation, so the loader must not make it.
+        // The growth thread makes this generation, so the loader must not make it.
         requested_->generations = generation;
     }
 }
@@ -360,12 +360,12 @@ void PlantView::write_values() {
         names.push_back(setting.key);
     }
     const Result<std::string> text = text_with_values(values);
-    const bool is_made =
+    const bool is_up_to_date =
         requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
     const Result<void> written =
-        !text     ? Result<void>(text.error())
-        : is_made ? write_file(settings.file, text.value(), console_)
-                  : Result<void>(Error{"the plant with these values is not made yet"});
+        !text           ? Result<void>(text.error())
+        : is_up_to_date ? write_file(settings.file, text.value(), console_)
+                        : Result<void>(Error{"the plant with these values is not made yet"});
     if (!written) {
         set_note(fmt::format("not written: {}", written.error().message));
         return;
@@ -412,27 +412,27 @@ void PlantView::bend() {
 }
 
 /// Warns if the simulated plant falls under its weight. Returns whether messages changed.
-bool PlantView::weigh() {
+bool PlantView::check_standing() {
     const bool wants = settings.simulates && document_ != nullptr && !failed() &&
                        motion_ != nullptr && settings.bending.forces.gravity > 0.0F;
     if (!wants) {
-        weighed_.reset();
+        checked_bending_.reset();
         if (!std::exchange(warns_of_fall_, false) || document_ == nullptr || failed()) {
             return false;
         }
         take_messages(shown_outcome_.messages, true);
         return true;
     }
-    if (!weighed_ || weighed_->stiffness != settings.bending.stiffness ||
-        weighed_->forces.gravity != settings.bending.forces.gravity ||
-        weighed_->forces.load != settings.bending.forces.load) {
-        if (weigher_ == nullptr) {
-            weigher_ = std::make_unique<PlantWeigher>(weigh_plant, wake_);
+    if (!checked_bending_ || checked_bending_->stiffness != settings.bending.stiffness ||
+        checked_bending_->forces.gravity != settings.bending.forces.gravity ||
+        checked_bending_->forces.load != settings.bending.forces.load) {
+        if (standing_checker_ == nullptr) {
+            standing_checker_ = std::make_unique<StandingChecker>(check_plant_stands, wake_);
         }
-        weighed_ = settings.bending;
-        weigher_->request({document_, settings.bending, SteadyClock::now(), false});
+        checked_bending_ = settings.bending;
+        standing_checker_->request({document_, settings.bending, SteadyClock::now(), false});
     }
-    std::optional<WeighOutcome> outcome = weigher_->take();
+    std::optional<StandingOutcome> outcome = standing_checker_->take();
     if (!outcome || outcome->document != document_) {
         return false;
     }
@@ -537,7 +537,7 @@ void PlantView::frame_all() {
 
 bool PlantView::is_busy() const {
     return loader_.is_busy() || settings.plays || motion_ != nullptr || is_picking() ||
-           (weighed_ && weigher_->is_busy());
+           (checked_bending_ && standing_checker_->is_busy());
 }
 
 } // namespace lsys::view

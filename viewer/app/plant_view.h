@@ -95,7 +95,7 @@ public:
     /// Generations of the command line or grammar, without the user's settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
-    /// The moment of growth that is shown instead of the last plant; null if the plant is shown.
+    /// The moment of growth that is shown instead of document(); null if document() is shown.
     [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
 protected:
@@ -111,7 +111,7 @@ private:
     void take_moment();
     void widen_film_ground();
     void bend();
-    [[nodiscard]] bool weigh();
+    [[nodiscard]] bool check_standing();
     void drop_unknown_definitions();
     [[nodiscard]] ViewOptions wanted() const;
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
@@ -137,9 +137,10 @@ private:
     MeshOptions bent_mesh_;          // options with which bent_ was meshed
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
-    std::optional<Bending> weighed_; // last request to weigher_
+    /// Last request to the worker that checks whether the plant stands.
+    std::optional<Bending> checked_bending_;
     bool warns_of_fall_ = false;
-    std::unique_ptr<PlantWeigher> weigher_; // made by the first simulation
+    std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
     PlantLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

@@ -7,13 +7,13 @@
 //   number_or_none a number that is kNone in most programs; kNone leaves the digest as it is
 //   table_or_none  a table that most programs lack; an empty one leaves the digest as it is
 //   implied        a truth that decides the derived word, computed from a field that as a whole does
-//                  not and therefore goes to beside_word(); only the digest uses it
-//   beside_word()  returns the stream for fields that do not decide the derived word: itself, or an
-//                  IgnoringStream
+//                  not and therefore goes to outside_digest(); only the digest uses it
+//   outside_digest() returns the stream for fields that do not affect the derived word: itself, but
+//                  an IgnoringStream in the digest
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
 // binding, so that a new field does not compile until it has a name here. Pass the field to the
 // stream: then it is written, read and digested. Only a field that decides drawing, printing or
-// messages alone goes to beside_word(). Either way the format of .lsb files changes: raise
+// messages alone goes to outside_digest(). Either way the format of .lsb files changes: raise
 // kModuleFileVersion.
 #pragma once
 
@@ -89,12 +89,12 @@ void describe_value(Stream& stream, Value& value) {
 
 template <typename Stream, typename Value>
 void describe_settings(Stream& stream, Value& settings) {
-    auto&& beside = stream.beside_word();
+    auto&& undigested = stream.outside_digest();
     for_each_setting(settings, [&](const SettingRow& row, auto& value) {
-        if (row.use == SettingUse::Word) {
+        if (row.use == SettingUse::AffectsWord) {
             describe_value(stream, value);
         } else {
-            describe_value(beside, value);
+            describe_value(undigested, value);
         }
     });
 }
@@ -119,14 +119,14 @@ void describe_word(Stream& stream, Value& word) {
 template <typename Stream, typename Value>
 void describe_symbol(Stream& stream, Value& symbol) {
     auto& [name, parameter_count, kind, ignored, turtle, mesh_file] = symbol;
-    auto&& beside = stream.beside_word();
+    auto&& undigested = stream.outside_digest();
     stream.text(name);
     stream.number(parameter_count);
     stream.tag(kind);
     stream.truth(ignored);
-    beside.tag(turtle);
+    undigested.tag(turtle);
     stream.implied(turtle == TurtleOperation::Cut);
-    beside.text(mesh_file);
+    undigested.text(mesh_file);
 }
 
 template <typename Stream, typename Value>
@@ -140,15 +140,15 @@ template <typename Stream, typename Value>
 void describe_global(Stream& stream, Value& global) {
     auto& [name, instruction, draw_position, draw_count, has_bounds, minimum, maximum, site] =
         global;
-    auto&& beside = stream.beside_word();
-    beside.text(name);
+    auto&& undigested = stream.outside_digest();
+    undigested.text(name);
     stream.number(instruction);
     stream.number(draw_position);
     stream.number(draw_count);
     stream.truth(has_bounds);
     stream.real(minimum);
     stream.real(maximum);
-    beside.number(site);
+    undigested.number(site);
 }
 
 template <typename Stream, typename Value>
@@ -192,9 +192,9 @@ template <typename Stream, typename Value>
 void describe_production(Stream& stream, Value& production) {
     auto& [name, name_site, rule, group, stage, has_left, has_right, left, predecessor, right,
            formal_count, condition, stochastic, weight, weight_code, successor] = production;
-    auto&& beside = stream.beside_word();
-    beside.text(name);
-    beside.number(name_site);
+    auto&& undigested = stream.outside_digest();
+    undigested.text(name);
+    undigested.number(name_site);
     stream.number(rule);
     stream.number(group);
     stream.tag(stage);
@@ -215,8 +215,8 @@ void describe_production(Stream& stream, Value& production) {
 template <typename Stream, typename Value>
 void describe_curve(Stream& stream, Value& curve) {
     auto& [name, points] = curve;
-    auto&& beside = stream.beside_word();
-    beside.text(name);
+    auto&& undigested = stream.outside_digest();
+    undigested.text(name);
     stream.table(points, [](auto& s, auto& row) {
         s.real(row.x);
         s.real(row.y);
@@ -251,7 +251,7 @@ template <typename Stream, typename Value>
 void describe_axiom(Stream& stream, Value& axiom) {
     auto& [word, site, draw_position, weight] = axiom;
     describe_word(stream, word);
-    stream.beside_word().number(site);
+    stream.outside_digest().number(site);
     stream.number(draw_position);
     stream.real(weight);
 }
@@ -260,12 +260,12 @@ template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, group_count, axioms, uses_steps, curves, materials, stack_depth,
+           rule_count, context_group_count, axioms, uses_steps, curves, materials, stack_depth,
            local_count] = bytecode;
-    auto&& beside = stream.beside_word();
+    auto&& undigested = stream.outside_digest();
     describe_settings(stream, settings);
-    beside.optional_number(generations);
-    beside.table(files, [](auto& s, auto& path) { s.text(path); });
+    undigested.optional_number(generations);
+    undigested.table(files, [](auto& s, auto& path) { s.text(path); });
     stream.table(symbols, [](auto& s, auto& row) { describe_symbol(s, row); });
     stream.table(folded, [](auto& s, auto& row) { describe_folded(s, row); });
     stream.table(constants, [](auto& s, auto& value) { s.real(value); });
@@ -274,18 +274,18 @@ void describe(Stream& stream, Value& bytecode) {
     stream.codes(template_codes,
                  code_width(std::uint64_t{bytecode.symbols.size()} + bytecode.folded.size()));
     stream.table(instructions, [](auto& s, auto& word) { s.number(word); });
-    beside.table(sites, [](auto& s, auto& row) { describe_site(s, row); });
-    beside.table(site_ranges, [](auto& s, auto& row) { describe_site_range(s, row); });
-    beside.table(template_places, [](auto& s, auto& row) { describe_place_run(s, row); });
+    undigested.table(sites, [](auto& s, auto& row) { describe_site(s, row); });
+    undigested.table(site_ranges, [](auto& s, auto& row) { describe_site_range(s, row); });
+    undigested.table(template_places, [](auto& s, auto& row) { describe_place_run(s, row); });
     stream.table(productions, [](auto& s, auto& row) { describe_production(s, row); });
     stream.number(rule_count);
-    stream.number(group_count);
+    stream.number(context_group_count);
     stream.table(axioms, [](auto& s, auto& row) { describe_axiom(s, row); });
     stream.truth(uses_steps);
     stream.table_or_none(curves, [](auto& s, auto& row) { describe_curve(s, row); });
-    beside.table(materials, [](auto& s, auto& row) { describe_material(s, row); });
-    beside.number(stack_depth);
-    beside.number(local_count);
+    undigested.table(materials, [](auto& s, auto& row) { describe_material(s, row); });
+    undigested.number(stack_depth);
+    undigested.number(local_count);
 }
 
 } // namespace lsys

@@ -60,7 +60,7 @@ ClassId ModuleClasses::unknown_class(Code code) {
     return static_cast<ClassId>(unknown_ids_[code]);
 }
 
-ClassId ModuleClasses::valued_class(Code code, std::span<const KnownValue> values) {
+ClassId ModuleClasses::class_with_known_values(Code code, std::span<const KnownValue> values) {
     if (exhausted()) {
         return unknown_class(code);
     }
@@ -74,10 +74,10 @@ ClassId ModuleClasses::valued_class(Code code, std::span<const KnownValue> value
     if (!any_known) {
         return unknown_class(code);
     }
-    if (const auto found = valued_ids_.find(key); found != valued_ids_.end()) {
+    if (const auto found = known_value_ids_.find(key); found != known_value_ids_.end()) {
         return found->second;
     }
-    if (valued_ids_.size() >= kMaxValuedClasses) {
+    if (known_value_ids_.size() >= kMaxClassesWithKnownValues) {
         return unknown_class(code);
     }
     const auto first = static_cast<std::uint32_t>(values_.size());
@@ -86,7 +86,7 @@ ClassId ModuleClasses::valued_class(Code code, std::span<const KnownValue> value
         values_.push_back({known ? std::bit_cast<float>(key[i]) : 0.0F, known});
     }
     const ClassId id = add_class(code, first);
-    valued_ids_.emplace(std::move(key), id);
+    known_value_ids_.emplace(std::move(key), id);
     return id;
 }
 
@@ -171,7 +171,7 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionI
                                            word.locals);
             }
         }
-        terms.push_back({valued_class(module.code, values), 1});
+        terms.push_back({class_with_known_values(module.code, values), 1});
     }
     std::sort(terms.begin(), terms.end(),
               [](const ClassTerm& a, const ClassTerm& b) { return a.target < b.target; });

@@ -2,7 +2,8 @@
 // A class is a code and the known values of its relevant parameters (production_index.h). If a
 // condition reads the parameter of A, A(12) and A(11) are two classes; F(2) and F(2.2) are one
 // class if no condition reads the parameter. An unknown value stands for every value. Beyond
-// kMaxValuedClasses classes, new classes have no known values: bounds stay valid but become wider.
+// kMaxClassesWithKnownValues classes, new classes have no known values: bounds stay valid but
+// become wider.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -46,7 +47,8 @@ struct ClassExpansion {
 
 class ModuleClasses {
 public:
-    static constexpr std::uint32_t kMaxValuedClasses = 4096;
+    /// Further classes have no known values.
+    static constexpr std::uint32_t kMaxClassesWithKnownValues = 4096;
     /// Instructions run and template codes read after which new classes have no known values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
@@ -115,7 +117,7 @@ private:
     static std::size_t number(ClassId id) { return static_cast<std::size_t>(id); }
     ClassId add_class(Code code, std::uint32_t first_value);
     ClassId fixed_class(Code code);
-    ClassId valued_class(Code code, std::span<const KnownValue> values);
+    ClassId class_with_known_values(Code code, std::span<const KnownValue> values);
     ClassId unknown_class(Code code);
     void count_word(const WordTemplate& word, CountedWord& out);
     /// Appends the terms of a word to terms_, merged and in order of classes.
@@ -152,7 +154,7 @@ private:
     std::vector<KnownValue> values_;
     std::vector<std::uint32_t> fixed_ids_;   // by code: the class without values, or kNone
     std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
-    std::map<std::vector<std::uint32_t>, ClassId> valued_ids_; // classes with known values
+    std::map<std::vector<std::uint32_t>, ClassId> known_value_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
     std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol, for unknown values
     std::vector<ClassOutcome> outcomes_;

@@ -60,7 +60,7 @@ private:
     /// By production: its weight divided by the sum of the weights of its group, which is its
     /// probability if there are no conditions. NaN if some weight of the group is not constant.
     [[nodiscard]] std::vector<double> probabilities() const {
-        std::vector<double> sums(program_.group_count, 0.0);
+        std::vector<double> sums(program_.context_group_count, 0.0);
         for (const Production& production : program_.productions) {
             sums[production.group] += production.stochastic ? as_written(production.weight) : 0.0;
         }

@@ -10,8 +10,9 @@ namespace lsys {
 
 void check_formal_names(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    std::vector<std::uint32_t> first(program.group_count, kNone); // first production by group
-    std::vector<bool> noted(program.group_count);
+    // First production by group.
+    std::vector<std::uint32_t> first(program.context_group_count, kNone);
+    std::vector<bool> noted(program.context_group_count);
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];
         const std::uint32_t group = production.group;

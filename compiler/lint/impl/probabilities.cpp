@@ -8,7 +8,7 @@ namespace lsys {
 
 void check_probabilities(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    std::vector<std::uint32_t> members(program.group_count, 0);
+    std::vector<std::uint32_t> members(program.context_group_count, 0);
     for (const Production& production : program.productions) {
         if (production.stochastic && production.group < members.size()) {
             ++members[production.group];

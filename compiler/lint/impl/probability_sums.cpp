@@ -100,7 +100,7 @@ void check_probability_sums(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     check_axioms(input, diagnostics);
-    std::vector<Group> groups(program.group_count);
+    std::vector<Group> groups(program.context_group_count);
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];
         if (production.stochastic) {

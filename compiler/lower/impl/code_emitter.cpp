@@ -49,21 +49,21 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
             continue;
         }
         const std::uint32_t right = need(value.right);
-        const std::uint32_t natural = std::max(left, right + 1);
+        const std::uint32_t left_to_right_need = std::max(left, right + 1);
         switch (value.opcode) {
         case Opcode::If: // the stack holds the condition, then `left`, while `right` is computed
             stack_need_[i] = std::max({need(value.third), left + 1, right + 2});
             break;
         case Opcode::Mix:
-            stack_need_[i] = std::max(natural, need(value.third) + 2);
+            stack_need_[i] = std::max(left_to_right_need, need(value.third) + 2);
             break;
         case Opcode::SetLocal:
             stack_need_[i] = std::max(left, right);
             break;
         default:
-            stack_need_[i] = natural <= kMaxLeftToRightStack
-                                 ? natural
-                                 : std::min(natural, std::max(right, left + 1));
+            stack_need_[i] = left_to_right_need <= kMaxLeftToRightStack
+                                 ? left_to_right_need
+                                 : std::min(left_to_right_need, std::max(right, left + 1));
             break;
         }
     }

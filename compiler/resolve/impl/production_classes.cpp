@@ -83,7 +83,8 @@ void ProductionClasses::classify_last() {
     const std::uint32_t rule = first_equal(rules_, index, rule_hash, same_rule);
     production.rule = rule == index ? program_.rule_count++ : program_.productions[rule].rule;
     const std::uint32_t group = first_equal(groups_, index, group_hash, same_group);
-    production.group = group == index ? program_.group_count++ : program_.productions[group].group;
+    production.group =
+        group == index ? program_.context_group_count++ : program_.productions[group].group;
 }
 
 } // namespace lsys

@@ -167,8 +167,8 @@ void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope&
     }
 }
 
-/// Returns true when an expression has a random number; sets `is_positive` when it is never below
-/// 0.
+/// Returns whether an expression has a random number. Sets `is_positive` to whether the expression
+/// is certain to be at least 0.
 bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     bool found = false;
     is_positive = true;
@@ -190,7 +190,8 @@ bool HoudiniExpressions::draws(int root, bool& is_positive) const {
     return found;
 }
 
-/// `int(x)`: x without its fraction.
+/// Writes `int(x)`, x without its fraction, as `(sign(x) * floor(abs(x)))`. An x with a random
+/// number is written once only, as `floor(x)`, because each copy would draw another number.
 void HoudiniExpressions::write_integer(const HoudiniNode& node) {
     bool is_positive = false;
     if (node.parts.size() != 1) {
@@ -211,7 +212,7 @@ void HoudiniExpressions::write_integer(const HoudiniNode& node) {
     }
 }
 
-/// A number from 0 to 1, whatever the seed.
+/// Writes `{0, 1}` for `rand(seed)`; the seed is ignored.
 void HoudiniExpressions::write_random(const HoudiniNode& node, const HoudiniScope& scope) {
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =

@@ -1,7 +1,8 @@
-// The step before the scan of a file: finds text that comes from elsewhere, reports each piece once
-// and writes what it means into a copy of the text, so that nothing after it is a consequence. All
-// replacements have the length of what they replace, so places do not change. A text without
-// mistakes is never changed: every form that is searched for is an error of the language.
+// The step before the scan of a file: finds pasted text and forms of other languages, reports each
+// once and replaces it by the intended .lsys in a copy of the text, so that it causes no further
+// diagnostics. A replacement has the length of the text that it replaces, so places do not change.
+// A text without mistakes is never changed: every form that is searched for is an error of the
+// language.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -15,7 +16,7 @@
 
 namespace lsys::lsys_grammar {
 
-/// A copy of the text of a file that is being mended.
+/// A copy of the text of a file that is being repaired.
 struct DraftText {
     FileId file = kNoFile;
     std::string text;
@@ -59,10 +60,10 @@ struct StatementText {
 /// `text` without blanks at its ends.
 [[nodiscard]] std::string_view without_blanks(std::string_view text);
 
-/// Pieces of other texts: marks of a merge, a diff, a Markdown fence, line numbers, HTML, line ends
-/// of old Macs, and lines in the notation of books and other programs.
-void mend_pasted_text(DraftText& draft);
-/// Forms of statements that other languages have: `{ return x; }`, `c ? a : b`, `A(l, w = 1)`.
-void mend_foreign_forms(DraftText& draft);
+/// Repairs pasted text: markers of a merge conflict, a diff, a Markdown fence, line numbers, HTML,
+/// line ends of old Macs, and lines in the notation of books and other programs.
+void repair_pasted_text(DraftText& draft);
+/// Repairs statement forms of other languages: `{ return x; }`, `c ? a : b`, `A(l, w = 1)`.
+void repair_foreign_forms(DraftText& draft);
 
 } // namespace lsys::lsys_grammar

@@ -113,6 +113,20 @@ const Unit* find_unit(std::string_view word) {
     return found == kUnits.end() ? nullptr : found;
 }
 
+/// The number at the end of `text`, `2.5e-3` of `F(2.5e-3`; empty if there is none, as in `1..5`.
+std::string_view number_that_ends(std::string_view text) {
+    const std::size_t before = text.find_last_not_of("0123456789.eE+-");
+    for (std::size_t begin = before == std::string_view::npos ? 0 : before + 1; begin < text.size();
+         ++begin) {
+        const char last = begin > 0 ? text[begin - 1] : ' ';
+        const std::string_view number = text.substr(begin);
+        if (last != '.' && !is_word_character(last) && literal_length(number) == number.size()) {
+            return number;
+        }
+    }
+    return {};
+}
+
 /// Explains a number with a unit behind it.
 void explain_unit(Diagnostic& diagnostic,
                   std::string_view number,
@@ -148,14 +162,14 @@ bool is_unit(ParseSession& session, std::string_view word) {
         return false;
     }
     if (session.wants(DiagnosticCode::MalformedNumber)) {
-        std::uint32_t begin = scan.last_end;
-        while (begin > 0 && (is_digit(text[begin - 1]) || text[begin - 1] == '.')) {
-            --begin;
-        }
+        const std::string_view number = number_that_ends(text.substr(0, scan.last_end));
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::MalformedNumber, "numbers have no unit");
-        explain_unit(diagnostic, text.substr(begin, scan.last_end - begin), *unit,
-                     session.scanned.span(begin, scan.end));
+        if (!number.empty()) {
+            const auto length = static_cast<std::uint32_t>(number.size());
+            explain_unit(diagnostic, number, *unit,
+                         session.scanned.span(scan.last_end - length, scan.end));
+        }
     }
     return true;
 }

@@ -116,8 +116,8 @@ public:
         keyword_ = find_keyword(word_);
     }
 
-    /// Mends the statement; returns where the search goes on.
-    std::size_t mend() {
+    /// Repairs the statement; returns where the search goes on.
+    std::size_t repair() {
         const bool has_ended = statement_.end < text().size() && char_at(statement_.end) == ';';
         const std::size_t next = statement_.end + (has_ended ? 1 : 0);
         if (statement_.end - statement_.begin > kMaxStatement) {
@@ -696,7 +696,7 @@ private:
         std::optional<Edit> value_edit; // of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
-        bool begins_part = true; // or follows a module that was mended
+        bool begins_part = true; // or follows a module that was repaired
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
             const char c = char_at(at);
             if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
@@ -941,8 +941,8 @@ private:
     Keyword keyword_ = Keyword::Label;
 };
 
-/// Mends `colour #6b4423` if it stands at `at`: three numbers from 0 to 1 are meant.
-void mend_hexadecimal_colour(DraftText& draft, std::size_t at) {
+/// Repairs `colour #6b4423` if it stands at `at`: three numbers from 0 to 1 are meant.
+void repair_hexadecimal_colour(DraftText& draft, std::size_t at) {
     constexpr std::size_t kDigits = 6;
     const std::string_view before = without_blanks(std::string_view(draft.masked).substr(0, at));
     const std::string_view digits = std::string_view(draft.masked).substr(at + 1, kDigits);
@@ -966,17 +966,17 @@ void mend_hexadecimal_colour(DraftText& draft, std::size_t at) {
 
 } // namespace
 
-void mend_foreign_forms(DraftText& draft) {
+void repair_foreign_forms(DraftText& draft) {
     draft.mask();
     for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
          at = draft.masked.find('#', at + 1)) {
-        mend_hexadecimal_colour(draft, at);
+        repair_hexadecimal_colour(draft, at);
     }
     for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
          at = draft.masked.find('#', at)) {
         const std::string_view text = draft.masked;
         at = is_statement_start(text, at)
-                 ? std::max(at + 1, Form(draft, statement_at(text, at)).mend())
+                 ? std::max(at + 1, Form(draft, statement_at(text, at)).repair())
                  : at + 1;
     }
 }

@@ -24,9 +24,9 @@ struct Validity {
     bool has_beyond_ascii = false; // and valid
 };
 
-/// Reports each run of invalid UTF-8 and replaces it by blanks in `repaired`.
+/// Reports each run of invalid UTF-8 and replaces it by blanks in `valid_utf8`.
 Validity
-check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::string& repaired) {
+check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::string& valid_utf8) {
     Validity validity;
     for (std::size_t at = 0; at < text.size();) {
         if ((static_cast<unsigned char>(text[at]) & 0x80u) == 0) {
@@ -41,12 +41,12 @@ check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::st
         }
         if (!validity.has_invalid) {
             validity.has_invalid = true;
-            repaired = text;
+            valid_utf8 = text;
         }
         const std::size_t begin = at;
         while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0x80u) != 0 &&
                !decode_utf8(text.substr(at)).valid) {
-            repaired[at] = ' ';
+            valid_utf8[at] = ' ';
             ++at;
         }
         if (diagnostics.admits(DiagnosticCode::InvalidUtf8)) {
@@ -185,10 +185,10 @@ ModuleNames names_of(const ScannedText& scanned, const ParseContext& context) {
 
 namespace {
 
-/// Mends text that comes from elsewhere; larger files are not searched.
-void mend_foreign_text(std::string_view source,
-                       const ParseContext& context,
-                       NormalizedText& normalized) {
+/// Repairs pasted text and forms of other languages; larger files are not searched.
+void repair_foreign_text(std::string_view source,
+                         const ParseContext& context,
+                         NormalizedText& normalized) {
     constexpr std::size_t kMaxSearchedText = std::size_t{1} << 20;
     if (source.size() > kMaxSearchedText) {
         return;
@@ -196,12 +196,12 @@ void mend_foreign_text(std::string_view source,
     lsys_grammar::DraftText draft{
         normalized.scanned.file, std::string(source), context.diagnostics, {}};
     draft.mask();
-    lsys_grammar::mend_pasted_text(draft);
-    lsys_grammar::mend_foreign_forms(draft);
+    lsys_grammar::repair_pasted_text(draft);
+    lsys_grammar::repair_foreign_forms(draft);
     normalized.is_incomplete = draft.is_incomplete;
     if (draft.is_changed) {
-        normalized.mended = std::make_unique<std::string>(std::move(draft.text));
-        normalized.scanned.text = *normalized.mended;
+        normalized.draft = std::make_unique<std::string>(std::move(draft.text));
+        normalized.scanned.text = *normalized.draft;
     }
 }
 
@@ -210,14 +210,14 @@ void mend_foreign_text(std::string_view source,
 NormalizedText normalize_source(FileId file, const ParseContext& context) {
     NormalizedText normalized;
     normalized.scanned = {file, context.sources.file(file).text(), nullptr, nullptr};
-    mend_foreign_text(normalized.scanned.text, context, normalized);
+    repair_foreign_text(normalized.scanned.text, context, normalized);
     const std::string_view source = normalized.scanned.text;
     if (!is_ascii(source)) {
-        normalized.repaired = std::make_unique<std::string>();
+        normalized.valid_utf8 = std::make_unique<std::string>();
         const Validity validity =
-            check_utf8(file, source, context.diagnostics, *normalized.repaired);
+            check_utf8(file, source, context.diagnostics, *normalized.valid_utf8);
         if (validity.has_invalid) {
-            normalized.scanned.text = *normalized.repaired;
+            normalized.scanned.text = *normalized.valid_utf8;
         }
         if (validity.has_beyond_ascii) {
             normalize_source(context, context.diagnostics, normalized);

@@ -1,5 +1,6 @@
-// The step before the parse of a file: reports text from elsewhere (draft_text.h), invalid UTF-8 and
-// typographic characters, and makes the normalized text with ASCII in their place. Comments and file names do not change.
+// The step before the parse of a file: reports pasted text and forms of other languages
+// (draft_text.h), invalid UTF-8 and typographic characters, and makes the normalized text with
+// ASCII in their place. Comments and file names do not change.
 #pragma once
 
 #include "grammar/ast/text_map.h"
@@ -10,10 +11,12 @@
 
 namespace lsys {
 
-/// The text for the scan of a file. `scanned` refers to `mended`, `repaired` and `map`.
+/// The text for the scan of a file. `scanned` refers to `draft`, `valid_utf8` and `map`.
 struct NormalizedText {
-    std::unique_ptr<std::string> mended;   // without text from elsewhere; null if the file has none
-    std::unique_ptr<std::string> repaired; // without invalid UTF-8; null if the file has none
+    /// Copy with pasted text and forms of other languages replaced; null if the file has none.
+    std::unique_ptr<std::string> draft;
+    /// Copy with invalid UTF-8 replaced by blanks; null or empty if the file has none.
+    std::unique_ptr<std::string> valid_utf8;
     std::unique_ptr<TextMap> map;
     ScannedText scanned;
     /// Value of the first `#set names` of the file.

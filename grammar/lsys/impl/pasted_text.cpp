@@ -191,7 +191,7 @@ bool is_foreign(std::string_view line) {
 
 // --- line ends
 
-void mend_line_ends(DraftText& draft) {
+void repair_line_ends(DraftText& draft) {
     const std::string_view text = draft.text;
     if (text.find('\n') != std::string_view::npos) {
         return;
@@ -213,7 +213,7 @@ void mend_line_ends(DraftText& draft) {
 
 // --- marks of a merge
 
-void mend_merge(DraftText& draft) {
+void repair_merge(DraftText& draft) {
     std::size_t begin = std::string::npos;
     std::size_t middle = std::string::npos;
     bool is_reported = false;
@@ -244,7 +244,7 @@ void mend_merge(DraftText& draft) {
 
 // --- Markdown
 
-void mend_fences(DraftText& draft) {
+void repair_fences(DraftText& draft) {
     const std::vector<FreeLine> lines = free_lines(draft.text);
     std::vector<const FreeLine*> fences;
     for (const FreeLine& line : lines) {
@@ -313,7 +313,7 @@ std::size_t number_length(std::string_view line, std::uint32_t& number) {
     return at == line.size() || at > digits ? at : 0;
 }
 
-void mend_line_numbers(DraftText& draft) {
+void repair_line_numbers(DraftText& draft) {
     const std::vector<FreeLine> lines = free_lines(draft.text);
     std::size_t first = std::string::npos;
     std::uint32_t number = 0;
@@ -359,7 +359,7 @@ void mend_line_numbers(DraftText& draft) {
 
 // --- differences between two versions
 
-void mend_diff(DraftText& draft) {
+void repair_diff(DraftText& draft) {
     const std::vector<FreeLine> lines = free_lines(draft.text);
     const auto begins_with = [](std::string_view line, std::string_view word) {
         return line.starts_with(word);
@@ -451,7 +451,7 @@ const Entity* find_entity(std::string_view text) {
     return found == kEntities.end() ? nullptr : found;
 }
 
-void mend_entities(DraftText& draft) {
+void repair_entities(DraftText& draft) {
     for (std::size_t at = draft.masked.find('&'); at != std::string::npos;
          at = draft.masked.find('&', at + 1)) {
         const std::string_view text = draft.text;
@@ -480,7 +480,7 @@ void mend_entities(DraftText& draft) {
 
 // --- the same text twice
 
-void mend_second_copy(DraftText& draft) {
+void repair_second_copy(DraftText& draft) {
     const std::string_view text = draft.text;
     const std::size_t w = text.find("#w");
     std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -509,7 +509,7 @@ void mend_second_copy(DraftText& draft) {
 
 // --- comments
 
-void mend_comment_ends(DraftText& draft) {
+void repair_comment_ends(DraftText& draft) {
     for (const FreeLine& line : free_lines(draft.text)) {
         if (!line.text.starts_with("*/")) {
             continue;
@@ -547,7 +547,8 @@ std::string lowered(std::string_view text) {
     return lower;
 }
 
-/// The text behind `word` and one of `signs`, `n = 6`; nullopt: the line is another.
+/// The text behind `word` and one of `signs`: `6` for `n = 6`. Returns nullopt if the line does not
+/// begin with these.
 std::optional<std::string_view>
 value_behind(std::string_view line, std::string_view word, std::string_view signs) {
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {
@@ -577,14 +578,15 @@ Arrow find_arrow(std::string_view text) {
     return found;
 }
 
-/// The names given to rules without one.
+/// Generates names for rules without one: prefix and number.
 struct RuleNames {
     std::string prefix;
     std::size_t count = 0;
 };
 
-/// A text with its typographic characters replaced, as far as productions have them.
-std::string plain(std::string_view text) {
+/// Replaces the typographic characters of printed productions: the logical and, minus and dash
+/// signs, and delta; omits degree signs.
+std::string without_typography(std::string_view text) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
@@ -597,7 +599,7 @@ std::string plain(std::string_view text) {
             result += '-';
             break;
         case 0xB0:
-            break; // the sign of degrees
+            break; // degree sign
         case 0x3B4:
             result += "delta";
             break;
@@ -718,8 +720,8 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
     if (successor == "\u03b5") {
         successor.clear();
     }
-    return "#" + label + " : " + std::string(head) + " : " + condition + " : " + plain(successor) +
-           ";";
+    return "#" + label + " : " + std::string(head) + " : " + condition + " : " +
+           without_typography(successor) + ";";
 }
 
 /// What a line in another notation is here.
@@ -785,7 +787,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
             if (modules.size() > 2 && modules.front() == '"' && modules.back() == '"') {
                 modules = modules.substr(1, modules.size() - 2);
             }
-            return Meaning{"papers", "#w : " + plain(modules) + ";"};
+            return Meaning{"papers", "#w : " + without_typography(modules) + ";"};
         }
     }
     return std::nullopt;
@@ -813,7 +815,7 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-void mend_foreign_lines(DraftText& draft) {
+void repair_foreign_lines(DraftText& draft) {
     Diagnostic* diagnostic = nullptr;
     std::string source;
     Fix fix{"", {}, false};
@@ -876,16 +878,16 @@ void mend_foreign_lines(DraftText& draft) {
 
 } // namespace
 
-void mend_pasted_text(DraftText& draft) {
-    mend_line_ends(draft);
-    mend_merge(draft);
-    mend_fences(draft);
-    mend_line_numbers(draft);
-    mend_diff(draft);
-    mend_second_copy(draft);
-    mend_entities(draft);
-    mend_comment_ends(draft);
-    mend_foreign_lines(draft);
+void repair_pasted_text(DraftText& draft) {
+    repair_line_ends(draft);
+    repair_merge(draft);
+    repair_fences(draft);
+    repair_line_numbers(draft);
+    repair_diff(draft);
+    repair_second_copy(draft);
+    repair_entities(draft);
+    repair_comment_ends(draft);
+    repair_foreign_lines(draft);
 }
 
 } // namespace lsys::lsys_grammar

@@ -40,7 +40,7 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
       parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel ||
                 bytecode.settings.rewriting == RewritingMode::Leftmost) {
     if (bytecode.settings.random == RandomSource::Glibc) {
-        dice_.emplace(bytecode, inputs.seed);
+        glibc_draws_.emplace(bytecode, inputs.seed);
     }
     make_codes();
     make_families();
@@ -327,8 +327,8 @@ void Plan::reset_row(Code code) {
 void Plan::prepare(std::uint32_t generation) {
     LSYS_CHECK(each_generation_);
     generation_ = generation;
-    if (dice_) {
-        dice_->roll(generation);
+    if (glibc_draws_) {
+        glibc_draws_->prepare(generation);
     }
     for (const std::uint32_t index : varying_families_) {
         families_[index].current = false;
@@ -353,8 +353,8 @@ void Plan::select_rule(std::uint32_t rule) {
 }
 
 float Plan::rule_draw(std::uint32_t rule, std::uint32_t generation) const {
-    if (dice_) {
-        return dice_->draw(rule, generation);
+    if (glibc_draws_) {
+        return glibc_draws_->draw(rule, generation);
     }
     const std::uint64_t position = ~std::uint64_t{0} - rule;
     return unit_interval(draw_block(inputs_.seed, generation, position, 0)[0]);

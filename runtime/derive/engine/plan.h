@@ -16,7 +16,7 @@
 #include "runtime/derive/engine/batch.h"
 #include "runtime/derive/engine/eval.h"
 #include "runtime/derive/engine/folded_index.h"
-#include "runtime/derive/engine/rule_dice.h"
+#include "runtime/derive/engine/glibc_rule_draws.h"
 #include "runtime/derive/engine/shape.h"
 
 #include <array>
@@ -312,7 +312,7 @@ private:
     TableRange productions_;
     bool parallel_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
-    std::optional<RuleDice> dice_; // with `random glibc`
+    std::optional<GlibcRuleDraws> glibc_draws_; // with `random glibc`
 
     std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;

@@ -1,7 +1,7 @@
 #include "runtime/derive/impl/explain_module.h"
 
 #include "runtime/base/random.h"
-#include "runtime/derive/engine/rule_dice.h"
+#include "runtime/derive/engine/glibc_rule_draws.h"
 #include "runtime/derive/impl/traced_expression.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ public:
                 return std::move(trace_);
             }
         }
-        if (!weigh()) {
+        if (!compute_weights()) {
             trace_.fate = Fate::Failed;
             return std::move(trace_);
         }
@@ -174,12 +174,12 @@ private:
 
     /// Computes the weights of the matching productions, and leaves out those of weight 0. Returns
     /// false if a weight is at fault.
-    bool weigh() {
+    bool compute_weights() {
         weights_.clear();
         if (matching_.empty() || !production_of(trace_.attempts[matching_[0]]).stochastic) {
             return true;
         }
-        std::vector<std::size_t> weighed;
+        std::vector<std::size_t> kept;
         float sum = 0.0F;
         for (const std::size_t i : matching_) {
             Attempt& attempt = trace_.attempts[i];
@@ -198,10 +198,10 @@ private:
                 attempt.verdict = Verdict::NoWeight;
                 continue;
             }
-            weighed.push_back(i);
+            kept.push_back(i);
             weights_.push_back(weight);
         }
-        matching_ = std::move(weighed);
+        matching_ = std::move(kept);
         if (matching_.size() == 1) {
             trace_.attempts[matching_[0]].verdict = Verdict::Applies;
         }
@@ -250,7 +250,7 @@ private:
         choice.by_glibc = bytecode_.settings.random == RandomSource::Glibc;
         if (choice.by_glibc) {
             choice.number = std::uint64_t{generation} * bytecode_.rule_count + choice.rule;
-            choice.unit = RuleDice(bytecode_, seed).draw(choice.rule, generation);
+            choice.unit = GlibcRuleDraws(bytecode_, seed).draw(choice.rule, generation);
             return;
         }
         choice.position = ~std::uint64_t{0} - choice.rule;

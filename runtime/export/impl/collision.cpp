@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t kSides = 8; // of a cross-section
 /// Max distance of joints from the chord of a piece: the larger of kBendRadii times its thinnest
-/// radius and kBendSize times the size of the plant.
+/// radius and kBendSize times the extent of the plant.
 constexpr float kBendRadii = 1.0F;
 constexpr float kBendSize = 0.01F;
-/// Max ratio of the radii in a piece. A difference of kTaperSize times the size of the plant is
+/// Max ratio of the radii in a piece. A difference of kTaperSize times the extent of the plant is
 /// always allowed.
 constexpr float kTaper = 1.6F;
 constexpr float kTaperSize = 0.002F;
-constexpr double kCoveredShare = 0.9; // of the area of all pieces, which shapes cover
+constexpr double kCoveredShare = 0.9; // share of the area of all pieces that shapes cover
 constexpr std::size_t kMinShapes = 10;
 /// Engines take hulls of at most 255 triangles; one of 128 vertices has 2 * 128 - 4.
 constexpr std::size_t kMaxRings = 128 / kSides;
@@ -69,7 +69,7 @@ public:
     explicit Boughs(const Skeleton& skeleton) : segments_(skeleton.segments) {
         const Bounds bounds = measure(skeleton).bounds;
         const glm::vec3 extent = bounds.high - bounds.low;
-        size_ = std::max({extent.x, extent.y, extent.z});
+        extent_ = std::max({extent.x, extent.y, extent.z});
         const std::vector<std::uint32_t> next = find_next(skeleton);
         std::vector<bool> continues(segments_.size(), false);
         for (const std::uint32_t segment : next) {
@@ -135,8 +135,8 @@ private:
             farthest = std::max(farthest, outside);
             farthest = std::max(farthest, glm::length(glm::cross(arm, chord)) / length);
         }
-        return farthest <= std::max(kBendRadii * thinnest, kBendSize * size_) &&
-               thickest <= std::max(kTaper * thinnest, thinnest + kTaperSize * size_);
+        return farthest <= std::max(kBendRadii * thinnest, kBendSize * extent_) &&
+               thickest <= std::max(kTaper * thinnest, thinnest + kTaperSize * extent_);
     }
 
     void add(const std::vector<std::uint32_t>& axis, std::size_t first, std::size_t count) {
@@ -146,19 +146,20 @@ private:
         piece.from = segments_[piece.segments.front()].base;
         piece.to = tip(segments_[piece.segments.back()]);
         double length = 0.0;
-        double side = 0.0;
+        double half_area = 0.0; // m^2, half of the projected area
         for (const std::uint32_t number : piece.segments) {
             const Segment& segment = segments_[number];
             length += static_cast<double>(segment.length);
-            side += static_cast<double>(segment.length) * static_cast<double>(mean_radius(segment));
+            half_area +=
+                static_cast<double>(segment.length) * static_cast<double>(mean_radius(segment));
         }
-        piece.radius = static_cast<float>(side / length);
-        piece.area = 2.0 * side;
+        piece.radius = static_cast<float>(half_area / length);
+        piece.area = 2.0 * half_area;
         pieces_.push_back(std::move(piece));
     }
 
     const LargeVector<Segment>& segments_;
-    float size_ = 0.0F; // m
+    float extent_ = 0.0F; // m, largest side of the plant's bounding box
     std::vector<BoughPiece> pieces_;
 };
 

@@ -28,26 +28,27 @@ double linear_of(double value) {
     return square * root;
 }
 
-/// Linear values of all bytes, and the values between which a byte changes.
-struct Transfer {
+/// sRGB tables: linear value of each byte, and the thresholds at which a linear value rounds to the
+/// next byte.
+struct SrgbTables {
     std::array<float, 256> linear{};
-    std::array<float, 255> limits{};
+    std::array<float, 255> thresholds{};
 
-    Transfer() {
+    SrgbTables() {
         for (std::size_t i = 0; i < linear.size(); ++i) {
             linear[i] = static_cast<float>(linear_of(static_cast<double>(i) / 255.0));
         }
-        for (std::size_t i = 0; i < limits.size(); ++i) {
-            limits[i] = static_cast<float>(linear_of((static_cast<double>(i) + 0.5) / 255.0));
+        for (std::size_t i = 0; i < thresholds.size(); ++i) {
+            thresholds[i] = static_cast<float>(linear_of((static_cast<double>(i) + 0.5) / 255.0));
         }
     }
     [[nodiscard]] std::uint8_t byte(float value) const {
-        return static_cast<std::uint8_t>(std::upper_bound(limits.begin(), limits.end(), value) -
-                                         limits.begin());
+        return static_cast<std::uint8_t>(
+            std::upper_bound(thresholds.begin(), thresholds.end(), value) - thresholds.begin());
     }
 };
-const Transfer& transfer() {
-    static const Transfer table;
+const SrgbTables& srgb_tables() {
+    static const SrgbTables table;
     return table;
 }
 
@@ -70,7 +71,7 @@ glm::vec4 LinearTexture::at(const glm::vec2& place) const {
     }
     const std::array<std::uint8_t, 4>& texel =
         texels[texel_number(place.x, place.y, width, height)];
-    const std::array<float, 256>& linear = transfer().linear;
+    const std::array<float, 256>& linear = srgb_tables().linear;
     return {linear[texel[0]], linear[texel[1]], linear[texel[2]], texel[3] != 0 ? 1.0F : 0.0F};
 }
 
@@ -97,7 +98,7 @@ const LinearTexture& LinearTextures::of(const Material& material) {
 }
 
 std::uint8_t nearest_srgb_byte(float linear) {
-    return transfer().byte(linear);
+    return srgb_tables().byte(linear);
 }
 
 } // namespace lsys

@@ -15,15 +15,16 @@ namespace lsys {
 
 namespace {
 
-constexpr int kFirstSize = 96; // pixels of a side, of the first pictures
+/// Pixels per side of the trial views from which the size of all other views is computed.
+constexpr int kTrialSize = 96;
 constexpr int kMinSize = 80;
 constexpr int kMaxSize = 256;
-constexpr double kWantedPixels = 2500.0; // aimed at, covered by a plant in a view
-constexpr std::size_t kFirstViews = 4;
+constexpr double kTargetPixels = 2500.0; // mean pixels per view that the plant should cover
+constexpr std::size_t kTrialViews = 4;
 constexpr float kCosine15 = 0.9659258F; // of 15 degrees
 constexpr float kSine15 = 0.2588190F;
 constexpr float kDiagonal = 0.7071068F;
-/// kTurns: cosine and sine of the turns about +Y; kTilts: of the heights of the eye above the
+/// Cosine and sine: kTurns of the turn about +Y, kTilts of the elevation of the eye above the
 /// horizon. With these turns no card of an impostor is seen edge-on.
 constexpr std::array<std::array<float, 2>, 12> kTurns{{{kCosine15, kSine15},
                                                        {kDiagonal, kDiagonal},
@@ -39,9 +40,10 @@ constexpr std::array<std::array<float, 2>, 12> kTurns{{{kCosine15, kSine15},
                                                        {kCosine15, -kSine15}}};
 constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}}};
 
-constexpr std::uint32_t kRowBits = 0xFFFF; // of the number of a cell
+constexpr std::uint32_t kRowBits = 0xFFFF; // mask of the row in a cell number, see View::cell()
 constexpr std::size_t kViews = kTurns.size() * kTilts.size();
-constexpr std::size_t kViewStep = 3; // step of views: these are level and from above by turns, too
+/// Step of the views of measure_third(); odd, so that level views and views from above alternate.
+constexpr std::size_t kViewStep = 3;
 
 /// A part of a mesh, prepared for drawing.
 struct Surface {
@@ -78,7 +80,7 @@ struct DrawnMesh {
 /// One view: the nearest surface at each pixel.
 class View {
 public:
-    /// `offset`: of the plant, in pixels.
+    /// `offset`: shift of the plant in the view, in pixels.
     View(const Bounds& frame,
          const std::array<float, 2>& turn,
          const std::array<float, 2>& tilt,
@@ -182,8 +184,8 @@ private:
     glm::vec3 offset_{};
     DepthBuffer depth_;
     std::vector<Pixel> pixels_;
-    std::vector<glm::vec3> places_;    // of the vertices of a mesh, in pixels
-    std::vector<std::uint32_t> cells_; // of these places; see cell()
+    std::vector<glm::vec3> places_;    // pixels, place of each vertex of a mesh
+    std::vector<std::uint32_t> cells_; // cell() of each place
 };
 
 /// Offset of the plant in pixels, 0 to 1, which differs from view to view: else a trunk in the
@@ -208,10 +210,10 @@ AreaMeter::AreaMeter(const Mesh& wood,
                      const Mesh& foliage,
                      const Bounds& frame,
                      std::uint32_t threads)
-    : frame_(frame), size_(kFirstSize), workers_(threads) {
-    const double covered = sum_of(measure_views(wood, foliage, kFirstViews, 1)).all() / kFirstViews;
-    const double factor = std::sqrt(kWantedPixels / std::max(covered, 1.0));
-    size_ = static_cast<int>(std::clamp(factor * kFirstSize, double{kMinSize}, double{kMaxSize}));
+    : frame_(frame), size_(kTrialSize), workers_(threads) {
+    const double covered = sum_of(measure_views(wood, foliage, kTrialViews, 1)).all() / kTrialViews;
+    const double factor = std::sqrt(kTargetPixels / std::max(covered, 1.0));
+    size_ = static_cast<int>(std::clamp(factor * kTrialSize, double{kMinSize}, double{kMaxSize}));
 }
 
 VisibleAreas AreaMeter::measure(const Mesh& wood, const Mesh& foliage, VisibleAreas* third) {

@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// Pixels of all views together.
+/// Pixels covered by wood and by foliage, summed over all views.
 struct VisibleAreas {
     double wood = 0.0;
     double foliage = 0.0;
@@ -34,8 +34,8 @@ struct VisibleAreas {
 /// from above.
 class AreaMeter {
 public:
-    /// Pictures get as many pixels as a fair measure of the finest mesh needs: more where branches
-    /// are thin. `threads`: as MeshOptions::threads.
+    /// Computes the size of the views from trial views of the finest mesh: more pixels for plants
+    /// with thin branches. `threads`: as MeshOptions::threads.
     AreaMeter(const Mesh& wood, const Mesh& foliage, const Bounds& frame, std::uint32_t threads);
 
     /// Draws both meshes by pixel centres, with the opacity of pictures and the colours of
@@ -52,7 +52,7 @@ private:
     measure_views(const Mesh& wood, const Mesh& foliage, std::size_t count, std::size_t step);
 
     Bounds frame_;
-    int size_; // pixels of a side
+    int size_; // pixels per side of a view
     Workers workers_;
     LinearTextures textures_;
 };

@@ -321,21 +321,21 @@ std::vector<CoarsePlant> coarse_plants(const Bodies& plant) {
     const Twigs twigs = twigs_of(plant.bodies);
     std::vector<std::uint32_t> sorted = twigs.sizes;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    for (std::size_t most = kCoarsest; most < count; most *= kGrowth) {
-        // Bodies with more descendants than those of body number `most`: at most so many.
-        Coarsening coarsening(plant, twigs, sorted[most] + 1, 1);
+    for (std::size_t max_count = kCoarsest; max_count < count; max_count *= kGrowth) {
+        // Keeps the bodies with the most descendants, at most `max_count` of them.
+        Coarsening coarsening(plant, twigs, sorted[max_count] + 1, 1);
         if (coarsening.relative_twig_size() > kMaxRelativeTwig) {
             std::uint32_t longest = 1;
             do {
                 longest *= 2;
                 coarsening = Coarsening(plant, twigs, longest, longest);
-            } while (coarsening.count_runs() > most);
+            } while (coarsening.count_runs() > max_count);
         }
-        const auto kept = static_cast<double>(coarsening.count_runs());
-        const bool is_less = kMinGrowth * kept <= static_cast<double>(count);
-        const double before =
+        const auto run_count = static_cast<double>(coarsening.count_runs());
+        const bool is_coarse_enough = kMinGrowth * run_count <= static_cast<double>(count);
+        const double coarser_count =
             out.empty() ? 0.0 : static_cast<double>(out.back().bodies.bodies.size());
-        if (kept > 0.0 && is_less && kept >= kMinGrowth * before) {
+        if (run_count > 0.0 && is_coarse_enough && run_count >= kMinGrowth * coarser_count) {
             out.push_back(coarsening.make());
         }
     }

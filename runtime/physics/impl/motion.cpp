@@ -64,28 +64,28 @@ void move_body(PlantBodies& plant,
         displacement += shift;
     }
     sum.kinetic += 0.5 * kinetic_term;
-    double stretched = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
+    double elastic_energy = 0.5 * body.spring * glm::dot(motion.bend, motion.bend);
     if (forces.ground) {
         for_each_contact(plant.rest, body, [&](const Contact& contact) {
             const double depth = ground_depth(contact, plant.next_poses[b]);
             if (depth > 0.0) {
                 const BodyPose& before = plant.poses[b];
-                const glm::dvec3 way =
+                const glm::dvec3 tip_shift =
                     shift - before.shift + turn * contact.tip - before.turn * contact.tip;
-                stretched += 0.5 * contact.spring * depth * depth;
-                sum.slide += contact.spring * depth * std::hypot(way.x, way.z);
+                elastic_energy += 0.5 * contact.spring * depth * depth;
+                sum.slide += contact.spring * depth * std::hypot(tip_shift.x, tip_shift.z);
             }
         });
     }
-    const double lifted = -body.mass * glm::dot(forces.gravity, displacement);
-    sum.potential += stretched + lifted;
-    sum.potential_magnitude += stretched + std::abs(lifted);
+    const double gravitational_energy = -body.mass * glm::dot(forces.gravity, displacement);
+    sum.potential += elastic_energy + gravitational_energy;
+    sum.potential_magnitude += elastic_energy + std::abs(gravitational_energy);
     if (forces.windy) {
         const glm::dvec3 velocity = motion.velocity + arm_velocity;
         const BodyPose& before = plant.poses[b];
-        const glm::dvec3 moved = shift - before.shift + centre - before.turn * body.centre;
-        sum.work +=
-            wind_drag(body, turn, velocity, forces) * glm::dot(forces.wind - velocity, moved);
+        const glm::dvec3 centre_shift = shift - before.shift + centre - before.turn * body.centre;
+        sum.work += wind_drag(body, turn, velocity, forces) *
+                    glm::dot(forces.wind - velocity, centre_shift);
     }
     sum.turn = std::max(sum.turn, glm::length(rotation));
 }

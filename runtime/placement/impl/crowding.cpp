@@ -46,14 +46,14 @@ private:
 
 CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     : region_(region), plants_(plants) {
-    double boxes = 0.0;
+    double box_area = 0.0; // m^2, bounding squares of all plants
     for (const ForestPlant& plant : plants) {
         const auto radius = static_cast<double>(plant.radius);
-        boxes += 4.0 * radius * radius;
+        box_area += 4.0 * radius * radius;
     }
     const double square_area =
-        std::max(region.area(), boxes) / std::max(1.0, static_cast<double>(plants.size()));
-    // At most as many squares as plants, also on long and narrow ground.
+        std::max(region.area(), box_area) / std::max(1.0, static_cast<double>(plants.size()));
+    // About as many squares as plants; the bounds by `count` keep that on long, narrow ground.
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;

@@ -151,30 +151,30 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
 
 /// A message of toml++, "Error while parsing WHAT: REASON", with its 'x' written as `x`.
 struct TomlMessage {
-    std::string what; // a string, a key-value pair; may be empty
+    std::string what; // "string", "key-value pair"; may be empty
     std::string reason;
 };
 
-TomlMessage complaint_of(std::string_view description) {
+TomlMessage split_toml_message(std::string_view description) {
     constexpr std::string_view kPrefix = "Error while parsing ";
-    TomlMessage complaint;
+    TomlMessage message;
     if (description.starts_with(kPrefix)) {
         const std::size_t colon = description.find(": ");
         if (colon != std::string_view::npos) {
-            complaint.what = description.substr(kPrefix.size(), colon - kPrefix.size());
+            message.what = description.substr(kPrefix.size(), colon - kPrefix.size());
             description.remove_prefix(colon + 2);
         }
     }
-    complaint.reason = description;
-    std::replace(complaint.reason.begin(), complaint.reason.end(), '\'', '`');
-    if (!complaint.reason.empty() && complaint.reason[0] == 'E') {
-        complaint.reason[0] = 'e';
+    message.reason = description;
+    std::replace(message.reason.begin(), message.reason.end(), '\'', '`');
+    if (!message.reason.empty() && message.reason[0] == 'E') {
+        message.reason[0] = 'e';
     }
-    return complaint;
+    return message;
 }
 
-/// The line of a value without its quotes: `file = "oak.lsys"`.
-std::string text_in_quotes(const Places& places, SourceSpan span) {
+/// Help for an unquoted text: its line with quotes added, `file = "oak.lsys"`, or an example.
+std::string quotes_help(const Places& places, SourceSpan span) {
     const std::string_view text = places.text();
     const std::size_t newline =
         span.begin == 0 ? std::string_view::npos : text.rfind('\n', span.begin - 1);
@@ -195,29 +195,29 @@ std::string text_in_quotes(const Places& places, SourceSpan span) {
 }
 
 void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& diagnostics) {
-    const TomlMessage complaint = complaint_of(error.description());
-    const bool at_end = complaint.reason == "encountered end-of-file";
+    const TomlMessage message = split_toml_message(error.description());
+    const bool at_end = message.reason == "encountered end-of-file";
     const std::string article =
-        complaint.what.find_first_of("aeiou") == 0 ? std::string("an ") : std::string("a ");
+        message.what.find_first_of("aeiou") == 0 ? std::string("an ") : std::string("a ");
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::SceneSyntax, places.span(error.source()),
-                        complaint.reason.starts_with("could not determine value type")
+                        message.reason.starts_with("could not determine value type")
                             ? std::string("this is no value: a number, `true`, or a text in quotes")
-                        : at_end && !complaint.what.empty()
-                            ? fmt::format("the file ends within {}{}", article, complaint.what)
-                            : complaint.reason);
-    if (!at_end && !complaint.what.empty()) {
-        diagnostic.notes.push_back(fmt::format("while reading {}{}", article, complaint.what));
+                        : at_end && !message.what.empty()
+                            ? fmt::format("the file ends within {}{}", article, message.what)
+                            : message.reason);
+    if (!at_end && !message.what.empty()) {
+        diagnostic.notes.push_back(fmt::format("while reading {}{}", article, message.what));
     }
-    if (complaint.reason.starts_with("cannot redefine existing table")) {
+    if (message.reason.starts_with("cannot redefine existing table")) {
         diagnostic.help.emplace_back(
             "a table stands once; another species begins with `[[species]]`");
-    } else if (complaint.reason.starts_with("cannot redefine")) {
+    } else if (message.reason.starts_with("cannot redefine")) {
         diagnostic.help.emplace_back("a key stands once in its table");
-    } else if (complaint.reason.starts_with("expected `true`") ||
-               complaint.reason.starts_with("expected `false`") ||
-               complaint.reason.starts_with("could not determine value type")) {
-        diagnostic.help.push_back(text_in_quotes(places, diagnostic.span));
+    } else if (message.reason.starts_with("expected `true`") ||
+               message.reason.starts_with("expected `false`") ||
+               message.reason.starts_with("could not determine value type")) {
+        diagnostic.help.push_back(quotes_help(places, diagnostic.span));
     }
 }
 

@@ -52,15 +52,15 @@ def read_parameters(lsc, file, seconds):
         output, _ = run_lsc(lsc, ["stats", "--parameters", "--message-format", "json", "--quiet", "--", file], seconds)
         return json.loads(output)
     except CompilerError:
-        # The error has messages in JSON. This run fails with messages for people.
+        # The messages of the error are JSON; `lsc check` raises the same error with readable messages.
         run_lsc(lsc, ["check", "--color", "never", "--", file], seconds)
         raise
     except ValueError as error:
         raise CompilerError(f"{lsc} is too old: it has no `stats --parameters`") from error
 
 
-class Written:
-    """A GLB in a temporary folder, which the end of a `with` removes."""
+class TemporaryGlb:
+    """Context manager: runs lsc to write a GLB in a temporary folder, which is removed at the end of the `with`."""
 
     def __init__(self, lsc, arguments, seconds):
         self.lsc, self.arguments, self.seconds = lsc, arguments, seconds

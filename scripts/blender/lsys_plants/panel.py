@@ -219,7 +219,7 @@ def update(collection):
     settings = collection.lsys
     try:
         lsc, seconds = preferences()
-        with compiler.Written(lsc, arguments_of(collection), seconds) as (path, messages):
+        with compiler.TemporaryGlb(lsc, arguments_of(collection), seconds) as (path, messages):
             extras = scene.fill(collection, path, settings.kind == "FOREST")
     except FAILURES as error:
         settings.message = str(error)

@@ -18,12 +18,12 @@ public:
         std::size_t target = 0;
         std::size_t next = 0;
         bool changed = false;
-        bool beside_word = false; // the changed field does not affect derived words
+        bool outside_digest = false; // the changed field does not affect derived words
     };
 
-    Change(Progress& progress, bool beside) : progress_(progress), beside_(beside) {}
+    Change(Progress& progress, bool outside) : progress_(progress), outside_(outside) {}
 
-    Change beside_word() { return {progress_, true}; }
+    Change outside_digest() { return {progress_, true}; }
     void implied(bool /*value*/) {}
     template <typename Value>
     void number(Value& value) {
@@ -87,20 +87,20 @@ private:
             return false;
         }
         progress_.changed = true;
-        progress_.beside_word = beside_;
+        progress_.outside_digest = outside_;
         return true;
     }
 
     Progress& progress_;
-    bool beside_;
+    bool outside_;
 };
 
 } // namespace
 
-TEST_CASE("every field changes the digest but for those beside the word") {
+TEST_CASE("every field that affects the word changes the digest, and no other") {
     const std::uint64_t known = digest(test::small_bytecode());
-    std::size_t decisive = 0;
-    std::size_t beside = 0;
+    std::size_t inside = 0;
+    std::size_t outside = 0;
     for (std::size_t target = 0;; ++target) {
         Bytecode bytecode = test::small_bytecode();
         Change::Progress progress{.target = target};
@@ -109,12 +109,12 @@ TEST_CASE("every field changes the digest but for those beside the word") {
         if (!progress.changed) {
             break;
         }
-        CAPTURE(target, progress.beside_word);
-        CHECK((digest(bytecode) == known) == progress.beside_word);
-        ++(progress.beside_word ? beside : decisive);
+        CAPTURE(target, progress.outside_digest);
+        CHECK((digest(bytecode) == known) == progress.outside_digest);
+        ++(progress.outside_digest ? outside : inside);
     }
-    CHECK(decisive > 150);
-    CHECK(beside > 80);
+    CHECK(inside > 150);
+    CHECK(outside > 80);
 }
 
 TEST_CASE("the digest follows what decides the word and nothing else") {

@@ -64,7 +64,7 @@ TEST_CASE("heads are checked") {
           "production 1 is of rule 2, which nothing began");
     CHECK(said_of([](Bytecode& b) { b.patterns[8].symbol = SymbolId{4}; }) ==
           "production 1 does not fit group 0");
-    CHECK(said_of([](Bytecode& b) { b.group_count = 2; }) ==
+    CHECK(said_of([](Bytecode& b) { b.context_group_count = 2; }) ==
           "1 rules and 2 groups are named, 1 and 1 found");
 }
 

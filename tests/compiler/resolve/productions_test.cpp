@@ -95,7 +95,7 @@ TEST_CASE("rules go by predecessor, groups by contexts as well, by first appeara
     CHECK(rules == std::vector<std::uint32_t>{0, 1, 2, 1, 1, 1, 1});
     CHECK(groups == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 1});
     CHECK(c.outcome.program->rule_count == 3);
-    CHECK(c.outcome.program->group_count == 6);
+    CHECK(c.outcome.program->context_group_count == 6);
 }
 
 TEST_CASE("probabilities are constants above 0 and at most 1") {

@@ -75,6 +75,19 @@ TEST_CASE("a column of many segments buckles at Greenhill's height") {
     CHECK(before < 0.01);
 }
 
+TEST_CASE("the trunk is that of the first plant, however many segments further plants have") {
+    Skeleton plants = column(5, 20.0, 0.1, 9e9);
+    const Stability alone = stability_of(plants, in_calm());
+    std::uint32_t parent = kNoSegment;
+    for (int i = 0; i < 3; ++i) {
+        parent = add_segment(plants, parent, leaning(0.0F), rod(7.0F, 0.3F, 1e6F, 50.0F));
+    }
+    const Stability both = stability_of(plants, in_calm());
+    CHECK(both.trunk_length == alone.trunk_length);
+    CHECK(both.trunk_width == alone.trunk_width);
+    CHECK(both.trunk_factor == alone.trunk_factor);
+}
+
 TEST_CASE("what hangs is stable under any weight") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(static_cast<float>(std::numbers::pi)),

@@ -1,10 +1,10 @@
-#include "runtime/derive/engine/rule_dice.h"
+#include "runtime/derive/engine/glibc_rule_draws.h"
 
 #include <algorithm>
 
 namespace lsys {
 
-RuleDice::RuleDice(const Bytecode& bytecode, std::uint64_t seed)
+GlibcRuleDraws::GlibcRuleDraws(const Bytecode& bytecode, std::uint64_t seed)
     : seed_(static_cast<std::uint32_t>(seed)), alternatives_(bytecode.rule_count, 0),
       random_(seed_) {
     for (const BytecodeProduction& production : bytecode.productions) {
@@ -12,7 +12,7 @@ RuleDice::RuleDice(const Bytecode& bytecode, std::uint64_t seed)
     }
 }
 
-void RuleDice::roll(std::uint32_t generation) {
+void GlibcRuleDraws::prepare(std::uint32_t generation) {
     if (next_ == std::uint64_t{generation} + 1) {
         return;
     }
@@ -20,22 +20,22 @@ void RuleDice::roll(std::uint32_t generation) {
         random_ = GlibcRandom(seed_);
         next_ = 0;
     }
-    rolled_.resize(alternatives_.size());
+    draws_.resize(alternatives_.size());
     for (; next_ <= generation; ++next_) {
-        for (std::uint32_t& number : rolled_) {
+        for (std::uint32_t& number : draws_) {
             number = random_.next();
         }
     }
 }
 
-float RuleDice::unit(std::uint32_t rule, std::uint32_t number) const {
+float GlibcRuleDraws::unit(std::uint32_t rule, std::uint32_t number) const {
     const std::uint32_t count = std::max(alternatives_[rule], 1U);
     return (static_cast<float>(number % count) + 0.5F) / static_cast<float>(count);
 }
 
-float RuleDice::draw(std::uint32_t rule, std::uint32_t generation) const {
+float GlibcRuleDraws::draw(std::uint32_t rule, std::uint32_t generation) const {
     if (next_ == std::uint64_t{generation} + 1) {
-        return unit(rule, rolled_[rule]);
+        return unit(rule, draws_[rule]);
     }
     GlibcRandom random(seed_);
     const std::uint64_t before = std::uint64_t{generation} * alternatives_.size() + rule;
