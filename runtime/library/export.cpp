@@ -3,11 +3,10 @@
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
 
-#include <lsys/export.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <lsys/export.h>
 #include <optional>
 
 namespace lsys::v0 {
@@ -92,12 +91,11 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
         info.threads = project.threads;
         info.user_meshes = &drawn.user_meshes;
         info.up = options.up == UpAxis::Z ? ::lsys::UpAxis::Z : ::lsys::UpAxis::Y;
-        ::lsys::Outcome<void> written =
-            export_mesh(mesh.data().mesh, drawn.skeleton, *found, info,
-                        call.guarded_sink([&](std::string_view piece) {
-                            bytes += piece.size();
-                            return write(piece);
-                        }));
+        ::lsys::Outcome<void> written = export_mesh(mesh.data().mesh, drawn.skeleton, *found, info,
+                                                    call.guarded_sink([&](std::string_view piece) {
+                                                        bytes += piece.size();
+                                                        return write(piece);
+                                                    }));
         if (!written) {
             return {written.stop(), std::move(written.messages())};
         }

@@ -4,7 +4,6 @@
 
 #include <lsys/messages.h>
 #include <lsys/outcome.h>
-
 #include <optional>
 #include <utility>
 
@@ -128,20 +127,10 @@ bool Messages::has_errors() const {
 
 std::string Messages::text(MessageStyle style) const {
     MessageOptions options;
-    switch (style) {
-    case MessageStyle::Frames:
-    case MessageStyle::ColourFrames:
-        options.format = MessageFormat::Human;
-        break;
-    case MessageStyle::Lines:
-        options.format = MessageFormat::Short;
-        break;
-    case MessageStyle::Json:
-        options.format = MessageFormat::Json;
-        break;
-    }
-    options.colour =
-        style == MessageStyle::ColourFrames ? ColourMode::Always : ColourMode::Never;
+    options.format = style == MessageStyle::Lines  ? MessageFormat::Short
+                     : style == MessageStyle::Json ? MessageFormat::Json
+                                                   : MessageFormat::Human;
+    options.colour = style == MessageStyle::ColourFrames ? ColourMode::Always : ColourMode::Never;
     return messages_text(data_->messages, options, "lsys");
 }
 

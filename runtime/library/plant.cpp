@@ -83,8 +83,8 @@ Material public_material(const ::lsys::Material& material) {
     Material out;
     out.name = material.name;
     out.colour = {material.colour.r, material.colour.g, material.colour.b, material.colour.a};
-    out.roughness = material.roughness.value_or(
-        material.kind == MaterialKind::Bark ? kBarkRoughness : kRoughness);
+    out.roughness = material.roughness.value_or(material.kind == MaterialKind::Bark ? kBarkRoughness
+                                                                                    : kRoughness);
     out.two_sided = material.two_sided;
     out.cut_out = material.cut_out;
     return out;
@@ -173,12 +173,12 @@ Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Pr
     inner.seed = options.seed;
     inner.height = options.height;
     inner.stream = options.stream;
-    return call.run<Plant>([&] { return grow_plant(inner, copy, call.project()); },
-                           [&](::lsys::Plant plant) {
-                               return Plant(std::make_shared<const Plant::Data>(Plant::Data{
-                                   std::move(plant),
-                                   std::filesystem::path(inner.file).filename().string()}));
-                           });
+    return call.run<Plant>(
+        [&] { return grow_plant(inner, copy, call.project()); },
+        [&](::lsys::Plant plant) {
+            return Plant(std::make_shared<const Plant::Data>(Plant::Data{
+                std::move(plant), std::filesystem::path(inner.file).filename().string()}));
+        });
 }
 
 Mesh::Mesh(std::shared_ptr<const Data> data) noexcept : data_(std::move(data)) {}

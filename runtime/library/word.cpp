@@ -95,8 +95,7 @@ std::string Word::text() const {
     return text;
 }
 
-Outcome<Word>
-derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
+Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
     Call call(project);
     ::lsys::Grammar copy = copy_of(grammar);
     PlantOptions inner;

@@ -134,9 +134,9 @@ bool exceeds_limit(const DeriveOptions& derive, const Grammar& grammar, Step& st
     const std::optional<LimitReport> limit =
         predict_limit(grammar.bytecode, derive.generations, derive.limits);
     if (limit) {
-        step.diagnose(limit_diagnostic(*limit, derive.limits, grammar.bytecode,
-                                       !grammar.is_module_file),
-                      grammar.sources);
+        step.diagnose(
+            limit_diagnostic(*limit, derive.limits, grammar.bytecode, !grammar.is_module_file),
+            grammar.sources);
     }
     return limit.has_value();
 }

@@ -152,9 +152,7 @@ messages_text(const Messages& messages, const MessageOptions& options, const cha
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
-    MessageOptions plain = options;
-    plain.colour = ColourMode::Never;
-    Console({in, out, err, false, nullptr, program}, plain).show(messages);
+    Console({in, out, err, false, nullptr, program}, options).show(messages);
     return std::move(err).str();
 }
 

@@ -81,7 +81,8 @@ private:
     MessageOptions options_;
 };
 
-/// The text that a Console of the program `program` prints for the messages, without colour.
+/// The text that a Console of the program `program` prints for the messages, in colour with
+/// ColourMode::Always only.
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 

@@ -1,26 +1,24 @@
 // The Python module lsys._lsys: the public library for Python, arrays as views of numpy without
 // copies. The package in lsys/ adds what is easier to write in Python.
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <lsys/export.h>
 #include <lsys/grammar.h>
 #include <lsys/plant.h>
 #include <lsys/word.h>
-
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <cstdint>
-#include <exception>
-#include <cstddef>
-#include <map>
-#include <memory>
 #include <span>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -153,6 +151,24 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
+/// The messages for an exception: with the lines of the source, or the words alone where they are
+/// about no source.
+std::string text_of(const lsys::Messages& messages) {
+    std::string text;
+    for (const lsys::Diagnostic& diagnostic : messages.all()) {
+        if (diagnostic.place) {
+            text = messages.text();
+            break;
+        }
+        text += diagnostic.message + '\n';
+        for (const std::string& help : diagnostic.help) {
+            text += "help: " + help + '\n';
+        }
+    }
+    text.resize(text.find_last_not_of('\n') + 1);
+    return text;
+}
+
 /// The value of an outcome; raises an exception with the messages if there is none. Warnings are
 /// warnings of Python.
 template <typename T>
@@ -160,10 +176,7 @@ T value_of(lsys::Outcome<T> outcome) {
     const lsys::Messages& messages = outcome.messages();
     if (!outcome) {
         const py::object type = error_class(outcome.status());
-        std::string text = messages.text();
-        while (text.ends_with('\n')) {
-            text.pop_back();
-        }
+        std::string text = text_of(messages);
         if (text.empty()) {
             text = lsys::text_of(outcome.status());
         }
@@ -193,8 +206,7 @@ py::array view(const py::dtype& dtype,
                const void* data,
                const py::object& owner) {
     py::array array(dtype, std::move(shape), data, owner);
-    py::detail::array_proxy(array.ptr())->flags &=
-        ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
     return array;
 }
 
@@ -374,8 +386,10 @@ py::dict material_of(const lsys::Material& material) {
 
 lsys::MeshMethod method_of(const std::string& name) {
     const std::map<std::string, lsys::MeshMethod> methods{
-        {"default", lsys::MeshMethod::Default}, {"tubes", lsys::MeshMethod::Tubes},
-        {"cylinders", lsys::MeshMethod::Cylinders}, {"boxes", lsys::MeshMethod::Boxes},
+        {"default", lsys::MeshMethod::Default},
+        {"tubes", lsys::MeshMethod::Tubes},
+        {"cylinders", lsys::MeshMethod::Cylinders},
+        {"boxes", lsys::MeshMethod::Boxes},
         {"solid", lsys::MeshMethod::Solid}};
     const auto found = methods.find(name);
     if (found == methods.end()) {
@@ -385,7 +399,8 @@ lsys::MeshMethod method_of(const std::string& name) {
 }
 
 void bind_messages(py::module_& module) {
-    py::class_<lsys::Place>(module, "Place", "A range of characters of a file; the end is exclusive.")
+    py::class_<lsys::Place>(module, "Place",
+                            "A range of characters of a file; the end is exclusive.")
         .def_readonly("file", &lsys::Place::file)
         .def_readonly("line", &lsys::Place::line)
         .def_readonly("column", &lsys::Place::column)
@@ -438,9 +453,8 @@ void bind_grammar(py::module_& module) {
                                                              : py::float_(constant.value);
                                })
         .def_property_readonly("bounds", [](const lsys::Constant& constant) -> py::object {
-            return constant.is_parameter
-                       ? py::object(py::make_tuple(constant.min, constant.max))
-                       : py::object(py::none());
+            return constant.is_parameter ? py::object(py::make_tuple(constant.min, constant.max))
+                                         : py::object(py::none());
         });
     py::class_<lsys::PredictedSize>(module, "PredictedSize",
                                     "Bounds of the number of modules of one generation.")
@@ -455,30 +469,30 @@ void bind_grammar(py::module_& module) {
         .def_property_readonly("seed", &lsys::Grammar::seed)
         .def_property_readonly("constants", &lsys::Grammar::constants)
         .def_property_readonly("translation", &lsys::Grammar::translation)
-        .def_property_readonly("bytecode",
-                               [](const lsys::Grammar& grammar) {
-                                   return py::bytes(grammar.bytecode());
-                               })
+        .def_property_readonly(
+            "bytecode", [](const lsys::Grammar& grammar) { return py::bytes(grammar.bytecode()); })
         .def("predict", &lsys::Grammar::predict, "generations"_a,
              py::call_guard<py::gil_scoped_release>())
-        .def("derive",
-             [](const lsys::Grammar& grammar, std::optional<std::uint32_t> generations,
-                std::optional<std::uint64_t> seed, const py::kwargs& rest) {
-                 return value_of(run(options_of(rest), [&](const lsys::Project& project) {
-                     return lsys::derive(grammar, {generations, seed}, project);
-                 }));
-             },
-             "generations"_a = py::none(), "seed"_a = py::none())
-        .def("grow",
-             [](const lsys::Grammar& grammar, std::optional<std::uint32_t> generations,
-                std::optional<std::uint64_t> seed, std::optional<float> height, bool stream,
-                const py::kwargs& rest) {
-                 return value_of(run(options_of(rest), [&](const lsys::Project& project) {
-                     return lsys::grow(grammar, {generations, seed, height, stream}, project);
-                 }));
-             },
-             "generations"_a = py::none(), "seed"_a = py::none(), "height"_a = py::none(),
-             "stream"_a = false);
+        .def(
+            "derive",
+            [](const lsys::Grammar& grammar, std::optional<std::uint32_t> generations,
+               std::optional<std::uint64_t> seed, const py::kwargs& rest) {
+                return value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                    return lsys::derive(grammar, {generations, seed}, project);
+                }));
+            },
+            "generations"_a = py::none(), "seed"_a = py::none())
+        .def(
+            "grow",
+            [](const lsys::Grammar& grammar, std::optional<std::uint32_t> generations,
+               std::optional<std::uint64_t> seed, std::optional<float> height, bool stream,
+               const py::kwargs& rest) {
+                return value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                    return lsys::grow(grammar, {generations, seed, height, stream}, project);
+                }));
+            },
+            "generations"_a = py::none(), "seed"_a = py::none(), "height"_a = py::none(),
+            "stream"_a = false);
     module.def(
         "compile_file",
         [](const std::string& path, const std::map<std::string, float>& defines,
@@ -553,8 +567,10 @@ void bind_plant(py::module_& module) {
     module.attr("POLYGON") = polygon_type();
     module.attr("OBJECT_KINDS") = py::cast(lsys::object_kinds());
     module.attr("FORMATS") = py::cast(lsys::export_formats());
-    module.def("format_of_path", [](const std::string& path) { return lsys::format_of_path(path); });
-    py::class_<lsys::PlantSize>(module, "PlantSize", "Measures of a plant, in metres and kilograms.")
+    module.def("format_of_path",
+               [](const std::string& path) { return lsys::format_of_path(path); });
+    py::class_<lsys::PlantSize>(module, "PlantSize",
+                                "Measures of a plant, in metres and kilograms.")
         .def_property_readonly("low",
                                [](const lsys::PlantSize& size) {
                                    return py::make_tuple(size.low.x, size.low.y, size.low.z);
@@ -595,48 +611,51 @@ void bind_plant(py::module_& module) {
                                    return rows<float>(self.cast<const lsys::Plant&>().corners(),
                                                       self);
                                })
-        .def("mesh",
-             [](const lsys::Plant& plant, const std::string& method, std::uint32_t sides,
-                float deviation, bool texture_coordinates, bool tangents, bool smooth_joints,
-                float min_width, const py::kwargs& rest) {
-                 lsys::MeshOptions options{method_of(method), sides,         deviation,
-                                           texture_coordinates, tangents, smooth_joints, min_width};
-                 return value_of(run(options_of(rest), [&](const lsys::Project& project) {
-                     return lsys::make_mesh(plant, options, project);
-                 }));
-             },
-             "method"_a = "default", "sides"_a = 0, "deviation"_a = 0.0F,
-             "texture_coordinates"_a = true, "tangents"_a = true, "smooth_joints"_a = false,
-             "min_width"_a = 0.0F)
-        .def("export",
-             [](const lsys::Plant& plant, const lsys::Mesh& mesh, const std::string& format,
-                const std::string& name, const std::string& compress, const std::string& up,
-                const py::kwargs& rest) {
-                 lsys::ExportOptions options;
-                 options.name = name;
-                 if (compress != "none" && compress != "quantize" && compress != "meshopt") {
-                     throw py::value_error("compress is one of none, quantize, meshopt");
-                 }
-                 options.compression = compress == "none"       ? lsys::Compression::None
-                                       : compress == "quantize" ? lsys::Compression::Quantize
-                                                                : lsys::Compression::Meshopt;
-                 if (up != "y" && up != "z") {
-                     throw py::value_error("up is y or z");
-                 }
-                 options.up = up == "z" ? lsys::UpAxis::Z : lsys::UpAxis::Y;
-                 std::string bytes;
-                 value_of(run(options_of(rest), [&](const lsys::Project& project) {
-                     return lsys::export_plant(
-                         plant, mesh, format,
-                         [&](std::string_view piece) {
-                             bytes += piece;
-                             return true;
-                         },
-                         options, project);
-                 }));
-                 return py::bytes(bytes);
-             },
-             "mesh"_a, "format"_a, "name"_a = "plant", "compress"_a = "none", "up"_a = "y");
+        .def(
+            "mesh",
+            [](const lsys::Plant& plant, const std::string& method, std::uint32_t sides,
+               float deviation, bool texture_coordinates, bool tangents, bool smooth_joints,
+               float min_width, const py::kwargs& rest) {
+                lsys::MeshOptions options{
+                    method_of(method), sides,         deviation, texture_coordinates,
+                    tangents,          smooth_joints, min_width};
+                return value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                    return lsys::make_mesh(plant, options, project);
+                }));
+            },
+            "method"_a = "default", "sides"_a = 0, "deviation"_a = 0.0F,
+            "texture_coordinates"_a = true, "tangents"_a = true, "smooth_joints"_a = false,
+            "min_width"_a = 0.0F)
+        .def(
+            "export",
+            [](const lsys::Plant& plant, const lsys::Mesh& mesh, const std::string& format,
+               const std::string& name, const std::string& compress, const std::string& up,
+               const py::kwargs& rest) {
+                lsys::ExportOptions options;
+                options.name = name;
+                if (compress != "none" && compress != "quantize" && compress != "meshopt") {
+                    throw py::value_error("compress is one of none, quantize, meshopt");
+                }
+                options.compression = compress == "none"       ? lsys::Compression::None
+                                      : compress == "quantize" ? lsys::Compression::Quantize
+                                                               : lsys::Compression::Meshopt;
+                if (up != "y" && up != "z") {
+                    throw py::value_error("up is y or z");
+                }
+                options.up = up == "z" ? lsys::UpAxis::Z : lsys::UpAxis::Y;
+                std::string bytes;
+                value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                    return lsys::export_plant(
+                        plant, mesh, format,
+                        [&](std::string_view piece) {
+                            bytes += piece;
+                            return true;
+                        },
+                        options, project);
+                }));
+                return py::bytes(bytes);
+            },
+            "mesh"_a, "format"_a, "name"_a = "plant", "compress"_a = "none", "up"_a = "y");
     py::class_<lsys::Mesh>(module, "Mesh", "Triangles of a plant.")
         .def_property_readonly("positions",
                                [](const py::object& self) {
@@ -665,25 +684,25 @@ void bind_plant(py::module_& module) {
                                                {static_cast<py::ssize_t>(colours.size())},
                                                colours.data(), self);
                                })
-        .def_property_readonly("indices",
-                               [](const lsys::Mesh& mesh) {
-                                   py::array_t<std::uint32_t> indices(
-                                       {static_cast<py::ssize_t>(mesh.index_count() / 3),
-                                        py::ssize_t{3}});
-                                   std::uint32_t* const to = indices.mutable_data();
-                                   const py::gil_scoped_release unlocked;
-                                   mesh.read_indices(0, mesh.index_count(), to);
-                                   return indices;
-                               })
-        .def_property_readonly("parts",
-                               [](const lsys::Mesh& mesh) {
-                                   py::list parts;
-                                   for (const lsys::MeshPart& part : mesh.parts()) {
-                                       parts.append(py::make_tuple(part.material, part.first_index,
-                                                                   part.index_count));
-                                   }
-                                   return parts;
-                               })
+        .def_property_readonly(
+            "indices",
+            [](const lsys::Mesh& mesh) {
+                py::array_t<std::uint32_t> indices(
+                    {static_cast<py::ssize_t>(mesh.index_count() / 3), py::ssize_t{3}});
+                std::uint32_t* const to = indices.mutable_data();
+                const py::gil_scoped_release unlocked;
+                mesh.read_indices(0, mesh.index_count(), to);
+                return indices;
+            })
+        .def_property_readonly(
+            "parts",
+            [](const lsys::Mesh& mesh) {
+                py::list parts;
+                for (const lsys::MeshPart& part : mesh.parts()) {
+                    parts.append(py::make_tuple(part.material, part.first_index, part.index_count));
+                }
+                return parts;
+            })
         .def_property_readonly("materials", [](const lsys::Mesh& mesh) {
             py::list materials;
             for (const lsys::Material& material : mesh.materials()) {

@@ -48,6 +48,7 @@ struct Segment {
     bool linked : 1 = false; // begins where its parent ends
     bool forked : 1 = false; // branches that the skeleton leaves out begin at its tip
     bool cut : 1 = false;    // begins within its parent, with a closed surface of its own
+    std::uint8_t unused : 5 = 0; // so that every bit of a segment has a value
 };
 static_assert(sizeof(Segment) == 60);
 

@@ -1,14 +1,13 @@
 // liblsys by its public headers alone.
-#include <lsys/grammar.h>
-#include <lsys/plant.h>
-#include <lsys/word.h>
-
 #include <catch2/catch.hpp>
 
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <lsys/grammar.h>
+#include <lsys/plant.h>
+#include <lsys/word.h>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -19,9 +18,8 @@
 namespace {
 
 const char* const kTree = "#n = 3; #w : A; #p : A : * : F [ + A ] F A;";
-const char* const kParametric =
-    "#n = 4; #param ratio 0.5 {0, 1}; #define TURN 25; #w : A(1);\n"
-    "#p : A(x) : * : F(x) [ +(TURN) A(x*ratio) ] A(x + 1);";
+const char* const kParametric = "#n = 4; #param ratio 0.5 {0, 1}; #define TURN 25; #w : A(1);\n"
+                                "#p : A(x) : * : F(x) [ +(TURN) A(x*ratio) ] A(x + 1);";
 
 std::string file_text(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
@@ -121,8 +119,8 @@ TEST_CASE("constants and settings are listed and replaced") {
 }
 
 TEST_CASE("mistakes are data with places, and text with carets") {
-    const auto grammar = lsys::compile_text("#n = 1; #define length 2;\n#w : F(lengt);\n",
-                                            "leaf.lsys");
+    const auto grammar =
+        lsys::compile_text("#n = 1; #define length 2;\n#w : F(lengt);\n", "leaf.lsys");
     REQUIRE_FALSE(grammar);
     CHECK(grammar.status() == lsys::Status::Diagnosed);
     CHECK(std::string(lsys::text_of(grammar.status())) == "mistakes in the grammar or scene");
@@ -211,8 +209,8 @@ TEST_CASE("limits and exceptions of the host end a call") {
     CHECK(limited.status() == lsys::Status::Limit);
     CHECK(limited.messages().has_errors());
 
-    const auto slow = lsys::compile_text(
-        "#n = 22; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});");
+    const auto slow =
+        lsys::compile_text("#n = 22; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});");
     REQUIRE(slow);
     lsys::Project cancelling;
     int calls = 0;
@@ -286,7 +284,8 @@ TEST_CASE("vertices are written into a buffer of the caller") {
         float uv[2];
         float colour[4];
     };
-    const auto grammar = lsys::compile_text("#n = 6; #w : A; #p : A : * : F [ + A ] F [ - A ] '(3) A;");
+    const auto grammar =
+        lsys::compile_text("#n = 6; #w : A; #p : A : * : F [ + A ] F [ - A ] '(3) A;");
     REQUIRE(grammar);
     const auto mesh = lsys::make_mesh(*lsys::grow(*grammar));
     REQUIRE(mesh);
@@ -310,7 +309,8 @@ TEST_CASE("vertices are written into a buffer of the caller") {
 }
 
 TEST_CASE("one grammar serves many threads") {
-    const std::string path = std::string(LSYS_SOURCE_DIR) + "/samples/abop-1-25-bush/abop-1-25-bush.lsys";
+    const std::string path =
+        std::string(LSYS_SOURCE_DIR) + "/samples/abop-1-25-bush/abop-1-25-bush.lsys";
     const auto grammar = lsys::compile_text(file_text(path), path);
     REQUIRE(grammar);
     const auto expected = lsys::make_mesh(*lsys::grow(*grammar));

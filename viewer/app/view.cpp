@@ -52,7 +52,9 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
 } // namespace
 
 void View::take_messages(const Messages& messages, bool fine) {
-    std::string text = messages_text(messages, options_.messages, "lsview");
+    MessageOptions plain = options_.messages;
+    plain.colour = ColourMode::Never;
+    std::string text = messages_text(messages, plain, "lsview");
     if (text != text_) {
         text_ = std::move(text);
         entries_ = entries_of(messages);

@@ -1,12 +1,11 @@
 #include "runtime/library/impl/call.h"
 
 #include "grammar/base/message_levels.h"
+#include "runtime/library/impl/message_data.h"
 #include "runtime/program/host.h"
 #include "runtime/program/memory_size.h"
 
 #include <fmt/format.h>
-
-#include "runtime/library/impl/message_data.h"
 
 #include <memory>
 
@@ -38,9 +37,9 @@ Call::Call(const Project& project) {
     }
     inner_.host = make_file_host(cancelled_);
     if (project.host.read_file) {
-        inner_.host.read_file = [this, read = project.host.read_file](
-                                    const std::string& path,
-                                    const ReadLimit& limit) -> Result<std::string> {
+        inner_.host.read_file =
+            [this, read = project.host.read_file](const std::string& path,
+                                                  const ReadLimit& limit) -> Result<std::string> {
             return checked(guarded([&] { return read(path); }, FileContents{}), limit);
         };
         inner_.host.read_named_file = inner_.host.read_file;
@@ -49,13 +48,13 @@ Call::Call(const Project& project) {
         };
     }
     if (project.host.progress) {
-        inner_.host.progress = [this, report = project.host.progress](
-                                   const DerivationProgress& progress) {
-            const Progress shown{progress.generation, progress.generations, progress.modules};
-            if (!guarded([&] { return report(shown); }, false)) {
-                cancelled_->store(true);
-            }
-        };
+        inner_.host.progress =
+            [this, report = project.host.progress](const DerivationProgress& progress) {
+                const Progress shown{progress.generation, progress.generations, progress.modules};
+                if (!guarded([&] { return report(shown); }, false)) {
+                    cancelled_->store(true);
+                }
+            };
     }
     inner_.limits.max_modules = project.limits.max_modules;
     inner_.limits.max_bytes =

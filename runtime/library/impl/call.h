@@ -5,11 +5,10 @@
 #include "grammar/base/outcome.h"
 #include "runtime/pipeline/project.h"
 
-#include <lsys/outcome.h>
-#include <lsys/project.h>
-
 #include <atomic>
 #include <exception>
+#include <lsys/outcome.h>
+#include <lsys/project.h>
 #include <new>
 #include <optional>
 #include <stdexcept>

@@ -6,11 +6,10 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
 
+#include <cstdint>
 #include <lsys/grammar.h>
 #include <lsys/plant.h>
 #include <lsys/word.h>
-
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "grammar/base/outcome.h"
 
 #include <lsys/messages.h>
-
 #include <memory>
 #include <vector>
 

@@ -1,13 +1,12 @@
 // Export: a plant and its mesh as the bytes of a file that other programs read.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <lsys/api.h>
 #include <lsys/outcome.h>
 #include <lsys/plant.h>
 #include <lsys/project.h>
-
-#include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -2,11 +2,10 @@
 // Houdini, Fractint ...) or a compiled .lsb file.
 #pragma once
 
+#include <cstdint>
 #include <lsys/api.h>
 #include <lsys/outcome.h>
 #include <lsys/project.h>
-
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

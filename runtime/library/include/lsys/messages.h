@@ -2,9 +2,8 @@
 // and as text. Values; they keep the sources that they point into.
 #pragma once
 
-#include <lsys/api.h>
-
 #include <cstdint>
+#include <lsys/api.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,10 +59,10 @@ struct Diagnostic {
 };
 
 enum class MessageStyle : std::uint8_t {
-    Frames,        // with the lines of the source and carets
-    ColourFrames,  // for terminals
-    Lines,         // file:line:column: severity: message [code]
-    Json,          // one object a line
+    Frames,       // with the lines of the source and carets
+    ColourFrames, // for terminals
+    Lines,        // file:line:column: severity: message [code]
+    Json,         // one object a line
 };
 
 /// The messages of a call, in order.

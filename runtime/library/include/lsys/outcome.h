@@ -2,11 +2,10 @@
 // cases the messages of the call.
 #pragma once
 
-#include <lsys/api.h>
-#include <lsys/messages.h>
-
 #include <cassert>
 #include <cstdint>
+#include <lsys/api.h>
+#include <lsys/messages.h>
 #include <optional>
 #include <utility>
 

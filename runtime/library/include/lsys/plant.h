@@ -3,13 +3,12 @@
 // the plant or mesh, which is not copied: they are valid as long as one copy of it is.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <lsys/api.h>
 #include <lsys/grammar.h>
 #include <lsys/outcome.h>
 #include <lsys/project.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -195,9 +194,10 @@ public:
     [[nodiscard]] std::span<const Vector3> positions() const;
     [[nodiscard]] std::span<const Vector3> normals() const;             // unit length
     [[nodiscard]] std::span<const Vector2> texture_coordinates() const; // may be empty; v goes down
-    [[nodiscard]] std::span<const Vector4> tangents() const; // may be empty; w: sign of the bitangent
-    [[nodiscard]] std::span<const Colour> colours() const;   // of each vertex
-    [[nodiscard]] std::uint64_t index_count() const;         // three for each triangle
+    [[nodiscard]] std::span<const Vector4>
+    tangents() const;                                      // may be empty; w: sign of the bitangent
+    [[nodiscard]] std::span<const Colour> colours() const; // of each vertex
+    [[nodiscard]] std::uint64_t index_count() const;       // three for each triangle
     /// Writes indices `first` to `first + count`, which the mesh keeps in a packed form.
     /// Precondition: first + count <= index_count().
     void read_indices(std::uint64_t first, std::uint64_t count, std::uint32_t* to) const;

@@ -2,11 +2,10 @@
 // watched and ended.
 #pragma once
 
-#include <lsys/api.h>
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <lsys/api.h>
 #include <string>
 #include <vector>
 
@@ -49,8 +48,8 @@ struct Limits {
 struct Project {
     Host host;
     Limits limits;
-    std::uint32_t threads = 0;     // 0: as many as the machine has
-    std::vector<std::string> deny; // codes of warnings that are errors; "warnings": all
+    std::uint32_t threads = 0;      // 0: as many as the machine has
+    std::vector<std::string> deny;  // codes of warnings that are errors; "warnings": all
     std::vector<std::string> allow; // codes that are not reported
 };
 

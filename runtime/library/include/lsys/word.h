@@ -2,14 +2,13 @@
 // those codes that store any, in order.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <lsys/api.h>
 #include <lsys/grammar.h>
 #include <lsys/outcome.h>
 #include <lsys/project.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,7 +26,7 @@ struct DeriveOptions {
 /// What a code of a word stands for. A module whose arguments are the same wherever it is written
 /// has a code with `constants`, and stores no parameters.
 struct ModuleKind {
-    std::string name;                   // "F", "+", "leaf"
+    std::string name;                    // "F", "+", "leaf"
     std::uint32_t stored_parameters = 0; // in Word::parameters() for each such module
     std::vector<float> constants;        // its parameters, if none are stored
 };
@@ -41,7 +40,7 @@ struct Module {
 /// A derived word. Cheap to copy, immutable, safe to use from several threads at once.
 class LSYS_API Word {
 public:
-    [[nodiscard]] std::uint64_t size() const;           // number of modules
+    [[nodiscard]] std::uint64_t size() const; // number of modules
     [[nodiscard]] std::uint32_t generation() const;
     [[nodiscard]] std::uint64_t seed() const;
 
@@ -72,8 +71,7 @@ private:
     std::shared_ptr<const Data> data_; // never null
 };
 
-[[nodiscard]] LSYS_API Outcome<Word> derive(const Grammar& grammar,
-                                            const DeriveOptions& options = {},
-                                            const Project& project = {});
+[[nodiscard]] LSYS_API Outcome<Word>
+derive(const Grammar& grammar, const DeriveOptions& options = {}, const Project& project = {});
 
 } // namespace lsys::LSYS_INTERFACE

@@ -1,0 +1,256 @@
+"""The Python module against the program `lsc`, and on its own.
+
+Usage: python3 test_lsys.py LSC SAMPLES [unittest options], with the module on PYTHONPATH.
+"""
+
+import gc
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import warnings
+
+import numpy as np
+
+import lsys
+
+LSC, SAMPLES = sys.argv[1:3]
+TREE = "#n = 3; #w : A; #p : A : * : F [ + A ] F A;"
+RANDOM = "#n = 30; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});"
+
+
+def samples():
+    """The .lsys samples, the benchmark systems left out, whose words are large."""
+    for folder in sorted(os.listdir(SAMPLES)):
+        path = os.path.join(SAMPLES, folder, folder + ".lsys")
+        if os.path.exists(path) and not folder.startswith("bench-"):
+            yield path
+
+
+def ply_positions(path):
+    """Positions of a binary PLY file of `lsc`."""
+    with open(path, "rb") as file:
+        data = file.read()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    lines = data[:end].decode().split("\n")
+    count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
+    sizes = {"float": 4, "uchar": 1}
+    properties = lines[next(i for i, line in enumerate(lines) if "element vertex" in line) + 1:]
+    stride = 0
+    for line in properties:
+        words = line.split()
+        if not words or words[0] != "property":
+            break
+        stride += sizes[words[1]]
+    vertices = np.frombuffer(data, np.uint8, count * stride, end).reshape(count, stride)
+    return np.ascontiguousarray(vertices[:, :12]).view("<f4")
+
+
+class Equality(unittest.TestCase):
+    """Words, skeletons and meshes equal those of `lsc`, bit for bit."""
+
+    def test_words(self):
+        for path in samples():
+            with self.subTest(path), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                expected = subprocess.run([LSC, "dump", "-q", path], capture_output=True, check=True)
+                self.assertEqual(str(lsys.compile(path).derive()) + "\n", expected.stdout.decode())
+
+    def test_seeds(self):
+        path = os.path.join(SAMPLES, "abop-1-27-stochastic", "abop-1-27-stochastic.lsys")
+        grammar = lsys.compile(path)
+        for seed in (1, 2, 2**63):
+            expected = subprocess.run([LSC, "dump", "-q", "--seed", str(seed), "-n", "4", path],
+                                      capture_output=True, check=True)
+            self.assertEqual(str(grammar.derive(4, seed)) + "\n", expected.stdout.decode())
+
+    def test_meshes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for path in samples():
+                out = os.path.join(folder, "plant.ply")
+                made = subprocess.run([LSC, "export", "-q", path, "-o", out], capture_output=True,
+                                      check=False)
+                with self.subTest(path), warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    plant = lsys.compile(path).grow()
+                    mesh = plant.mesh()
+                    if made.returncode != 0:  # nothing to draw
+                        self.assertEqual(len(mesh.positions), 0, made.stderr)
+                        continue
+                    expected = ply_positions(out)
+                    self.assertEqual(mesh.positions.tobytes(), expected.tobytes())
+
+    def test_files(self):
+        path = os.path.join(SAMPLES, "carey-type-0", "carey-type-0.lsys")
+        with tempfile.TemporaryDirectory() as folder:
+            expected = os.path.join(folder, "a.stl")
+            subprocess.run([LSC, "export", "-q", path, "-o", expected], check=True)
+            mine = os.path.join(folder, "b.stl")
+            lsys.compile(path).grow().save(mine)
+            with open(expected, "rb") as one, open(mine, "rb") as other:
+                # The header of an STL names the program.
+                self.assertEqual(one.read()[80:], other.read()[80:])
+            self.assertEqual(sorted(os.listdir(folder)), ["a.stl", "b.stl"])
+
+
+class Views(unittest.TestCase):
+    """Arrays are views: nothing is copied, and they keep their owner alive."""
+
+    def test_word(self):
+        word = lsys.compile(text=TREE).derive(10)
+        codes = word.codes
+        self.assertEqual(codes.dtype, np.uint8)
+        self.assertFalse(codes.flags.owndata)
+        self.assertFalse(codes.flags.writeable)
+        self.assertEqual(codes.ctypes.data, word.codes.ctypes.data)
+        self.assertEqual(len(codes), len(word))
+        names = "".join(word.kinds[code].name for code in codes)
+        self.assertEqual(names, "".join(name for name, _ in word))
+        text = str(word)
+        del word
+        gc.collect()
+        self.assertEqual(np.count_nonzero(codes == codes[0]), text.count("F"))
+
+    def test_parameters(self):
+        word = lsys.compile(text="#n = 1; #w : A(0.5); #p : A(x) : * : B(x, {1, 2}) +(90);").derive()
+        modules = list(word)
+        self.assertEqual([name for name, _ in modules], ["B", "+"])
+        self.assertEqual(modules[0][1][0], 0.5)
+        self.assertTrue(1 <= modules[0][1][1] < 2)
+        self.assertEqual(modules[1][1], (90.0,))
+
+    def test_plant(self):
+        plant = lsys.compile(text="#n = 1; #w : F(2) [ +(90) F(1) ]; #p : Q : * : Q;").grow()
+        segments = plant.segments
+        self.assertEqual(segments.dtype, lsys.SEGMENT)
+        self.assertEqual(segments.dtype.itemsize, 60)
+        self.assertFalse(segments.flags.owndata)
+        self.assertEqual(segments["length"].tolist(), [2.0, 1.0])
+        self.assertEqual(segments["parent"].tolist(), [2**32 - 1, 0])
+        self.assertEqual(segments["flags"].tolist(), [0, 1])
+        self.assertEqual(segments["base"][1].tolist(), [0.0, 2.0, 0.0])
+        self.assertEqual(plant.measure().length, 3.0)
+        mesh = plant.mesh()
+        self.assertEqual(mesh.positions.shape[1], 3)
+        self.assertEqual(mesh.indices.shape[1], 3)
+        self.assertLess(mesh.indices.max(), len(mesh.positions))
+        positions = mesh.positions
+        del mesh, plant
+        gc.collect()
+        self.assertTrue(np.isfinite(positions).all())
+
+    def test_pictures(self):
+        plant = lsys.compile(text=TREE).grow()
+        self.assertIn("<svg", plant._repr_svg_())
+        self.assertIn("segments", repr(plant))
+
+
+class Errors(unittest.TestCase):
+    def test_mistakes(self):
+        with self.assertRaises(lsys.GrammarError) as caught:
+            lsys.compile(text="#n = 1;\n#w : F(lengt);", name="leaf.lsys")
+        diagnostic = caught.exception.diagnostics[0]
+        self.assertEqual(diagnostic.code, "unknown-name")
+        self.assertEqual(diagnostic.severity, "error")
+        self.assertEqual((diagnostic.place.file, diagnostic.place.line, diagnostic.place.column),
+                         ("leaf.lsys", 2, 8))
+        self.assertIn("^^^^^", str(caught.exception))
+
+    def test_warnings(self):
+        with self.assertWarns(lsys.GrammarWarning):
+            lsys.compile(text="#n = 1; #define size 2; #w : F; #p : F : * : F F;")
+
+    def test_files(self):
+        with self.assertRaises(lsys.LsysError) as caught:
+            lsys.compile("/nowhere/tree.lsys")
+        self.assertEqual(str(caught.exception),
+                         "cannot read `/nowhere/tree.lsys`: no such file or directory")
+        with self.assertRaises(TypeError):
+            lsys.compile()
+        with self.assertRaises(TypeError):
+            lsys.compile(text=TREE, colour="red")
+
+    def test_callbacks(self):
+        grammar = lsys.compile(text=RANDOM)
+
+        def fail(*_):
+            raise ValueError("enough")
+
+        with self.assertRaisesRegex(ValueError, "enough"):
+            grammar.derive(progress=fail)
+        with self.assertRaises(lsys.Cancelled):
+            grammar.derive(progress=lambda generation, generations, modules: generation < 5)
+        with self.assertRaisesRegex(ValueError, "enough"):
+            lsys.compile("tree.lsys", read_file=fail)
+        files = {"a/tree.lsys": '#include "rules.lsys"; #n = 1; #w : A;',
+                 "a/rules.lsys": b"#p : A : * : F F;"}
+        grammar = lsys.compile("a/tree.lsys", read_file=files.get)
+        self.assertEqual(str(grammar.derive()), "F F")
+        with self.assertRaisesRegex(lsys.LsysError, "no such file"):
+            lsys.compile("b.lsys", read_file=files.get)
+
+    def test_limits(self):
+        with self.assertRaises(lsys.LimitError):
+            lsys.compile(text=RANDOM).derive(max_modules=1000)
+
+    def test_interrupt(self):
+        grammar = lsys.compile(text=RANDOM)
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            grammar.derive()
+        timer.join()
+
+    def test_no_leak(self):
+        """10,000 mistakes leave the memory as it was."""
+        def memory():
+            with open("/proc/self/statm", encoding="ascii") as file:
+                return int(file.read().split()[1])
+
+        def fail(count):
+            for _ in range(count):
+                try:
+                    lsys.compile(text="#n = 1; #w : F(lengt;")
+                except lsys.GrammarError:
+                    pass
+
+        fail(2000)
+        before = memory()
+        fail(8000)
+        self.assertLess((memory() - before) * 4096, 4 << 20)
+
+
+class Threads(unittest.TestCase):
+    def test_threads(self):
+        grammar = lsys.compile(os.path.join(SAMPLES, "abop-1-25-bush", "abop-1-25-bush.lsys"))
+        expected = grammar.grow().mesh().positions.tobytes()
+        results = []
+
+        def work():
+            for _ in range(3):
+                results.append(grammar.grow(threads=2).mesh(threads=2).positions.tobytes())
+
+        threads = [threading.Thread(target=work) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(results), 24)
+        self.assertTrue(all(result == expected for result in results))
+
+    def test_exit_while_working(self):
+        """An interpreter that ends while a thread derives ends cleanly."""
+        code = (f"import threading, lsys; g = lsys.compile(text={RANDOM!r});"
+                "threading.Thread(target=g.derive, daemon=True).start();"
+                "import time; time.sleep(0.2)")
+        ended = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60,
+                               check=False)
+        self.assertEqual((ended.returncode, ended.stderr), (0, b""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
