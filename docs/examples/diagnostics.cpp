@@ -1,9 +1,8 @@
 // Compiles a text from memory and lists its mistakes as data, as an editor would.
 // Usage: diagnostics < FILE
-#include <lsys/grammar.h>
-
 #include <iostream>
 #include <iterator>
+#include <lsys/grammar.h>
 #include <string>
 
 int main() {

@@ -1,8 +1,7 @@
 // Compiles a grammar and prints its word. Usage: print_word FILE [GENERATIONS]
-#include <lsys/word.h>
-
 #include <cstdlib>
 #include <iostream>
+#include <lsys/word.h>
 
 int main(int count, char** arguments) {
     if (count < 2) {

@@ -1,9 +1,8 @@
 // Meshes a plant into a vertex buffer and an index buffer, laid out as a renderer wants them.
 // Usage: vertex_buffer FILE
-#include <lsys/plant.h>
-
 #include <cstdint>
 #include <iostream>
+#include <lsys/plant.h>
 #include <vector>
 
 struct Vertex {

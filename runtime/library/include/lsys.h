@@ -1,0 +1,240 @@
+/* liblsys for C, and for languages that call C: L-systems compiled, derived, drawn and meshed.
+ *
+ *   - Values are handles. A call that makes one hands it over; free it with its lsys_..._free().
+ *     Handles may be used from several threads at once, but freed once.
+ *   - A call that may fail returns a status. `messages`, if not null, gets the messages of the call,
+ *     also of a call that succeeds; free them with lsys_messages_free().
+ *   - Texts are UTF-8 that ends with a zero byte. Texts and arrays that a handle returns belong to it
+ *     and live as long as it does.
+ *   - Metres, kilograms, right-handed axes, +Y up. */
+#ifndef LSYS_H
+#define LSYS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32) && defined(LSYS_SHARED)
+#ifdef LSYS_BUILDS_LIBRARY
+#define LSYS_C_API __declspec(dllexport)
+#else
+#define LSYS_C_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define LSYS_C_API __attribute__((visibility("default")))
+#else
+#define LSYS_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lsys_status {
+    LSYS_OK = 0,
+    LSYS_DIAGNOSED = 1,     /* mistakes in the grammar */
+    LSYS_FAILED = 2,        /* a file cannot be read, an option does not fit */
+    LSYS_LIMIT = 3,         /* max_modules or max_bytes */
+    LSYS_OUT_OF_MEMORY = 4, /* a failed allocation */
+    LSYS_CANCELLED = 5      /* by the function `progress` */
+} lsys_status;
+
+typedef struct lsys_grammar lsys_grammar;
+typedef struct lsys_word lsys_word;
+typedef struct lsys_plant lsys_plant;
+typedef struct lsys_mesh lsys_mesh;
+typedef struct lsys_messages lsys_messages;
+
+/* What every call shares. Begin with LSYS_PROJECT_DEFAULTS. Functions are called from any thread,
+ * but never from two at once, with `user` as their first argument. */
+typedef struct lsys_project {
+    uint32_t threads;     /* 0: as many as the machine has */
+    uint64_t max_modules; /* of a word; 0: 2^32 */
+    uint64_t max_bytes;   /* of a word, skeleton, mesh and file; 0: half of the memory */
+    /* Reads a file; null: the files of the system. Returns 0 and sets `bytes` and `size`, which
+     * stay valid until the next call of it or the end of the call; otherwise there is no file. */
+    int (*read_file)(void* user, const char* path, const char** bytes, size_t* size);
+    /* Returns 0 to go on, another number to end the call with LSYS_CANCELLED; may be null. */
+    int (*progress)(void* user, uint32_t generation, uint32_t generations, uint64_t modules);
+    void* user;
+} lsys_project;
+#define LSYS_PROJECT_DEFAULTS                                                                      \
+    { 0, 0, 0, NULL, NULL, NULL }
+
+/* The version of the library that is linked: "0.1.0". */
+LSYS_C_API const char* lsys_version(void);
+/* A status in words. */
+LSYS_C_API const char* lsys_status_text(lsys_status status);
+
+/* --- messages --------------------------------------------------------------------------------- */
+
+typedef enum lsys_severity { LSYS_NOTE = 0, LSYS_WARNING = 1, LSYS_ERROR = 2 } lsys_severity;
+
+/* One message. A message without a place has line 0. Lines and columns count from 1; a column is a
+ * Unicode code point; the end is exclusive. */
+typedef struct lsys_message {
+    lsys_severity severity;
+    const char* code; /* stable name, "unknown-name"; empty for messages about files and options */
+    const char* text;
+    const char* file;
+    uint32_t line, column, end_line, end_column;
+} lsys_message;
+
+LSYS_C_API size_t lsys_messages_count(const lsys_messages* messages);
+/* Precondition: index < lsys_messages_count(). */
+LSYS_C_API lsys_message lsys_messages_get(const lsys_messages* messages, size_t index);
+/* All messages, with the lines of the source and carets. */
+LSYS_C_API const char* lsys_messages_text(const lsys_messages* messages);
+LSYS_C_API void lsys_messages_free(lsys_messages* messages); /* null is allowed */
+
+/* --- grammars --------------------------------------------------------------------------------- */
+
+/* A constant with its value, for `definitions`, and a setting with its values as in `#set`. */
+typedef struct lsys_definition {
+    const char* name;
+    float value;
+} lsys_definition;
+typedef struct lsys_setting {
+    const char* key;
+    const char* values;
+} lsys_setting;
+
+/* Begin with LSYS_GRAMMAR_DEFAULTS. */
+typedef struct lsys_grammar_options {
+    const char* dialect; /* "lsys", "cpfg" ...; null: recognised */
+    const char* system;  /* of a file with several; null: the only one */
+    const lsys_definition* definitions;
+    size_t definition_count;
+    const lsys_setting* settings;
+    size_t setting_count;
+    int32_t generations; /* instead of `#n`; negative: as the grammar says */
+} lsys_grammar_options;
+#define LSYS_GRAMMAR_DEFAULTS                                                                      \
+    { NULL, NULL, NULL, 0, NULL, 0, -1 }
+
+/* `options` and `project` may be null: defaults. `*grammar` is null if the call fails. */
+LSYS_C_API lsys_status lsys_compile_file(const char* path,
+                                         const lsys_grammar_options* options,
+                                         const lsys_project* project,
+                                         lsys_grammar** grammar,
+                                         lsys_messages** messages);
+/* `name`: as messages show the text; null: "grammar.lsys". */
+LSYS_C_API lsys_status lsys_compile_text(const char* text,
+                                         size_t size,
+                                         const char* name,
+                                         const lsys_grammar_options* options,
+                                         const lsys_project* project,
+                                         lsys_grammar** grammar,
+                                         lsys_messages** messages);
+/* The number of `#n`; negative: none. */
+LSYS_C_API int64_t lsys_grammar_generations(const lsys_grammar* grammar);
+LSYS_C_API uint64_t lsys_grammar_seed(const lsys_grammar* grammar);
+LSYS_C_API void lsys_grammar_free(lsys_grammar* grammar); /* null is allowed */
+
+/* --- words ------------------------------------------------------------------------------------ */
+
+/* `generations` negative: as the grammar says; `seed` null: that of the grammar. */
+LSYS_C_API lsys_status lsys_derive(const lsys_grammar* grammar,
+                                   int64_t generations,
+                                   const uint64_t* seed,
+                                   const lsys_project* project,
+                                   lsys_word** word,
+                                   lsys_messages** messages);
+LSYS_C_API uint64_t lsys_word_size(const lsys_word* word); /* number of modules */
+/* The codes of all modules, unsigned integers of lsys_word_code_bytes() bytes: 1, 2 or 4. */
+LSYS_C_API const void* lsys_word_codes(const lsys_word* word);
+LSYS_C_API uint32_t lsys_word_code_bytes(const lsys_word* word);
+/* The stored parameters of all modules, in order. */
+LSYS_C_API const float* lsys_word_parameters(const lsys_word* word);
+LSYS_C_API uint64_t lsys_word_parameter_count(const lsys_word* word);
+
+/* What a code stands for. Its modules store `stored_parameters` parameters, or, if none, all have
+ * the constant ones. */
+typedef struct lsys_module_kind {
+    const char* name;
+    uint32_t stored_parameters;
+    const float* constants;
+    size_t constant_count;
+} lsys_module_kind;
+LSYS_C_API uint32_t lsys_word_kind_count(const lsys_word* word);
+/* Precondition: code < lsys_word_kind_count(). */
+LSYS_C_API lsys_module_kind lsys_word_kind(const lsys_word* word, uint32_t code);
+/* Hands the text of the word to `write` in pieces, until it returns another number than 0. Returns
+ * LSYS_OK or LSYS_CANCELLED. */
+LSYS_C_API lsys_status lsys_word_text(const lsys_word* word,
+                                      int (*write)(void* user, const char* piece, size_t size),
+                                      void* user);
+LSYS_C_API void lsys_word_free(lsys_word* word); /* null is allowed */
+
+/* --- plants and meshes ------------------------------------------------------------------------ */
+
+#define LSYS_NO_PARENT 0xFFFFFFFFu
+
+/* A straight piece of a stem, from `base` by `length` along +Y of its frame, a unit quaternion
+ * x, y, z, w. 60 bytes. */
+typedef struct lsys_segment {
+    float base[3];
+    float length;
+    float frame[4];
+    float base_radius, tip_radius;
+    float spring; /* N m / rad, of the joint at the base */
+    float mass;
+    uint32_t parent; /* earlier in the array, or LSYS_NO_PARENT */
+    uint32_t colour;
+    uint16_t order; /* number of open brackets: 0 is the trunk */
+    uint8_t sides;
+    uint8_t flags; /* bit 0: begins where its parent ends */
+} lsys_segment;
+
+LSYS_C_API lsys_status lsys_grow(const lsys_grammar* grammar,
+                                 int64_t generations,
+                                 const uint64_t* seed,
+                                 const lsys_project* project,
+                                 lsys_plant** plant,
+                                 lsys_messages** messages);
+LSYS_C_API const lsys_segment* lsys_plant_segments(const lsys_plant* plant);
+LSYS_C_API size_t lsys_plant_segment_count(const lsys_plant* plant);
+LSYS_C_API void lsys_plant_free(lsys_plant* plant); /* null is allowed */
+
+/* `sides` of cross-sections; 0: those of the grammar. */
+LSYS_C_API lsys_status lsys_make_mesh(const lsys_plant* plant,
+                                      uint32_t sides,
+                                      const lsys_project* project,
+                                      lsys_mesh** mesh,
+                                      lsys_messages** messages);
+LSYS_C_API uint64_t lsys_mesh_vertex_count(const lsys_mesh* mesh);
+LSYS_C_API uint64_t lsys_mesh_index_count(const lsys_mesh* mesh); /* three for each triangle */
+/* Three floats for each vertex. */
+LSYS_C_API const float* lsys_mesh_positions(const lsys_mesh* mesh);
+LSYS_C_API const float* lsys_mesh_normals(const lsys_mesh* mesh);
+/* Two floats for each vertex; v goes down. */
+LSYS_C_API const float* lsys_mesh_texture_coordinates(const lsys_mesh* mesh);
+/* Writes `count` indices from `first` on. Precondition: first + count <= index count. */
+LSYS_C_API void
+lsys_mesh_read_indices(const lsys_mesh* mesh, uint64_t first, uint64_t count, uint32_t* to);
+
+/* Triangles of one material: indices first_index to first_index + index_count. */
+typedef struct lsys_mesh_part {
+    uint64_t first_index, index_count;
+    const char* material;
+    float colour[4]; /* linear red, green, blue, opacity */
+    float roughness;
+    int two_sided;
+} lsys_mesh_part;
+LSYS_C_API size_t lsys_mesh_part_count(const lsys_mesh* mesh);
+/* Precondition: index < lsys_mesh_part_count(). */
+LSYS_C_API lsys_mesh_part lsys_mesh_get_part(const lsys_mesh* mesh, size_t index);
+/* Hands a file ("glb", "obj" ...) to `write` in pieces, until it returns another number than 0. */
+LSYS_C_API lsys_status lsys_export(const lsys_plant* plant,
+                                   const lsys_mesh* mesh,
+                                   const char* format,
+                                   int (*write)(void* user, const char* piece, size_t size),
+                                   void* user,
+                                   const lsys_project* project,
+                                   lsys_messages** messages);
+LSYS_C_API void lsys_mesh_free(lsys_mesh* mesh); /* null is allowed */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
