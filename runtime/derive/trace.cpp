@@ -1,6 +1,7 @@
 #include "runtime/derive/trace.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/random.h"
 #include "runtime/derive/impl/explain_module.h"
 #include "runtime/derive/impl/traced_word.h"
 #include "runtime/derive/word_text.h"
@@ -53,6 +54,31 @@ std::vector<TracedModule> modules_at(const Bytecode& bytecode,
         modules.push_back(traced.module(position));
     }
     return modules;
+}
+
+std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t seed) {
+    if (bytecode.axioms.size() == 1) {
+        return std::nullopt;
+    }
+    constexpr std::uint32_t kGeneration = 0xFFFFFFFF; // docs/language.md section 6.2
+    constexpr std::uint64_t kPosition = ~std::uint64_t{0};
+    AxiomTrace trace;
+    trace.unit = DrawSource(seed, kGeneration, kPosition).draw(0);
+    float sum = 0.0F;
+    for (const BytecodeAxiom& axiom : bytecode.axioms) {
+        sum += axiom.weight;
+    }
+    float running = 0.0F;
+    std::optional<std::size_t> taken;
+    for (const BytecodeAxiom& axiom : bytecode.axioms) {
+        running += axiom.weight / sum;
+        if (!taken && running > trace.unit) {
+            taken = trace.alternatives.size();
+        }
+        trace.alternatives.push_back({axiom.site, axiom.weight, running});
+    }
+    trace.taken = taken.value_or(trace.alternatives.size() - 1);
+    return trace;
 }
 
 struct StepTracer::State {
