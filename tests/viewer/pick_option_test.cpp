@@ -3,6 +3,7 @@
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 #include "viewer/app/forest_document.h"
+#include "viewer/app/picking.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -240,6 +241,14 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
         }
     }
     CHECK(branches > 3);
+    Picked branch;
+    branch.kind = PickedKind::Branch;
+    branch.tree = document.grown.forest.trees.front();
+    const Outcome<view::Description> told =
+        view::describe(branch, {}, document, file, make_project(console, options.run));
+    REQUIRE(told);
+    CHECK_FALSE(told.value().module); // nothing to trace, and the window says why
+    CHECK(told.value().hint.find("open its grammar alone") != std::string::npos);
 }
 
 TEST_CASE("mistakes of --pick and --colours are told") {

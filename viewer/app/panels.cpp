@@ -242,12 +242,12 @@ void draw_trace_buttons(View& view) {
 
 /// Draws the trace of the module picked last above `bottom`.
 void draw_trace(View& view, const Area& area, float bottom) {
-    if (!view.shows_trace()) {
+    if (!view.shows_trace() || !view.picked().module) {
         return;
     }
     const float width = std::max(area.high.x - area.low.x - 16.0F, 100.0F);
     ImGui::SetNextWindowPos({area.low.x + 8.0F, bottom - 8.0F}, ImGuiCond_Always, {0.0F, 1.0F});
-    ImGui::SetNextWindowBgAlpha(0.85F);
+    ImGui::SetNextWindowBgAlpha(0.92F);
     if (ImGui::Begin("Trace", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
         draw_trace_buttons(view);
         const ImGuiStyle& style = ImGui::GetStyle();
@@ -257,11 +257,14 @@ void draw_trace(View& view, const Area& area, float bottom) {
             style.ScrollbarSize;
         const ImVec2 size{width - 2.0F * style.WindowPadding.x,
                           std::min(text_height, 0.45F * area.high.y)};
-        if (ImGui::BeginChild("Text", size, false, ImGuiWindowFlags_HorizontalScrollbar)) {
+        // Each trace scrolls on its own.
+        const std::string id =
+            fmt::format("Text {} {} {}", static_cast<int>(view.trace_scope()),
+                        view.picked().module->generation, view.picked().module->position);
+        if (ImGui::BeginChild(id.c_str(), size, false, ImGuiWindowFlags_HorizontalScrollbar)) {
             ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, kTraceSpacing});
             if (view.traced().empty()) {
                 ImGui::TextDisabled("deriving again ...");
-                ImGui::SetScrollY(0.0F);
             }
             for (const TextLine& each : view.traced()) {
                 draw_trace_line(each);

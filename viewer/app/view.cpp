@@ -143,6 +143,9 @@ bool View::take_picked() {
     for (const std::string& line : picked_.lines) {
         console_.detail(fmt::format("picked: {}", line));
     }
+    if (!picked_.hint.empty()) {
+        console_.detail(fmt::format("picked: {}", picked_.hint));
+    }
     trace(trace_scope_);
     return true;
 }
