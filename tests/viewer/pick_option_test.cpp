@@ -105,7 +105,7 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
 }
 
-TEST_CASE("--why explains the module of a pixel as lsc trace does") {
+TEST_CASE("a pixel with --why tells what lsc trace does") {
     const ScratchFolder folder;
     const std::string file = folder / "bud.lsys";
     write_text(file, "#n = 2;\n"
@@ -146,7 +146,7 @@ TEST_CASE("--why explains the module of a pixel as lsc trace does") {
           std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("--why of a moment of growth explains the word of that moment") {
+TEST_CASE("a moment of growth with --why tells of its word") {
     const ScratchFolder folder;
     const std::string file = folder / "two.lsys";
     write_text(file, "#n = 3;\n#w : !(0.4) A;\n#up : A : step() < steps() - 1 : F(2) A;\n");
