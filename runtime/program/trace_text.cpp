@@ -724,6 +724,9 @@ private:
     // --- the step that wrote a module
 
     void written(const TracedPlace& place) {
+        if (place.back.empty() && grammar_.is_module_file && !trace_.axiom) {
+            return; // the head says all
+        }
         out_ += '\n';
         if (!place.back.empty() && !place.back.back().steps.empty()) {
             written_by(place.back.back());
@@ -740,8 +743,12 @@ private:
         if (generation < trace_.generation) {
             copies(generation + 1, trace_.generation);
         }
-        line("generation {}: in place of {} at position {} of generation {}", generation,
-             module(step.module), step.position, step.generation);
+        const std::uint32_t replaced = step.steps.front().replaced;
+        line("generation {}: in place of {}{} at {} of generation {}", generation,
+             module(step.module),
+             replaced == 1 ? std::string()
+                           : fmt::format(" and {} after it", counted(replaced - 1, "module")),
+             range_text(step.position, replaced), step.generation);
         for (std::size_t i = 0; i < step.steps.size(); ++i) {
             const ModuleTrace& trace = step.steps[i];
             const bool is_last = i + 1 == step.steps.size();
