@@ -115,15 +115,19 @@ void report_stray_comment(Diagnostics& diagnostics,
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
         return;
     }
-    // A `;` at the end may end the statement.
+    // Brackets of the statement and rows of rolls stand in no comment, as far as one can tell. A `;`
+    // at the end may end the statement.
+    const bool has_modules =
+        line.starts_with("////") || line.find_first_of("[]{}") != std::string_view::npos;
     const std::size_t semicolon = line.find(';');
     const std::size_t last = line.find_last_not_of(
         " \t\r", semicolon == std::string_view::npos ? line.size() - 1 : semicolon - 1);
     const std::uint32_t end = slashes.begin + static_cast<std::uint32_t>(last) + 1;
-    diagnostic.fixes.push_back({"write `/* ... */`",
-                                {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
-                                 {{slashes.file, end, end}, " */"}},
-                                semicolon == std::string_view::npos && !may_be_rolls});
+    diagnostic.fixes.push_back(
+        {"write `/* ... */`",
+         {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
+          {{slashes.file, end, end}, " */"}},
+         semicolon == std::string_view::npos && !may_be_rolls && !has_modules});
 }
 
 bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
