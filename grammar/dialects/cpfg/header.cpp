@@ -221,14 +221,7 @@ void CpfgWriter::write_settings(std::string_view turtle) {
 /// Writes functions, arrays and the variables of `Start:`, which settings may read.
 void CpfgWriter::write_constants() {
     expressions_.write_functions(out_, header_);
-    for (std::size_t i = 0; i < expressions_.end_of_constants(); ++i) {
-        const ForeignLocal& constant = tree_.locals()[i];
-        if (ForeignExpressions::is_written(constant)) {
-            out_.put("#define " + constant.name + " ", constant.span);
-            tree_.write(constant.value, {}, out_);
-            out_.put(";\n", constant.span);
-        }
-    }
+    tree_.write_constants(0, expressions_.end_of_constants(), out_);
 }
 
 /// Declares the modules that no production rewrites and that draw nothing.

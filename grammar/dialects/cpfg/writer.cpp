@@ -310,7 +310,7 @@ void CpfgWriter::find_local_names() {
     }
     std::erase(roots, kNoForeign);
     std::erase(expanded, kNoForeign);
-    tree_.count_reads(roots, expanded);
+    tree_.count_reads(roots, expanded, 0);
     tree_.name_locals(0, expressions_.end_of_constants(), names);
     std::set<std::string> constants;
     for (std::size_t i = 0; i < expressions_.end_of_constants(); ++i) {
@@ -480,15 +480,7 @@ void CpfgWriter::write_production(std::size_t index) {
 void CpfgWriter::write_successor(std::size_t index, const ForeignWriting& how) {
     const CpfgProduction& production = session_.productions[index];
     const Lowered& lowered = lowered_[index];
-    const char* begin = " : let ";
-    for (std::size_t i = lowered.first_local; i < lowered.end_local; ++i) {
-        const ForeignLocal& local = tree_.locals()[i];
-        if (ForeignExpressions::is_written(local)) {
-            out_.put(begin + local.name + " = ", local.span);
-            tree_.write(local.value, how, out_);
-            begin = ", ";
-        }
-    }
+    tree_.write_locals(" : ", lowered.first_local, lowered.end_local, how, out_);
     out_.put(" : ", production.arrow);
     write_modules(production.successor, lowered.arguments, how);
     out_.put(";\n", production.arrow);

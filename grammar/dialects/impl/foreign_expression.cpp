@@ -70,6 +70,9 @@ ForeignId ForeignExpressions::add(ForeignNode node) {
 }
 
 ForeignId ForeignExpressions::number(std::string_view text, SourceSpan span) {
+    if (text.starts_with('-')) {
+        return unary("-", number(text.substr(1), span), span);
+    }
     return add(
         {.kind = ForeignKind::Number, .text = std::string(text), .span = span, .token = span});
 }
@@ -123,7 +126,8 @@ ForeignId ForeignExpressions::local(ForeignLocal local) {
 }
 
 void ForeignExpressions::count_reads(std::span<const ForeignId> roots,
-                                     std::span<const ForeignId> expanded) {
+                                     std::span<const ForeignId> expanded,
+                                     std::size_t first) {
     const auto count = [&](ForeignId root) {
         for (const ForeignId id : below(root)) {
             const ForeignNode& node = (*this)[id];
@@ -143,7 +147,7 @@ void ForeignExpressions::count_reads(std::span<const ForeignId> roots,
             return false;
         }));
     }
-    for (std::size_t i = locals_.size(); i-- > 0;) { // a value reads earlier ones only
+    for (std::size_t i = locals_.size(); i-- > first;) { // a value reads earlier ones only
         ForeignLocal& local = locals_[i];
         if (local.reads != 0) {
             local.is_inline = local.is_inline || (local.reads == 1 && !local.is_final);
@@ -280,6 +284,37 @@ void ForeignExpressions::write_node(const ForeignNode& node,
     default: // a number or a name
         out.put(node.text, node.token);
         return;
+    }
+}
+
+void ForeignExpressions::write_locals(std::string_view before,
+                                      std::size_t first,
+                                      std::size_t end,
+                                      const ForeignWriting& how,
+                                      Translation& out) const {
+    const char* begin = "let ";
+    for (std::size_t i = first; i < end; ++i) {
+        const ForeignLocal& local = locals_[i];
+        if (is_written(local)) {
+            out.put(before, local.span);
+            out.put(begin + local.name + " = ", local.span);
+            write(local.value, how, out);
+            begin = ", ";
+            before = {};
+        }
+    }
+}
+
+void ForeignExpressions::write_constants(std::size_t first,
+                                         std::size_t end,
+                                         Translation& out) const {
+    for (std::size_t i = first; i < end; ++i) {
+        const ForeignLocal& constant = locals_[i];
+        if (is_written(constant)) {
+            out.put("#define " + constant.name + " ", constant.span);
+            write(constant.value, {}, out);
+            out.put(";\n", constant.span);
+        }
     }
 }
 

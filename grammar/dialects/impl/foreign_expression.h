@@ -75,6 +75,7 @@ public:
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
     // --- nodes of .lsys
+    /// `text`: a literal, perhaps with a sign.
     ForeignId number(std::string_view text, SourceSpan span);
     ForeignId name(std::string_view text, SourceSpan span);
     ForeignId unary(std::string_view operation, ForeignId a, SourceSpan token);
@@ -91,7 +92,10 @@ public:
     /// Counts how often the written expressions `roots` and other written values read each local
     /// value; one that is read once and is not final becomes inline. In `expanded` expressions only
     /// constants keep their names.
-    void count_reads(std::span<const ForeignId> roots, std::span<const ForeignId> expanded);
+    /// Local values before `first` have been counted.
+    void count_reads(std::span<const ForeignId> roots,
+                     std::span<const ForeignId> expanded,
+                     std::size_t first);
     /// Gives the values that are written, from `first` to `end`, names that are not in `taken`, and
     /// adds them to it.
     void name_locals(std::size_t first, std::size_t end, std::set<std::string>& taken);
@@ -128,6 +132,14 @@ public:
     [[nodiscard]] std::vector<ForeignId> below(ForeignId root) const;
 
     void write(ForeignId root, const ForeignWriting& how, Translation& out) const;
+    /// Writes `let a = ..., b = ...`, the local values from `first` to `end`; `before` comes first.
+    void write_locals(std::string_view before,
+                      std::size_t first,
+                      std::size_t end,
+                      const ForeignWriting& how,
+                      Translation& out) const;
+    /// Writes `#define` statements of the local values from `first` to `end`.
+    void write_constants(std::size_t first, std::size_t end, Translation& out) const;
 
 private:
     struct Item;
