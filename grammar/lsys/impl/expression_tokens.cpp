@@ -205,8 +205,10 @@ Token foreign_value(ParseSession& session, std::string_view text) {
         const std::string_view all = session.scanned.text;
         const std::string statement(
             without_line_ends(all.substr(scan.statement_begin, scan.begin - scan.statement_begin)));
+        const bool is_frame = synonym != nullptr && synonym->spelling.empty() && !is_call;
         diagnostic.help.push_back(
-            scan.part == Part::Setting
+            is_frame ? "the age of the word is `step()`"
+            : scan.part == Part::Setting
                 ? "write a number, `" + statement +
                       "25;`, or one that is set from outside: `#param " +
                       "VALUE 25 {0, 90};` and `" + statement + "VALUE;`"
