@@ -556,17 +556,29 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
     const bool reaches_a_module =
         place == ExpressionPlace::Axiom || place == ExpressionPlace::Successor;
     const char* what = reaches_a_module ? "this parameter" : "this condition";
+    const auto report = [&](SourceSpan span, const char* result) {
+        Diagnostic error =
+            make_diagnostic(DiagnosticCode::NotFinite, span, fmt::format("{} is {}", what, result));
+        if (place != ExpressionPlace::Axiom) {
+            // The production may match no module, so that nothing computes the value.
+            error.severity = Severity::Warning; // set before add(), which counts errors
+            error.notes.emplace_back(place == ExpressionPlace::Successor
+                                         ? "the derivation ends where this production is applied"
+                                         : "the derivation ends where this production is tried");
+        }
+        return error;
+    };
     if (reaches_a_module || place == ExpressionPlace::Condition) {
         if (constant && !std::isfinite(*constant)) {
             const NonFiniteCause culprit = culprit_.value_or(
                 NonFiniteCause{resolution_.ast.expression(root).span(), "", std::nullopt});
-            Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::NotFinite, culprit.span,
-                fmt::format("{} is {}", what, std::isnan(*constant) ? "not a number" : "infinite"));
+            Diagnostic error =
+                report(culprit.span, std::isnan(*constant) ? "not a number" : "infinite");
             error.label = culprit.reason;
             if (culprit.definition) {
                 error.labels.push_back({*culprit.definition, "it is defined here"});
             }
+            resolution_.diagnostics.add(std::move(error));
             return;
         }
         const Value& node = values_[value];
@@ -576,9 +588,9 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
             const SourceSpan divisor = zero_divisors_.empty()
                                            ? resolution_.ast.expression(root).span()
                                            : zero_divisors_.back();
-            Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::NotFinite, divisor, fmt::format("{} is never finite", what));
+            Diagnostic error = report(divisor, "never finite");
             error.label = "division by zero";
+            resolution_.diagnostics.add(std::move(error));
             return;
         }
     }
