@@ -815,9 +815,6 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-<<<<<<< HEAD
-void repair_foreign_lines(DraftText& draft) {
-=======
 /// Where a comment begins in a line of papers; npos: nowhere. Slashes between modules are rolls.
 std::size_t comment_in(std::string_view line) {
     for (std::size_t at = line.find("//"); at != std::string_view::npos;
@@ -833,8 +830,7 @@ std::size_t comment_in(std::string_view line) {
     return std::string_view::npos;
 }
 
-void mend_foreign_lines(DraftText& draft) {
->>>>>>> k/dialects
+void repair_foreign_lines(DraftText& draft) {
     Diagnostic* diagnostic = nullptr;
     std::string source;
     Fix fix{"", {}, false};
