@@ -87,7 +87,7 @@ ExpressionId AstBuilder::binary(BinaryOperation operation,
         };
         // A chain of comparisons gets one message, at its second comparison.
         if (chains(left) && !chains(ast_.expression(left).left)) {
-            report_chained_comparison(diagnostics_, ast_, left, span);
+            report_chained_comparison(diagnostics_, ast_, left, span, sources_);
         }
     }
     Expression node = make_node(ExpressionKind::Binary, span);

@@ -2,8 +2,10 @@
 
 #include "grammar/base/text_form.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace lsys {
 
@@ -30,17 +32,46 @@ std::string shown(std::string_view text) {
 void report_chained_comparison(Diagnostics& diagnostics,
                                const Ast& ast,
                                ExpressionId first,
-                               SourceSpan span) {
+                               SourceSpan span,
+                               const SourceMap& sources) {
     if (!diagnostics.admits(DiagnosticCode::ChainedComparison)) {
         return;
     }
     const Expression& inner = ast.expression(first);
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::ChainedComparison, span, "comparisons do not chain");
-    diagnostic.labels.push_back({inner.span(), "this is 1 or 0"});
-    diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`, or parentheses "
-                                 "around the first if its result is to be compared");
+    const SourceSpan middle = ast.expression(inner.right).span();
+    const std::string shared(sources.text(middle));
+    // A value that is drawn would be drawn twice.
+    if (shared.empty() || shared.find_first_of("{\n") != std::string::npos) {
+        diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`");
+        return;
+    }
+    const std::string both(sources.text({span.file, span.begin, middle.end}));
+    const std::string rest(sources.text({span.file, middle.end, span.end}));
+    add_fix(diagnostic, "write `" + shown(both + " && " + shared + rest) + "`",
+            {span.file, middle.end, middle.end}, " && " + shared, false);
 }
+
+namespace {
+
+/// The bounds of `35-50`, in braces, which is meant as a range; nullopt for other texts.
+std::optional<std::pair<std::string, std::string>> bounds_with_minus(std::string_view text) {
+    constexpr std::string_view kDigits = "0123456789.";
+    text = text.substr(0, text.find_last_not_of(" \t}") + 1);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t{"), text.size()));
+    const std::string_view low = text.substr(0, text.find_first_not_of(kDigits));
+    text.remove_prefix(low.size());
+    const std::size_t begin = std::min(text.find_first_not_of(" \t-"), text.size());
+    const std::string_view between = text.substr(0, begin);
+    const std::string_view high = text.substr(begin);
+    const bool fits = !low.empty() && !high.empty() &&
+                      high.find_first_not_of(kDigits) == std::string_view::npos &&
+                      std::count(between.begin(), between.end(), '-') == 1;
+    return fits ? std::optional(std::pair(std::string(low), std::string(high))) : std::nullopt;
+}
+
+} // namespace
 
 void report_bad_range(Diagnostics& diagnostics,
                       std::uint32_t count,
@@ -54,9 +85,17 @@ void report_bad_range(Diagnostics& diagnostics,
                                            : std::to_string(count) + " values";
     Diagnostic& diagnostic = diagnostics.add(
         DiagnosticCode::BadRange, span, "a range has two values, `{min, max}`; this has " + found);
+    const std::string_view text = sources.file(span.file).text();
+    if (const auto bounds = bounds_with_minus(sources.text(span)); bounds && count == 1) {
+        const std::string range = "{" + bounds->first + ", " + bounds->second + "}";
+        add_fix(diagnostic,
+                "the bounds of a range stand beside a comma, and `-` is a difference: write `" +
+                    range + "`",
+                span, range, false);
+        return;
+    }
     diagnostic.help.emplace_back(
         "inside parentheses braces are a random range; around modules they are a polygon");
-    const std::string_view text = sources.file(span.file).text();
     const bool is_whole = span.begin > 1 && text[span.begin - 1] == '(' &&
                           text[span.begin - 2] == '\'' && text.substr(span.end, 1) == ")" &&
                           span.end - span.begin > 2;
@@ -115,15 +154,19 @@ void report_stray_comment(Diagnostics& diagnostics,
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
         return;
     }
-    // A `;` at the end may end the statement.
+    // Brackets of the statement and rows of rolls stand in no comment, as far as one can tell. A `;`
+    // at the end may end the statement.
+    const bool has_modules =
+        line.starts_with("////") || line.find_first_of("[]{}") != std::string_view::npos;
     const std::size_t semicolon = line.find(';');
     const std::size_t last = line.find_last_not_of(
         " \t\r", semicolon == std::string_view::npos ? line.size() - 1 : semicolon - 1);
     const std::uint32_t end = slashes.begin + static_cast<std::uint32_t>(last) + 1;
-    diagnostic.fixes.push_back({"write `/* ... */`",
-                                {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
-                                 {{slashes.file, end, end}, " */"}},
-                                semicolon == std::string_view::npos && !may_be_rolls});
+    diagnostic.fixes.push_back(
+        {"write `/* ... */`",
+         {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
+          {{slashes.file, end, end}, " */"}},
+         semicolon == std::string_view::npos && !may_be_rolls && !has_modules});
 }
 
 bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {

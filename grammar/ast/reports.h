@@ -15,7 +15,8 @@ namespace lsys {
 void report_chained_comparison(Diagnostics& diagnostics,
                                const Ast& ast,
                                ExpressionId first,
-                               SourceSpan span);
+                               SourceSpan span,
+                               const SourceMap& sources);
 void report_bad_range(Diagnostics& diagnostics,
                       std::uint32_t count,
                       SourceSpan span,

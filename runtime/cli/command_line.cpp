@@ -518,6 +518,8 @@ void add_trace(CLI::App& app, TraceCommand& command) {
     add_parsed(app, "--rows", command.rows, integer(1, kAny),
                "Number of modules that --all traces (default 10)")
         ->type_name("N");
+    app.add_flag("--written", command.written,
+                 "Trace the step that wrote the module, instead of the one that rewrites it");
     app.add_flag("--back", command.back,
                  "Follow the module back to the axiom, generation by generation");
     add_choice<std::optional<TraceFormat>>(
@@ -537,6 +539,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
                "Examples: lsc trace tree.lsys -n 3 --at 17\n"
                "          lsc trace tree.lsys -n 3 --module 'A(3)'\n"
                "          lsc trace tree.lsys -n 3 --all A --rows 2 --format json\n"
+               "          lsc trace tree.lsys --at 100 --written\n"
                "          lsc trace tree.lsys --at 100 --back");
 }
 

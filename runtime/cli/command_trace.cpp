@@ -20,6 +20,9 @@ std::string find_conflict(const TraceCommand& command) {
         return "no module is given: say which one with --at POSITION, --module 'A(3)' or "
                "--all NAME";
     }
+    if (command.written && command.back) {
+        return "--back goes on from the step that --written traces, so only one of them is given";
+    }
     if (given > 1) {
         return "--at, --module and --all each say which modules, so only one of them is given";
     }
@@ -61,7 +64,9 @@ ExitStatus run_command(const TraceCommand& command, const Console& console) {
     options.module = command.module;
     options.name = command.name;
     options.rows = command.rows;
-    options.back = command.back;
+    options.scope = command.back      ? TraceScope::Back
+                    : command.written ? TraceScope::Written
+                                      : TraceScope::Next;
     PipelineProgress progress(console, project.host);
     Outcome<Trace> traced = trace_modules(options, grammar, project);
     progress.clear();

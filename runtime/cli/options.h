@@ -187,6 +187,7 @@ struct TraceCommand {
     std::string module;
     std::string name; // module name of --all
     std::uint64_t rows = 10;
+    bool written = false;
     bool back = false;
     std::optional<TraceFormat> format; // default: text; JSON with --message-format json
 };

@@ -1,13 +1,35 @@
 #include "runtime/derive/brackets.h"
 
+#include <algorithm>
+
 namespace lsys {
 
-bool has_unmatched_close(const Bytecode& bytecode, TableRange codes) {
+namespace {
+
+/// The change of the number of open brackets whose closing one has the kind `close`.
+int change_of(SymbolKind kind, SymbolKind close) {
+    const SymbolKind open =
+        close == SymbolKind::BranchClose ? SymbolKind::BranchOpen : SymbolKind::PolygonOpen;
+    return kind == open ? 1 : kind == close ? -1 : 0;
+}
+
+/// The first axiom with a closing bracket without its partner, or nullptr.
+const BytecodeAxiom* unbalanced_axiom(const Bytecode& bytecode, SymbolKind close) {
+    const auto found = std::find_if(
+        bytecode.axioms.begin(), bytecode.axioms.end(), [&](const BytecodeAxiom& axiom) {
+            return has_unmatched_close(bytecode, axiom.word.codes, close);
+        });
+    return found == bytecode.axioms.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+bool has_unmatched_close(const Bytecode& bytecode, TableRange codes, SymbolKind close) {
     std::int64_t depth = 0;
     for (std::uint32_t i = codes.first; i < codes.first + codes.count; ++i) {
         const SymbolKind kind =
             bytecode.symbol(bytecode.symbol_of(bytecode.template_codes[i])).kind;
-        depth += kind == SymbolKind::BranchOpen ? 1 : kind == SymbolKind::BranchClose ? -1 : 0;
+        depth += change_of(kind, close);
         if (depth < 0) {
             return true;
         }
@@ -18,8 +40,7 @@ bool has_unmatched_close(const Bytecode& bytecode, TableRange codes) {
 bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production) {
     for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
         const PatternItem& item = bytecode.patterns[production.predecessor.first + i];
-        const SymbolKind kind = bytecode.symbol(item.symbol).kind;
-        if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
+        if (bytecode.symbol(item.symbol).kind != SymbolKind::Plain) {
             return true;
         }
     }
@@ -27,28 +48,21 @@ bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& produc
 }
 
 BracketCounter::BracketCounter(const Bytecode& bytecode) {
-    change_.reserve(bytecode.code_count());
+    changes_.reserve(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
-        const SymbolKind kind = bytecode.symbol(bytecode.symbol_of(code)).kind;
-        has_close_ = has_close_ || kind == SymbolKind::BranchClose;
-        const int change = kind == SymbolKind::BranchOpen    ? 1
-                           : kind == SymbolKind::BranchClose ? -1
-                                                             : 0;
-        change_.push_back(static_cast<std::int8_t>(change));
+        const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
+        Change change;
+        change.branches = static_cast<std::int8_t>(change_of(symbol.kind, SymbolKind::BranchClose));
+        change.polygons =
+            static_cast<std::int8_t>(change_of(symbol.kind, SymbolKind::PolygonClose));
+        change.cuts = symbol.turtle == TurtleOperation::Cut;
+        has_close_ = has_close_ || change.branches < 0 || change.polygons < 0;
+        changes_.push_back(change);
     }
 }
 
-/// The first axiom with a `]` without its `[`, or nullptr.
-const BytecodeAxiom* unbalanced_axiom(const Bytecode& bytecode) {
-    const auto found = std::find_if(bytecode.axioms.begin(), bytecode.axioms.end(),
-                                    [&](const BytecodeAxiom& axiom) {
-                                        return has_unmatched_close(bytecode, axiom.word.codes);
-                                    });
-    return found == bytecode.axioms.end() ? nullptr : &*found;
-}
-
-ProductionId only_unbalanced_production(const Bytecode& bytecode) {
-    if (unbalanced_axiom(bytecode) != nullptr) {
+ProductionId only_unbalanced_production(const Bytecode& bytecode, SymbolKind close) {
+    if (unbalanced_axiom(bytecode, close) != nullptr) {
         return kNoProduction;
     }
     ProductionId found = kNoProduction;
@@ -59,7 +73,7 @@ ProductionId only_unbalanced_production(const Bytecode& bytecode) {
         if (rewrites_bracket(bytecode, bytecode.productions[i])) {
             return kNoProduction;
         }
-        if (has_unmatched_close(bytecode, bytecode.productions[i].successor.codes)) {
+        if (has_unmatched_close(bytecode, bytecode.productions[i].successor.codes, close)) {
             if (found != kNoProduction) {
                 return kNoProduction;
             }
@@ -73,14 +87,15 @@ RuntimeError
 unmatched_bracket(const Bytecode& bytecode, Code code, std::uint64_t position, std::uint32_t age) {
     RuntimeError error;
     error.kind = RuntimeErrorKind::Unbalanced;
-    error.production = only_unbalanced_production(bytecode);
-    const BytecodeAxiom* const axiom = unbalanced_axiom(bytecode);
+    error.symbol = bytecode.symbol_of(code);
+    const SymbolKind close = bytecode.symbol(error.symbol).kind;
+    error.production = only_unbalanced_production(bytecode, close);
+    const BytecodeAxiom* const axiom = unbalanced_axiom(bytecode, close);
     error.site = error.production == kNoProduction
                      ? (axiom != nullptr ? *axiom : bytecode.axioms.front()).site
                      : bytecode.productions[static_cast<std::size_t>(error.production)].name_site;
     error.generation = age;
     error.position = position;
-    error.symbol = bytecode.symbol_of(code);
     return error;
 }
 

@@ -1,4 +1,4 @@
-// Brackets of words and templates: whether every `]` has its `[`.
+// Brackets of words and templates: whether every `]` has its `[`, and every `}` its `{`.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,26 +10,37 @@
 
 namespace lsys {
 
-/// Whether a `]` of the template has no matching `[` in the template.
-[[nodiscard]] bool has_unmatched_close(const Bytecode& bytecode, TableRange codes);
+/// Whether a module of the kind `close`, BranchClose or PolygonClose, has no partner before it in
+/// the template.
+[[nodiscard]] bool
+has_unmatched_close(const Bytecode& bytecode, TableRange codes, SymbolKind close);
 /// Whether the production rewrites a bracket, so that the matching bracket of the word may lose its
 /// partner.
 [[nodiscard]] bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production);
 
-/// Checks the brackets of a word, which may come in pieces.
+/// Checks the brackets of a word, which may come in pieces. Polygons begin and end apart from
+/// branches; a `{` or `}` that a cut removes does not count.
 class BracketCounter {
 public:
     explicit BracketCounter(const Bytecode& bytecode);
 
-    /// The index in this piece of the first `]` without its `[`, or nothing.
+    /// The index in this piece of the first `]` without its `[` or `}` without its `{`, or nothing.
     template <typename C>
     [[nodiscard]] std::optional<std::uint64_t> feed(const C* codes, std::uint64_t count) {
         if (!has_close_) {
             return std::nullopt;
         }
         for (std::uint64_t i = 0; i < count; ++i) {
-            depth_ += change_[codes[i]];
-            if (depth_ < 0) {
+            const Change change = changes_[codes[i]];
+            branches_ += change.branches;
+            if (cut_ > 0) {
+                cut_ += change.branches;
+            } else if (change.cuts) {
+                cut_ = 1;
+            } else {
+                polygons_ += change.polygons;
+            }
+            if (branches_ < 0 || polygons_ < 0) {
                 return i;
             }
         }
@@ -37,16 +48,25 @@ public:
     }
 
 private:
-    std::vector<std::int8_t> change_; // change of the depth, by code
-    std::int64_t depth_ = 0;
+    struct Change {
+        std::int8_t branches = 0; // added to the number of open branches
+        std::int8_t polygons = 0; // added to the number of open polygons
+        bool cuts = false;
+    };
+    std::vector<Change> changes_; // by code
+    std::int64_t branches_ = 0;
+    std::int64_t polygons_ = 0;
+    std::int64_t cut_ = 0; // number of open branches, counted from the cut one; 0: no cut
     bool has_close_ = false;
 };
 
-/// The production that must have written an unmatched `]`: the only one whose successor closes a
-/// bracket that it does not open, if the axiom closes none. kNoProduction if several could have.
-[[nodiscard]] ProductionId only_unbalanced_production(const Bytecode& bytecode);
+/// The production that must have written an unmatched module of the kind `close`, BranchClose or
+/// PolygonClose: the only one whose successor closes what it does not open, if the axiom closes
+/// none. kNoProduction if several could have.
+[[nodiscard]] ProductionId only_unbalanced_production(const Bytecode& bytecode, SymbolKind close);
 
-/// The error of a `]` without its `[` at `position` of a word of age `age`.
+/// The error of a `]` without its `[`, or a `}` without its `{`, at `position` of a word of age
+/// `age`.
 [[nodiscard]] RuntimeError
 unmatched_bracket(const Bytecode& bytecode, Code code, std::uint64_t position, std::uint32_t age);
 

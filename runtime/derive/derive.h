@@ -25,7 +25,7 @@ enum class RuntimeErrorKind : std::uint8_t {
     NegativeWeight,  // of a production
     WeightsTooLarge, // the sum of the weights of a choice is not finite
     OutOfBounds,     // a #param outside its bounds
-    Unbalanced,      // a `]` without its `[` in the last word, whose age is `generation`
+    Unbalanced,      // a `]` or `}` without its partner in the last word, of age `generation`
     TooDeep,         // a #decompose or #interpret production still matches after the last pass
 };
 

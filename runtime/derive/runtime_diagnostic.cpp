@@ -263,17 +263,24 @@ Diagnostic out_of_bounds(const RuntimeError& error, const Bytecode& bytecode) {
 }
 
 Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
+    const BytecodeSymbol& close = bytecode.symbol(error.symbol);
+    const bool is_branch = close.kind == SymbolKind::BranchClose;
     Diagnostic diagnostic = make_diagnostic(
-        DiagnosticCode::UnbalancedWord, {},
-        fmt::format("module {} of generation {} is a `{}` without its `[` (counted from 0)",
-                    grouped_digits(error.position), error.generation,
-                    bytecode.symbol(error.symbol).name));
+        is_branch ? DiagnosticCode::UnbalancedWord : DiagnosticCode::UnbalancedPolygon, {},
+        fmt::format("module {} of generation {} is a `{}` without its `{}` (counted from 0)",
+                    grouped_digits(error.position), error.generation, close.name,
+                    is_branch ? "[" : "{"));
+    diagnostic.severity = Severity::Error;
     if (error.production != kNoProduction) {
         diagnostic.label = "writes it";
-        diagnostic.notes.push_back(fmt::format(
-            "{} closes a branch that it does not open, and no other does", owner(error, bytecode)));
+        diagnostic.notes.push_back(fmt::format("{} {}, and no other does", owner(error, bytecode),
+                                               is_branch
+                                                   ? "closes a branch that it does not open"
+                                                   : "ends a polygon that it does not begin"));
     }
-    diagnostic.help.emplace_back("balance the brackets of every successor and of the axiom");
+    diagnostic.help.emplace_back(
+        is_branch ? "balance the brackets of every successor and of the axiom"
+                  : "let as many `{` as `}` stand before each place of the word");
     return diagnostic;
 }
 

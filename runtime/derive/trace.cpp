@@ -1,6 +1,7 @@
 #include "runtime/derive/trace.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/random.h"
 #include "runtime/derive/impl/explain_module.h"
 #include "runtime/derive/impl/traced_word.h"
 #include "runtime/derive/word_text.h"
@@ -55,6 +56,31 @@ std::vector<TracedModule> modules_at(const Bytecode& bytecode,
     return modules;
 }
 
+std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t seed) {
+    if (bytecode.axioms.size() == 1) {
+        return std::nullopt;
+    }
+    constexpr std::uint32_t kGeneration = 0xFFFFFFFF; // docs/language.md section 6.2
+    constexpr std::uint64_t kPosition = ~std::uint64_t{0};
+    AxiomTrace trace;
+    trace.unit = DrawSource(seed, kGeneration, kPosition).draw(0);
+    float sum = 0.0F;
+    for (const BytecodeAxiom& axiom : bytecode.axioms) {
+        sum += axiom.weight;
+    }
+    float running = 0.0F;
+    std::optional<std::size_t> taken;
+    for (const BytecodeAxiom& axiom : bytecode.axioms) {
+        running += axiom.weight / sum;
+        if (!taken && running > trace.unit) {
+            taken = trace.alternatives.size();
+        }
+        trace.alternatives.push_back({axiom.site, axiom.weight, running});
+    }
+    trace.taken = taken.value_or(trace.alternatives.size() - 1);
+    return trace;
+}
+
 struct StepTracer::State {
     State(const Bytecode& program, TraceInputs given)
         : bytecode(program), inputs(std::move(given)) {}
@@ -66,7 +92,6 @@ struct StepTracer::State {
     std::vector<ModuleTrace>
         traces_without_pass;                     // traces of the roots, if the engine makes no pass
     std::vector<std::uint32_t> pass_productions; // productions of the current pass
-    bool multiple = false;                       // the pass has predecessors of several modules
     std::size_t first_of_pass = 0;               // in traces
     /// By place: its trace in the current pass; kNoTrace: it was copied without a trace.
     std::vector<std::size_t> trace_of_place;
@@ -106,82 +131,74 @@ struct StepTracer::State {
         }
     }
 
-    /// Explains the tracked modules to which productions of the pass may apply. A root is always
-    /// explained, except in the passes of a sequential generation for other rules.
-    void begin_productions(const TracedWord& word, const DerivationPass& facts) {
-        const TracedPass pass{bytecode, inputs, word, facts};
+    /// Whether the tracked module at `position` is explained: if productions of the pass may apply to
+    /// it. A root always is, except in the passes of a sequential generation for other rules.
+    [[nodiscard]] bool is_explained(const TracedPass& pass, std::uint64_t position) const {
+        return (pass.facts.kind == DerivationPass::Kind::Rewrite &&
+                bytecode.settings.rewriting != RewritingMode::Sequential) ||
+               concerns(pass.word.symbol(position));
+    }
+
+    void begin_productions(const TracedPass& pass) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Place& place = places[i];
-            const bool first = facts.kind == DerivationPass::Kind::Rewrite &&
-                               bytecode.settings.rewriting != RewritingMode::Sequential;
-            if (first || concerns(word.symbol(place.position))) {
+            if (is_explained(pass, place.position)) {
                 trace_of_place[i] =
                     add(explain_module(pass, pass_productions, place.position), place);
             }
         }
-        if (multiple) {
-            find_consumed(pass);
-        }
     }
 
     /// With predecessors of several modules, a match may begin before a tracked module and use it
-    /// up. Reads the word from its start, as the pass does; adds the places of such matches.
-    void find_consumed(const TracedPass& pass) {
-        const std::vector<Place> tracked = places;
-        const std::vector<std::size_t> traced = trace_of_place;
-        places.clear();
+    /// up. Reads the word from its start, as the pass does; the place of a module that is used up
+    /// becomes that of the match.
+    void begin_matches(const TracedPass& pass) {
+        const std::vector<Place> tracked = std::exchange(places, {});
         trace_of_place.clear();
+        const auto keep = [this](const Place& place, std::size_t trace) {
+            places.push_back(place);
+            trace_of_place.push_back(trace);
+        };
         std::size_t next = 0;
-        for (std::uint64_t i = 0; i < pass.word.count() && next < tracked.size();) {
-            std::uint32_t used = 1;
+        for (std::uint64_t i = 0; next < tracked.size();) {
+            const bool is_tracked = tracked[next].position == i;
             std::optional<ModuleTrace> match;
-            if (concerns(pass.word.symbol(i))) {
+            if (concerns(pass.word.symbol(i)) || (is_tracked && is_explained(pass, i))) {
                 match = explain_module(pass, pass_productions, i);
-                used = match->fate == Fate::Rewritten ? match->replaced : 1;
             }
-            bool match_is_added = false;
-            for (; next < tracked.size() && tracked[next].position < i + used; ++next) {
+            if (is_tracked) {
+                keep(tracked[next], match ? add(*match, tracked[next]) : kNoTrace);
+                ++next;
+            }
+            const std::uint64_t end =
+                i + (match && match->fate == Fate::Rewritten ? match->replaced : 1);
+            bool is_kept = is_tracked;
+            for (; next < tracked.size() && tracked[next].position < end; ++next) {
                 Place place = tracked[next];
-                std::size_t trace = traced[next];
-                if (place.position > i) { // consumed
-                    ModuleTrace consumed;
-                    if (trace != kNoTrace) {
-                        consumed = std::move(traces[trace]);
-                        consumed.choice.reset();
-                        consumed.locals.clear();
-                        consumed.ranges.clear();
-                        consumed.written.clear();
-                        consumed.fault.clear();
-                        consumed.attempts.clear();
-                        consumed.other_names = 0;
-                    } else {
-                        consumed.kind = pass.facts.kind;
-                        consumed.rule = pass.facts.rule;
-                        consumed.generation = pass.facts.generation;
-                        consumed.position = place.position;
-                        consumed.module = pass.word.module(place.position);
-                    }
-                    consumed.fate = Fate::Consumed;
-                    consumed.cause = i;
-                    consumed.production = match->production;
-                    if (trace != kNoTrace) {
-                        traces[trace] = std::move(consumed);
-                    } else {
-                        trace = add(std::move(consumed), place);
-                    }
-                    if (match_is_added) {
-                        continue;
-                    }
-                    place.parent = trace;
-                    place.position = i;
-                    trace = add(*match, place);
+                place.parent = add(consumed(pass, place.position, *match), place);
+                place.position = i;
+                if (!std::exchange(is_kept, true)) {
+                    keep(place, add(*match, place));
                 }
-                match_is_added = true;
-                places.push_back(place);
-                trace_of_place.push_back(trace);
             }
-            i += used;
+            i = end;
         }
+    }
+
+    /// The trace of a module that `match` uses up.
+    [[nodiscard]] static ModuleTrace
+    consumed(const TracedPass& pass, std::uint64_t position, const ModuleTrace& match) {
+        ModuleTrace trace;
+        trace.kind = match.kind;
+        trace.rule = match.rule;
+        trace.pass = match.pass;
+        trace.generation = match.generation;
+        trace.position = position;
+        trace.module = pass.word.module(position);
+        trace.fate = Fate::Consumed;
+        trace.cause = match.position;
+        trace.production = match.production;
+        return trace;
     }
 
     /// Compares the successors with the word written, and tracks its modules from then on.
@@ -280,11 +297,16 @@ void StepTracer::on_pass(const DerivationPass& facts) {
         return;
     }
     state.pass_productions = productions_of_pass(state.bytecode, facts);
-    state.multiple = std::any_of(state.pass_productions.begin(), state.pass_productions.end(),
-                                 [&](std::uint32_t index) {
-                                     return state.bytecode.productions[index].predecessor.count > 1;
-                                 });
-    state.begin_productions(word, facts);
+    const TracedPass pass{state.bytecode, state.inputs, word, facts};
+    const bool has_several_modules = std::any_of(
+        state.pass_productions.begin(), state.pass_productions.end(), [&](std::uint32_t index) {
+            return state.bytecode.productions[index].predecessor.count > 1;
+        });
+    if (has_several_modules) {
+        state.begin_matches(pass);
+    } else {
+        state.begin_productions(pass);
+    }
 }
 
 void StepTracer::finish() {

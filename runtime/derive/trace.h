@@ -79,8 +79,9 @@ struct TracedRange {
 /// A local value.
 struct TracedLocal {
     std::string name;
-    std::string text; // of its expression
+    std::string text; // of its expression; of `if` the chosen side
     float value = 0.0F;
+    std::vector<std::string> choices; // conditions of `if` in it: "x > 2 is true"
 };
 
 /// An expression that was evaluated. Long texts end with "...".
@@ -131,6 +132,20 @@ struct ChoiceTrace {
     float unit = 0.0F;
     std::size_t taken = 0; // index in alternatives
 };
+
+/// The choice among several axioms (docs/language.md section 5.9).
+struct AxiomTrace {
+    struct Alternative {
+        std::uint32_t site = kNone; // index in Bytecode::sites
+        float weight = 0.0F;
+        float running = 0.0F; // sum of normalised weights up to this one
+    };
+    std::vector<Alternative> alternatives; // in file order
+    float unit = 0.0F;
+    std::size_t taken = 0; // index in alternatives
+};
+/// Nothing if there is one axiom.
+[[nodiscard]] std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t seed);
 
 LSYS_COUNTED_ENUM(Fate,
                   Copied,    // no production matches

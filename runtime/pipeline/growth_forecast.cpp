@@ -23,18 +23,24 @@ std::uint64_t saturated(const Count& count) {
     return count.at_most(kMax) ? count.value.low : kMax;
 }
 
+/// Whether a closing bracket of the template has no partner in it.
+bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
+    return has_unmatched_close(bytecode, codes, SymbolKind::BranchClose) ||
+           has_unmatched_close(bytecode, codes, SymbolKind::PolygonClose);
+}
+
 /// Whether a derivation can only end in an error while it draws its constants.
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {
         return production.condition == kNone && production.weight_code == kNone &&
                !rewrites_bracket(bytecode, production) &&
-               !has_unmatched_close(bytecode, production.successor.codes);
+               !closes_too_much(bytecode, production.successor.codes);
     };
     return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
            std::none_of(bytecode.axioms.begin(), bytecode.axioms.end(),
                         [&](const BytecodeAxiom& axiom) {
-                            return has_unmatched_close(bytecode, axiom.word.codes);
+                            return closes_too_much(bytecode, axiom.word.codes);
                         }) &&
            std::all_of(bytecode.productions.begin(), bytecode.productions.end(), is_safe);
 }

@@ -51,6 +51,8 @@ public:
         derive_.origins = true;
         trace_.generations = derive_.generations;
         trace_.seed = derive_.seed;
+        trace_.scope = options.scope;
+        trace_.axiom = trace_axiom(bytecode_, derive_.seed);
         trace_.is_last = trace_.generation == trace_.generations;
     }
 
@@ -85,16 +87,17 @@ public:
         if (!select(derivation.word())) {
             return step_.end();
         }
-        if (options_.back) {
+        if (options_.scope != TraceScope::Next) {
             for (TracedPlace& place : trace_.places) {
                 if (const std::optional<Stop> failed = follow_back(place)) {
                     return step_.end(*failed);
                 }
             }
-            return step_.done(std::move(trace_));
         }
-        stop = trace_drawing(derivation.word());
-        if (!stop) {
+        if (options_.scope != TraceScope::Back) {
+            stop = trace_drawing(derivation.word());
+        }
+        if (!stop && options_.scope == TraceScope::Next) {
             stop = trace_step(derivation);
         }
         if (stop == Stop::Cancelled || stop == Stop::OutOfMemory) {
@@ -127,7 +130,7 @@ private:
     /// Stores a copy of the word if its age is a multiple of stride_. If the copies take more than
     /// a quarter of the memory limit, doubles stride_ and drops every other copy.
     void keep(const Derivation& derivation) {
-        if (!options_.back || derivation.age() % stride_ != 0) {
+        if (options_.scope == TraceScope::Next || derivation.age() % stride_ != 0) {
             return;
         }
         std::optional<Word> copy = copy_of_word(derivation.word());
@@ -327,9 +330,9 @@ private:
         return stop;
     }
 
-    /// Traces the passes of #interpret, which only the last word has.
+    /// Traces the passes of #interpret, which only words that are drawn have.
     [[nodiscard]] std::optional<Stop> trace_drawing(const Word& word) {
-        if (!trace_.is_last || !bytecode_.has(Stage::Interpret)) {
+        if (!(trace_.is_last || options_.is_drawn) || !bytecode_.has(Stage::Interpret)) {
             return std::nullopt;
         }
         Derivation drawing(bytecode_, derive_);
@@ -399,9 +402,9 @@ private:
         }
     }
 
-    /// Follows a module back to the axiom, generation by generation. The engine tells which module
-    /// of the previous word wrote it (Derivation::follow()); the step from that module is then
-    /// traced.
+    /// Follows a module back to the axiom, or to the step that wrote it, generation by generation.
+    /// The engine tells which module of the previous word wrote it (Derivation::follow()); the step
+    /// from that module is then traced.
     [[nodiscard]] std::optional<Stop> follow_back(TracedPlace& place) {
         std::uint64_t position = place.position;
         for (std::uint32_t age = trace_.generation; age-- > 0;) {
@@ -431,6 +434,9 @@ private:
             }
             trace_.agrees = trace_.agrees && back.agrees;
             position = back.position;
+            if (options_.scope == TraceScope::Written && !back.steps.empty()) {
+                return std::nullopt;
+            }
         }
         if (!place.back.empty()) {
             Derivation start(bytecode_, derive_);
@@ -473,6 +479,9 @@ private:
             if (tracer.traces()[i].fate == Fate::Rewritten) {
                 back.steps.insert(back.steps.begin(), tracer.traces()[i]);
             }
+        }
+        for (std::size_t i = 0; i < back.steps.size(); ++i) {
+            back.steps[i].parent = i == 0 ? kNoTrace : i - 1;
         }
         return std::nullopt;
     }

@@ -3,6 +3,7 @@
 // result is compared with the word that the engine writes.
 #pragma once
 
+#include "grammar/base/counted_enum.h"
 #include "grammar/base/outcome.h"
 #include "runtime/derive/origin.h"
 #include "runtime/derive/trace.h"
@@ -16,6 +17,11 @@
 
 namespace lsys {
 
+LSYS_COUNTED_ENUM(TraceScope,
+                  Next,    // the step that rewrites the module, and the drawing of the last word
+                  Written, // the step that wrote the module, and the drawing of the last word
+                  Back);   // all steps back to the axiom
+
 /// The modules to trace, and how to trace them.
 struct TraceOptions {
     std::optional<std::uint32_t> generation; // of the modules; unset: the value of #n
@@ -28,7 +34,8 @@ struct TraceOptions {
     std::string module;                    // `A(3)`: the first such module
     std::string name;                      // all modules of this name
     std::uint64_t rows = 10;               // max modules of `name`
-    bool back = false; // follow the modules back to the axiom instead of tracing the next step
+    TraceScope scope = TraceScope::Next;
+    bool is_drawn = false; // the word is drawn, as the last one always is
 };
 
 /// The production that wrote a module, and where and when.
@@ -56,7 +63,7 @@ struct TracedPlace {
     std::uint64_t position = 0;
     TracedModule module;
     TraceOrigin origin;
-    /// Traces of the next step: of the module itself, and of what later passes of the step did to
+    /// Scope Next: traces of the next step: of the module itself, and of what later passes of the step did to
     /// the modules that it wrote. ModuleTrace::parent is an index of this list.
     std::vector<ModuleTrace> step;
     /// The modules of the next word that the module became.
@@ -64,16 +71,20 @@ struct TracedPlace {
     std::uint64_t first_next = 0;     // position of next[0] in the next word
     std::vector<ModuleTrace> drawing; // traces of #interpret, in the form of `step`
     std::vector<TracedModule> drawn;  // the modules it became; empty without `drawing`
-    std::vector<AncestorStep> back;   // from the previous word back to the axiom
+    /// Scopes Written and Back: from the previous word back to the step that wrote the module, or to
+    /// the axiom. Empty for the axiom itself.
+    std::vector<AncestorStep> back;
 };
 
 struct Trace {
     std::uint32_t generation = 0;  // of the modules
     std::uint32_t generations = 0; // of the derivation: steps()
     std::uint64_t seed = 0;
+    TraceScope scope = TraceScope::Next;
     std::uint64_t modules = 0;       // number of modules in the word
     std::uint64_t matches = 0;       // number of modules that the options ask for
     std::uint64_t next_untraced = 0; // position of the first match that is not traced; 0: none
+    std::optional<AxiomTrace> axiom; // if there are several
     bool is_last = false;            // the word is that of the last generation, which is drawn
     bool agrees = true;              // tracer and engine have written the same modules
     /// Set if the next step failed. The traces are then incomplete, and messages say why.
@@ -81,8 +92,8 @@ struct Trace {
     std::vector<TracedPlace> places;
 };
 
-/// Derives generation `options.generation` and traces its modules. If the next step fails, sets
-/// Trace::stop. Stop::Failed: the word has no such module.
+/// Derives generation `options.generation` and traces its modules. If the traced step or the drawing
+/// fails, sets Trace::stop. Stop::Failed: the word has no such module.
 [[nodiscard]] Outcome<Trace>
 trace_modules(const TraceOptions& options, const Grammar& grammar, const Project& project);
 

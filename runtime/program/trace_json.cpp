@@ -57,6 +57,9 @@ public:
         object["matches"] = trace_.matches;
         object["agrees"] = trace_.agrees;
         object["complete"] = !trace_.stop;
+        if (trace_.axiom) {
+            object["axiom_choice"] = axiom(*trace_.axiom);
+        }
         object["traces"] = Json::array();
         for (const TracedPlace& place : trace_.places) {
             object["traces"].push_back(traced(place));
@@ -175,6 +178,22 @@ private:
         }
         return object;
     }
+    [[nodiscard]] Json axiom(const AxiomTrace& choice) const {
+        Json object;
+        object["u"] = number(choice.unit);
+        object["taken"] = choice.taken;
+        object["alternatives"] = Json::array();
+        for (const AxiomTrace::Alternative& each : choice.alternatives) {
+            Json alternative;
+            if (each.site != kNone) {
+                put_site(alternative, bytecode_.sites[each.site]);
+            }
+            alternative["weight"] = number(each.weight);
+            alternative["sum"] = number(each.running);
+            object["alternatives"].push_back(std::move(alternative));
+        }
+        return object;
+    }
     [[nodiscard]] Json step(const ModuleTrace& trace) const {
         Json object;
         object["pass"] = name_of(kKinds, trace.kind);
@@ -207,8 +226,11 @@ private:
         }
         object["locals"] = Json::array();
         for (const TracedLocal& local : trace.locals) {
-            object["locals"].push_back(
-                {{"name", local.name}, {"text", local.text}, {"value", number(local.value)}});
+            Json& value = object["locals"].emplace_back(
+                Json{{"name", local.name}, {"text", local.text}, {"value", number(local.value)}});
+            if (!local.choices.empty()) {
+                value["choices"] = local.choices;
+            }
         }
         object["ranges"] = Json::array();
         for (const TracedRange& range : trace.ranges) {
@@ -236,7 +258,7 @@ private:
         object["position"] = place.position;
         object["module"] = module(place.module);
         object["origin"] = origin(place.origin);
-        if (!place.back.empty()) {
+        if (trace_.scope != TraceScope::Next) {
             object["back"] = Json::array();
             for (const AncestorStep& each : place.back) {
                 Json back;
@@ -248,11 +270,11 @@ private:
                 back["steps"] = steps(each.steps);
                 object["back"].push_back(std::move(back));
             }
-            return object;
+        } else {
+            object["steps"] = steps(place.step);
+            object["first_next"] = place.next.empty() ? Json() : Json(place.first_next);
+            object["next"] = modules(place.next);
         }
-        object["steps"] = steps(place.step);
-        object["first_next"] = place.next.empty() ? Json() : Json(place.first_next);
-        object["next"] = modules(place.next);
         if (!place.drawing.empty()) {
             object["drawing"] = steps(place.drawing);
             object["drawn"] = modules(place.drawn);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,9 @@ constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
 constexpr std::size_t kMaxLater = 8; // modules of later passes
 constexpr std::size_t kMaxMet = 6;   // modules that a context met
+/// With more productions to show than these, those that do not apply take one line each.
+constexpr std::size_t kMaxFrames = 4;
+constexpr std::size_t kMaxReasons = 4; // operations in such a line
 
 std::string value_text(float value) {
     if (!std::isfinite(value)) {
@@ -53,11 +57,18 @@ public:
         for (const TracedPlace& place : trace_.places) {
             out_ += out_.empty() ? "" : "\n";
             head(place);
-            if (!place.back.empty() || is_back()) {
-                back(place);
-            } else {
+            switch (trace_.scope) {
+            case TraceScope::Next:
                 drawing(place);
                 step(place);
+                break;
+            case TraceScope::Written:
+                written(place);
+                drawing(place);
+                break;
+            case TraceScope::Back:
+                back(place);
+                break;
             }
         }
         rest();
@@ -65,10 +76,6 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_back() const {
-        return std::all_of(trace_.places.begin(), trace_.places.end(),
-                           [](const TracedPlace& place) { return place.step.empty(); });
-    }
     [[nodiscard]] const BytecodeProduction& production(ProductionId id) const {
         return bytecode_.productions[static_cast<std::size_t>(id)];
     }
@@ -106,6 +113,11 @@ private:
         out_ += '\n';
     }
 
+    /// `text` in green, if the report has colours.
+    [[nodiscard]] std::string marked(std::string_view text) const {
+        return colour_ ? fmt::format("\x1b[1;32m{}\x1b[0m", text) : std::string(text);
+    }
+
     // --- the module
 
     [[nodiscard]] std::string origin_text(const TraceOrigin& origin) const {
@@ -120,8 +132,9 @@ private:
     void head(const TracedPlace& place) {
         line("{} at position {} of generation {}, {}", module(place.module), place.position,
              trace_.generation,
-             is_back() && trace_.generation > 0 ? std::string("back to the axiom")
-                                                : origin_text(place.origin));
+             trace_.scope == TraceScope::Back && trace_.generation > 0
+                 ? std::string("back to the axiom")
+                 : origin_text(place.origin));
     }
 
     // --- productions that were tried
@@ -205,7 +218,9 @@ private:
     }
 
     /// Prints the notes on a production that was tried, the reason why it does not apply first.
-    void explain(const Attempt& attempt, const TracedModule& own) {
+    /// `written`: an additional label, of a module of the successor.
+    void
+    explain(const Attempt& attempt, const TracedModule& own, const std::optional<Label>& written) {
         const Production* const source = source_of(attempt.production);
         const BytecodeProduction& tried = production(attempt.production);
         const auto span = [&](SourceSpan Production::*member) {
@@ -221,14 +236,8 @@ private:
                 "weight " + condition_text(*attempt.weight));
         }
         if (attempt.verdict == Verdict::Predecessor) {
-            std::string text;
-            for (const MetModule& met : attempt.predecessor) {
-                text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(met.module),
-                                    met.position);
-            }
             add(notes, "predecessor", source == nullptr ? SourceSpan{} : source->predecessor.span,
-                fmt::format("{} is followed by {}", module(own),
-                            text.empty() ? "the end of the word" : text));
+                followed_text(attempt, own));
         }
         if (attempt.right.end != ContextEnd::NotSearched) {
             add(notes, "right context", source == nullptr ? SourceSpan{} : source->right.span,
@@ -238,13 +247,75 @@ private:
             add(notes, "left context", source == nullptr ? SourceSpan{} : source->left.span,
                 context_text(attempt.left, tried.left, true));
         }
+        const bool joins = written && (notes.labels.empty() || source == nullptr ||
+                                       in_one_frame(notes.labels.front().span, written->span));
+        if (written && joins) {
+            notes.labels.push_back(*written);
+        }
         if (notes.labels.empty() && source != nullptr) {
             notes.labels.push_back({source->predecessor.span, std::string()});
         }
         print(notes, source);
+        if (written && !joins) {
+            render_frame({*written}, *grammar_.sources, colour_, out_);
+        }
         if (attempt.condition) {
             parts(*attempt.condition);
         }
+        if (attempt.weight) {
+            parts(*attempt.weight);
+        }
+    }
+
+    [[nodiscard]] std::string followed_text(const Attempt& attempt, const TracedModule& own) const {
+        std::string text;
+        for (const MetModule& met : attempt.predecessor) {
+            text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(met.module),
+                                met.position);
+        }
+        return fmt::format("{} is followed by {}", module(own),
+                           text.empty() ? "the end of the word" : text);
+    }
+
+    /// Whether the frame of `primary` also shows `other`: a frame is one line, cut if it is long.
+    [[nodiscard]] bool in_one_frame(SourceSpan primary, SourceSpan other) const {
+        constexpr std::uint32_t kMaxColumns = 90;
+        const SourceFile& file = grammar_.sources->file(primary.file);
+        return primary.file == other.file &&
+               file.line_column(primary.begin).line == file.line_column(other.begin).line &&
+               other.end < primary.begin + kMaxColumns;
+    }
+
+    /// The reason why a production does not apply, as the end of a line; may be empty.
+    [[nodiscard]] std::string reason_text(const Attempt& attempt, const TracedModule& own) const {
+        const BytecodeProduction& tried = production(attempt.production);
+        switch (attempt.verdict) {
+        case Verdict::Predecessor:
+            return ": " + followed_text(attempt, own);
+        case Verdict::LeftContext:
+            return ": " + context_text(attempt.left, tried.left, true);
+        case Verdict::RightContext:
+            return ": " + context_text(attempt.right, tried.right, false);
+        case Verdict::Condition:
+            return reasons_text(*attempt.condition);
+        default:
+            return {};
+        }
+    }
+    /// The comparisons of a condition with their values.
+    [[nodiscard]] static std::string reasons_text(const ExpressionTrace& condition) {
+        std::string text;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < condition.parts.size(); ++i) {
+            const TracedPart& part = condition.parts[i];
+            const bool joins = i + 1 == condition.parts.size() && i != 0 && count != 0 &&
+                               (part.values.starts_with("true ") ||
+                                part.values.starts_with("false ") || part.values[0] == '!');
+            if (part.is_truth && !joins && ++count <= kMaxReasons) {
+                text += (text.empty() ? ": " : ", ") + part_text(part);
+            }
+        }
+        return count > kMaxReasons ? text + ", ..." : text;
     }
 
     static std::string condition_text(const ExpressionTrace& condition) {
@@ -278,13 +349,25 @@ private:
         }
     }
 
-    void attempt(const ModuleTrace& trace, const Attempt& attempt) {
+    /// Prints a production that was tried. `is_later`: the module was written in this step, so that
+    /// little is said. `is_brief`: one line if the production does not apply. `written`: a label for
+    /// a module of the successor of the production that applies.
+    void attempt(const ModuleTrace& trace,
+                 const Attempt& attempt,
+                 bool is_later,
+                 bool is_brief,
+                 const std::optional<Label>& written) {
         const std::string who = place_of(attempt.production) + name(attempt.production);
         const BytecodeProduction& tried = production(attempt.production);
+        const std::string why = is_brief ? reason_text(attempt, trace.module) : std::string();
         switch (attempt.verdict) {
         case Verdict::Applies:
-            line("{} applies{}", who, trace.choice ? ", chosen by chance" : "");
-            break;
+            if (is_later && !framed_.insert(attempt.production).second) {
+                return; // traces() says so in the title
+            }
+            line("{} {}{}", who, marked("applies"), trace.choice ? ", chosen by chance" : "");
+            explain(attempt, trace.module, written);
+            return;
         case Verdict::OtherCount: {
             line("{} does not apply: it is for {}, this one has {}", who,
                  pattern_text(tried.predecessor, 0),
@@ -296,37 +379,49 @@ private:
                  who, tried.rule, trace.generation, trace.rule);
             return;
         case Verdict::Predecessor:
-            line("{} does not apply: other modules follow", who);
+            line("{} does not apply: other modules follow{}", who, why);
             break;
         case Verdict::LeftContext:
-            line("{} does not apply: its left context is not there", who);
+            line("{} does not apply: its left context is not there{}", who, why);
             break;
         case Verdict::RightContext:
-            line("{} does not apply: its right context is not there", who);
+            line("{} does not apply: its right context is not there{}", who, why);
             break;
         case Verdict::Condition:
-            line("{} does not apply: its condition is 0", who);
+            line("{} does not apply: its condition is 0{}", who, why);
             break;
         case Verdict::Fault:
             line("{} fails: its {}", who,
                  attempt.weight ? "weight is negative or too large"
                                 : "condition has no finite value");
-            break;
+            explain(attempt, trace.module, std::nullopt);
+            return;
         case Verdict::NoWeight:
             line("{} matches, but its weight is 0", who);
             break;
         case Verdict::NotDrawn:
+            if (is_later) {
+                return; // brief_choice() lists these
+            }
             line("{} matches too, and is not the one chosen by chance", who);
             break;
         case Verdict::NotTried:
             return; // attempts() lists these in one line
         }
-        explain(attempt, trace.module);
+        if (!is_brief) {
+            explain(attempt, trace.module, std::nullopt);
+        }
     }
 
-    void attempts(const ModuleTrace& trace) {
+    void attempts(const ModuleTrace& trace, bool is_later, const std::optional<Label>& written) {
+        const auto frames =
+            std::count_if(trace.attempts.begin(), trace.attempts.end(), [](const Attempt& each) {
+                return each.verdict != Verdict::OtherCount && each.verdict != Verdict::OtherRule &&
+                       each.verdict != Verdict::NotTried;
+            });
+        const bool is_brief = is_later || frames > static_cast<std::ptrdiff_t>(kMaxFrames);
         for (const Attempt& each : trace.attempts) {
-            attempt(trace, each);
+            attempt(trace, each, is_later, is_brief, written);
         }
         std::string later;
         for (const Attempt& each : trace.attempts) {
@@ -334,7 +429,7 @@ private:
                 later += (later.empty() ? "" : ", ") + name(each.production);
             }
         }
-        if (!later.empty()) {
+        if (!later.empty() && !is_later) {
             line("not tried, since one before was taken: {}", later);
         }
         if (trace.attempts.empty() && trace.fate == Fate::Copied) {
@@ -345,7 +440,7 @@ private:
                  trace.other_names == 0
                      ? std::string()
                      : fmt::format(", {} for others", number_of(trace.other_names, "is", "are")));
-        } else if (trace.other_names != 0) {
+        } else if (trace.other_names != 0 && !is_later) {
             line("{} for modules of other names",
                  number_of(trace.other_names, "production is", "productions are"));
         }
@@ -360,21 +455,43 @@ private:
             line("chance, one for all modules: draw 0 of rule {} in generation {}, u = {}",
                  choice.rule, trace.generation, unit);
         } else {
-            line("chance: draw {} at position {} in generation {}, u = {}", choice.number,
+            line("chance: {} at position {} in generation {}, u = {}", draw_text(choice.number),
                  choice.position, trace.generation, unit);
         }
-        std::size_t width = 0;
+        alternatives(
+            choice, [this](const ChoiceTrace::Alternative& each) { return name(each.production); });
+    }
+    void brief_choice(const ChoiceTrace& choice) {
+        std::string text;
         for (const ChoiceTrace::Alternative& each : choice.alternatives) {
-            width = std::max(width, name(each.production).size());
+            text += fmt::format("{}{} below {}", text.empty() ? "" : ", ", name(each.production),
+                                value_text(each.running));
+        }
+        line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
+    }
+    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of
+    /// one.
+    template <typename Choice, typename Name>
+    void alternatives(const Choice& choice, const Name& name_of) {
+        std::size_t width = 0;
+        for (const auto& each : choice.alternatives) {
+            width = std::max(width, name_of(each).size());
         }
         for (std::size_t i = 0; i < choice.alternatives.size(); ++i) {
-            const ChoiceTrace::Alternative& each = choice.alternatives[i];
-            line("  {} {:<{}}   weight {}, sum {}{}", i == choice.taken ? '>' : ' ',
-                 name(each.production), width, value_text(each.weight), value_text(each.running),
+            const auto& each = choice.alternatives[i];
+            line("  {} {:<{}}   weight {}, sum {}{}", i == choice.taken ? '>' : ' ', name_of(each),
+                 width, value_text(each.weight), value_text(each.running),
                  i != choice.taken            ? ""
                  : each.running > choice.unit ? ", the first above u"
                                               : ", the last");
         }
+    }
+    /// The number of a draw. Later passes of a generation have numbers from a multiple of 4,096 on
+    /// (docs/language.md section 6.2).
+    [[nodiscard]] static std::string draw_text(std::uint64_t number) {
+        constexpr std::uint64_t kDrawsOfPass = 4096;
+        return fmt::format("draw {}{}", number % kDrawsOfPass,
+                           number < kDrawsOfPass ? "" : " of the pass");
     }
 
     // --- what was written
@@ -405,27 +522,43 @@ private:
                           : fmt::format("positions {} to {}", first, first + count - 1);
     }
 
+    /// A range or distribution with the values of its arguments: "{1, 2}", "normal(4, 0.25)".
+    [[nodiscard]] static std::string arguments_text(const TracedRange& range) {
+        const bool is_range = range.opcode == Opcode::Range;
+        std::string text = is_range ? std::string() : std::string(info(range.opcode).mnemonic);
+        text += is_range ? '{' : '(';
+        for (std::size_t i = 0; i < range.arguments.size(); ++i) {
+            text += (i == 0 ? "" : ", ") + value_text(range.arguments[i]);
+        }
+        return text + (is_range ? '}' : ')');
+    }
+
     void values(const ModuleTrace& trace) {
         for (const TracedLocal& local : trace.locals) {
             const std::string number = value_text(local.value);
-            line("  let {} = {}", local.name,
-                 local.text == number ? number : fmt::format("{} = {}", local.text, number));
+            line("  let {} = {}{}{}", local.name,
+                 local.text == number ? number : fmt::format("{} = {}", local.text, number),
+                 local.choices.empty() ? "" : ", since ", fmt::join(local.choices, ", "));
         }
         for (const TracedRange& range : trace.ranges) {
-            line("  {} = {}: draw {}, u = {}", range.text, value_text(range.value), range.number,
-                 value_text(range.unit));
+            const std::string values = arguments_text(range);
+            line("  {} = {}{}: {}, u = {}", range.text,
+                 values == range.text ? std::string() : values + " = ", value_text(range.value),
+                 draw_text(range.number), value_text(range.unit));
         }
     }
 
     /// Prints what became of the module in this pass. `word`: names the word that the positions
-    /// refer to, such as " of generation 3".
+    /// refer to, such as " of generation 3"; empty: without positions.
     void outcome(const ModuleTrace& trace, const std::string& word) {
         switch (trace.fate) {
         case Fate::Cut:
-            line("{} the rest of its branch before anything is rewritten: the module is taken out",
-                 trace.cause == trace.position
-                     ? "it cuts off"
-                     : fmt::format("the cut at position {} takes out", trace.cause));
+            if (trace.cause == trace.position) {
+                line("taken out, with the rest of its branch, before anything is rewritten");
+            } else {
+                line("taken out before anything is rewritten: the % at position {} cuts it off",
+                     trace.cause);
+            }
             return;
         case Fate::Consumed:
             line("used up by the match of {} that begins at position {}", name(trace.production),
@@ -447,7 +580,9 @@ private:
             if (!trace.is_checked) {
                 line("would write: {}", modules(trace.written));
             } else if (trace.written.empty()) {
-                line("writes nothing{}: the module is erased", word);
+                line("writes nothing: the module is erased");
+            } else if (word.empty()) {
+                line("writes {}", modules(trace.written));
             } else {
                 line("writes {}{}:", range_text(trace.first_written, trace.written.size()), word);
                 line("      {}", modules(trace.written));
@@ -486,11 +621,25 @@ private:
         return {};
     }
 
+    /// The end of a title, if the production that applies was shown in an earlier pass.
+    [[nodiscard]] std::string again_text(const ModuleTrace& trace) const {
+        const auto applies =
+            std::find_if(trace.attempts.begin(), trace.attempts.end(),
+                         [](const Attempt& each) { return each.verdict == Verdict::Applies; });
+        if (applies == trace.attempts.end() || !framed_.contains(applies->production)) {
+            return {};
+        }
+        return fmt::format(", {} again{}", name(applies->production),
+                           applies->condition ? ": " + condition_text(*applies->condition)
+                                              : std::string());
+    }
+
     /// Prints the traces of one module. `start`: the position of the module.
     void
     traces(const std::vector<ModuleTrace>& list, std::uint64_t start, std::uint32_t generation) {
         std::size_t later = 0;
         std::size_t hidden = 0;
+        framed_.clear();
         for (std::size_t i = 0; i < list.size(); ++i) {
             const ModuleTrace& trace = list[i];
             const bool is_later =
@@ -505,7 +654,7 @@ private:
             const std::string title = pass_head(trace);
             if (!title.empty()) {
                 out_ += i == 0 ? "" : "\n";
-                line("{}", title);
+                line("{}{}", title, is_later ? again_text(trace) : std::string());
             } else if (is_cause(list, trace)) {
                 line("the match begins with {} at position {}", module(trace.module),
                      trace.position);
@@ -514,13 +663,16 @@ private:
                 trace.kind == DerivationPass::Kind::Rewrite) {
                 line("at position {} without what cuts have taken out", trace.position);
             }
-            attempts(trace);
-            if (trace.choice) {
+            attempts(trace, is_later, std::nullopt);
+            if (trace.choice && is_later) {
+                brief_choice(*trace.choice);
+            } else if (trace.choice) {
                 choice(trace, *trace.choice);
             }
             const bool plain =
                 trace.kind == DerivationPass::Kind::Rewrite && is_last_pass(list, trace);
-            outcome(trace, plain ? fmt::format(" of generation {}", generation)
+            outcome(trace, is_later ? std::string()
+                           : plain  ? fmt::format(" of generation {}", generation)
                            : trace.kind == DerivationPass::Kind::Interpret
                                ? std::string(" of what is drawn")
                                : std::string(" of the word of this pass"));
@@ -558,13 +710,89 @@ private:
     }
 
     void drawing(const TracedPlace& place) {
-        if (place.drawing.empty()) {
+        const bool is_plain = place.drawing.size() == 1 && place.drawing[0].attempts.empty();
+        if (place.drawing.empty() || (is_plain && trace_.scope == TraceScope::Written)) {
             return;
         }
         out_ += '\n';
         traces(place.drawing, place.position, trace_.generation);
         if (place.drawing.size() > 1) {
             line("drawn as: {}", modules(place.drawn));
+        }
+    }
+
+    // --- the step that wrote a module
+
+    void written(const TracedPlace& place) {
+        if (place.back.empty() && grammar_.is_module_file && !trace_.axiom) {
+            return; // the head says all
+        }
+        out_ += '\n';
+        if (!place.back.empty() && !place.back.back().steps.empty()) {
+            written_by(place.back.back());
+            return;
+        }
+        if (!place.back.empty()) {
+            copies(1, trace_.generation);
+        }
+        axiom(place.origin, place.module);
+    }
+
+    void written_by(const AncestorStep& step) {
+        const std::uint32_t generation = step.generation + 1;
+        if (generation < trace_.generation) {
+            copies(generation + 1, trace_.generation);
+        }
+        const std::uint32_t replaced = step.steps.front().replaced;
+        line("generation {}: in place of {}{} at {} of generation {}", generation,
+             module(step.module),
+             replaced == 1 ? std::string()
+                           : fmt::format(" and {} after it", counted(replaced - 1, "module")),
+             range_text(step.position, replaced), step.generation);
+        for (std::size_t i = 0; i < step.steps.size(); ++i) {
+            const ModuleTrace& trace = step.steps[i];
+            const bool is_last = i + 1 == step.steps.size();
+            if (const std::string title = pass_head(trace); !title.empty()) {
+                out_ += i == 0 ? "" : "\n";
+                line("{}", title);
+            }
+            attempts(trace, false,
+                     successor_label(trace, is_last ? step.offset : step.steps[i + 1].offset));
+            if (trace.choice) {
+                choice(trace, *trace.choice);
+            }
+            const bool plain = step.steps.size() == 1 &&
+                               trace.kind == DerivationPass::Kind::Rewrite &&
+                               bytecode_.settings.rewriting != RewritingMode::Sequential;
+            outcome(trace, plain ? fmt::format(" of generation {}", generation) : std::string());
+        }
+    }
+
+    /// The module of a successor that a trace wrote, with a label; nothing for a .lsb file.
+    [[nodiscard]] std::optional<Label> successor_label(const ModuleTrace& trace,
+                                                       std::uint64_t offset) const {
+        const TableRange codes = production(trace.production).successor.codes;
+        if (source_of(trace.production) == nullptr || offset >= codes.count) {
+            return std::nullopt;
+        }
+        const std::uint32_t index = codes.first + static_cast<std::uint32_t>(offset);
+        const std::optional<Site> place = lsys::place_of(bytecode_, index);
+        return place ? std::optional(Label{place->span, module(trace.written[offset])})
+                     : std::nullopt;
+    }
+
+    /// Prints the place of a module that a derivation begins with, and the choice of the axiom.
+    void axiom(const TraceOrigin& origin, const TracedModule& written) {
+        if (origin.place && !grammar_.is_module_file) {
+            render_frame({{origin.place->span, module(written)}}, *grammar_.sources, colour_, out_);
+        }
+        if (trace_.axiom) {
+            line("axiom by chance: u = {}", value_text(trace_.axiom->unit));
+            alternatives(*trace_.axiom, [this](const AxiomTrace::Alternative& each) {
+                return each.site == kNone
+                           ? std::string("axiom")
+                           : fmt::format("axiom of line {}", bytecode_.sites[each.site].line);
+            });
         }
     }
 
@@ -604,10 +832,7 @@ private:
         const AncestorStep& last = place.back.back();
         line("generation 0: {} at position {}, {}", module(last.module), last.position,
              origin_text(place.origin));
-        if (place.origin.place && !grammar_.is_module_file) {
-            render_frame({{place.origin.place->span, module(last.module)}}, *grammar_.sources,
-                         colour_, out_);
-        }
+        axiom(place.origin, last.module);
     }
 
     void back_step(const AncestorStep& each) {
@@ -640,13 +865,9 @@ private:
         if (source == nullptr) {
             return;
         }
-        const TableRange codes = production(trace.production).successor.codes;
         Notes notes;
-        if (offset < codes.count) {
-            const std::uint32_t index = codes.first + static_cast<std::uint32_t>(offset);
-            if (const std::optional<Site> place = lsys::place_of(bytecode_, index)) {
-                notes.labels.push_back({place->span, module(trace.written[offset])});
-            }
+        if (const std::optional<Label> written = successor_label(trace, offset)) {
+            notes.labels.push_back(*written);
         }
         for (const Attempt& attempt : trace.attempts) {
             if (attempt.production == trace.production && attempt.condition) {
@@ -676,6 +897,7 @@ private:
     const Grammar& grammar_;
     const Bytecode& bytecode_;
     bool colour_;
+    std::set<ProductionId> framed_; // whose lines traces() has printed for modules of later passes
     std::string out_;
 };
 

@@ -1,8 +1,9 @@
-// Limits of `lsc check --fix`: one token of a correct grammar is changed, as by a typing mistake,
-// and the result is repaired. If the repaired text compiles, it must be the original grammar; if
+// Limits of `lsc check --fix`: one token or character of a correct grammar is changed, as by a
+// typing mistake, and the result is repaired. If the repaired text compiles, it must be the original grammar; if
 // more than one repair is possible, none may be applied.
 #include "compiler/program/program_dump.h"
 #include "grammar/format/impl/lexemes.h"
+#include "runtime/base/random.h"
 #include "runtime/cli/fixes.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/host.h"
@@ -68,10 +69,10 @@ struct RightGrammar {
     std::string program;
 };
 
-/// Samples and golden cases without errors.
-std::vector<RightGrammar> right_grammars() {
+/// The grammars of `folders` without errors.
+std::vector<RightGrammar> right_grammars_in(const std::vector<std::string>& folders) {
     std::vector<std::string> paths;
-    for (const char* folder : {LSYS_SOURCE_DIR "/samples", LSYS_SOURCE_DIR "/tests/ui"}) {
+    for (const std::string& folder : folders) {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
             const std::string path = entry.path().string();
             if (entry.is_regular_file() && path.ends_with(".lsys") &&
@@ -92,7 +93,12 @@ std::vector<RightGrammar> right_grammars() {
     return grammars;
 }
 
-/// A correct grammar with one token changed.
+/// Samples and golden cases without errors.
+std::vector<RightGrammar> right_grammars() {
+    return right_grammars_in({LSYS_SOURCE_DIR "/samples", LSYS_SOURCE_DIR "/tests/ui"});
+}
+
+/// A correct grammar with one token or character changed.
 struct Mutant {
     std::string kind;
     std::string text;
@@ -169,6 +175,53 @@ private:
     std::vector<Mutant> mutants_;
 };
 
+/// The `number`-th change of one character of a grammar, always the same. Characters of comments
+/// stay, because the compiler does not read them.
+Mutant character_mutant(const RightGrammar& grammar, std::uint64_t number) {
+    std::uint32_t draw = 0;
+    const auto below = [&](std::size_t bound) {
+        const PhiloxBlock block =
+            philox4x32({static_cast<std::uint32_t>(number), draw++, 0, 0}, {7, 0});
+        return static_cast<std::size_t>(block[0]) % bound;
+    };
+    std::vector<bool> is_comment_at(grammar.text.size() + 1, false);
+    for (const Lexeme& lexeme : lexemes_of(grammar.text)) {
+        const auto at = static_cast<std::size_t>(lexeme.text.data() - grammar.text.data());
+        for (std::size_t i = 0; is_comment(lexeme) && i < lexeme.text.size(); ++i) {
+            is_comment_at[at + i] = true;
+        }
+    }
+    std::size_t at = 0;
+    do {
+        at = below(grammar.text.size());
+    } while (is_comment_at[at]);
+    // A character of the file, which is likelier to be meant, or any printable one.
+    const char other = below(2) == 0 ? grammar.text[below(grammar.text.size())]
+                                     : static_cast<char>(' ' + below('~' - ' ' + 1));
+    Mutant mutant{"", grammar.text};
+    switch (below(4)) {
+    case 0:
+        mutant.kind = "character inserted";
+        mutant.text.insert(at, 1, other);
+        break;
+    case 1:
+        mutant.kind = "character removed";
+        mutant.text.erase(at, 1);
+        break;
+    case 2:
+        mutant.kind = "character replaced";
+        mutant.text[at] = other;
+        break;
+    default:
+        mutant.kind = "characters exchanged";
+        if (at + 1 < mutant.text.size()) {
+            std::swap(mutant.text[at], mutant.text[at + 1]);
+        }
+        break;
+    }
+    return mutant;
+}
+
 struct Count {
     std::uint32_t tried = 0;
     std::uint32_t right = 0;      // repaired to the original grammar
@@ -182,7 +235,7 @@ public:
 
     void run(const RightGrammar& grammar, const Mutant& mutant) {
         const Compiled broken = compile(grammar.path, mutant.text);
-        if (!broken.has_errors) {
+        if (!broken.has_errors && !broken.has_certain_fix) {
             return; // the change made another correct grammar
         }
         Count& count = counts_[mutant.kind];
@@ -202,8 +255,9 @@ public:
         if (fixed.compiled.diagnostics.has_errors()) {
             ++count.unfinished;
             keep("unfinished", grammar, mutant, fixed);
-        } else if (program_text(fixed.compiled.grammar) == grammar.program) {
-            ++count.right;
+        } else if (const std::string program = program_text(fixed.compiled.grammar);
+                   program == grammar.program || program == broken.program) {
+            ++count.right; // the original grammar, or the other correct one that the change made
         } else {
             ++count.wrong;
             keep("wrong", grammar, mutant, fixed);
@@ -274,6 +328,16 @@ private:
     std::string kept_;
 };
 
+/// Repairs mutants 0 to `count` - 1 of the samples, each of the next sample.
+void check_characters(Census& census, std::uint64_t count) {
+    const std::vector<RightGrammar> grammars = right_grammars_in({LSYS_SOURCE_DIR "/samples"});
+    REQUIRE(!grammars.empty());
+    for (std::uint64_t number = 0; number < count; ++number) {
+        const RightGrammar& grammar = grammars[number % grammars.size()];
+        census.run(grammar, character_mutant(grammar, number));
+    }
+}
+
 } // namespace
 
 TEST_CASE("a repaired grammar is the one that was meant") {
@@ -299,6 +363,14 @@ TEST_CASE("a repaired grammar is the one that was meant") {
         CHECK(count.tried > 0);
         CHECK(10 * count.right >= 9 * count.tried);
     }
+}
+
+TEST_CASE("all mutants of one character", "[.]") {
+    constexpr std::uint64_t kMutants = 10'000;
+    Census census(true);
+    check_characters(census, kMutants);
+    std::printf("%s%s", census.kept().c_str(), census.table().c_str());
+    CHECK(census.total().wrong == 0);
 }
 
 TEST_CASE("all mutants", "[.]") {

@@ -8,6 +8,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace lsys::reference {
 
 namespace {
@@ -84,6 +87,56 @@ TEST_CASE("choices at the edge of a weight") {
               edge.word);
         CHECK(difference(one_step(grammar, edge.seed)) == "");
     }
+}
+
+// Two statements of section 4: a fault of a production that matches nothing is none.
+TEST_CASE("a value that is never finite is a fault only where it is computed") {
+    Grammar grammar;
+    add_axiom(grammar, letters("A"));
+    Production never = choice("never", 1, {{"F", {binary("/", number(1), number(0))}}});
+    never.probability.reset();
+    never.condition = binary(">", number(0), number(1));
+    add_production(grammar, never);
+    Production other = choice("other", 1, {{"F", {call("asin", {number(2)})}}});
+    other.probability.reset();
+    other.predecessor = {{"B", {}}};
+    add_production(grammar, other);
+    Production undecided = choice("undecided", 1, letters("F"));
+    undecided.probability.reset();
+    undecided.predecessor = {{"C", {}}};
+    undecided.condition = call("log", {number(0)});
+    add_production(grammar, undecided);
+    CHECK(difference(one_step(grammar, 0)) == "");
+    for (const char* axiom : {"B", "C"}) { // applied, tried
+        Grammar faulty = grammar;
+        for (Statement& statement : faulty.files[0].statements) {
+            if (statement.kind == StatementKind::Axiom) {
+                statement.modules = letters(axiom);
+            }
+        }
+        CHECK(derive(faulty, one_step(faulty, 0).request).error.has_value());
+        CHECK(difference(one_step(faulty, 0)) == "");
+    }
+}
+
+TEST_CASE("polygons are checked along the word") {
+    CHECK(difference(one_step(letter_system("{A", {"A=}F{", "B=}"}), 0)) == "");
+    CHECK(difference(one_step(letter_system("{[A]F", {"A=}"}), 0)) == "");
+    CHECK(difference(one_step(letter_system("FA", {"A=}{"}), 0)) == "");
+    CHECK(difference(one_step(letter_system("{A}F", {"A=[%}]"}), 0)) == "");
+    CHECK(difference(one_step(letter_system("A}", {"A=%{"}), 0)) == "");
+}
+
+// More grammars than a run of all tests compares: LSYS_RANDOM_GRAMMARS is `FIRST-LAST`.
+TEST_CASE("random grammars of a range are derived as by the oracle", "[.]") {
+    const char* const range_text = std::getenv("LSYS_RANDOM_GRAMMARS");
+    unsigned long long first = 1001;
+    unsigned long long last = 10000;
+    if (range_text != nullptr) {
+        REQUIRE(std::sscanf(range_text, "%llu-%llu", &first, &last) == 2);
+    }
+    REQUIRE(first <= last);
+    compare_seeds(first, last);
 }
 
 TEST_CASE("words that become empty stay empty") {

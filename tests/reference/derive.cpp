@@ -454,17 +454,36 @@ std::uint64_t seed_of(const Grammar& grammar, const Request& request) {
     return seed ? std::strtoull(seed->c_str(), nullptr, 10) : 0;
 }
 
-// "A `]` without its `[` is an error" in the last word.
-std::optional<RunError> unmatched_bracket(const Word& word, std::uint32_t age) {
+// "A `]` without its `[` is an error" in the last word; "`{` `}` follow the same rule, along the
+// word and apart from brackets". What a cut removes is neither `{` nor `}`.
+std::optional<RunError>
+unmatched_bracket(const System& system, const Word& word, std::uint32_t age) {
     std::uint64_t open = 0;
+    std::uint64_t polygons = 0;
+    std::uint64_t cut = 0; // branches open in the removed part, and the cut one
     for (std::size_t i = 0; i < word.size(); ++i) {
-        if (word[i].name == "[") {
+        const std::string& name = word[i].name;
+        const bool removed = cut > 0;
+        if (name == "[") {
             ++open;
-        } else if (word[i].name == "]") {
+            cut += removed ? 1 : 0;
+        } else if (name == "]") {
             if (open == 0) {
                 return RunError{Failure::UnmatchedBracket, "", i, age, word[i]};
             }
             --open;
+            cut -= removed ? 1 : 0;
+        } else if (removed) {
+            continue;
+        } else if (name == "{") {
+            ++polygons;
+        } else if (name == "}") {
+            if (polygons == 0) {
+                return RunError{Failure::UnmatchedPolygon, "", i, age, word[i]};
+            }
+            --polygons;
+        } else if (system.cuts && name == "%") {
+            cut = 1;
         }
     }
     return std::nullopt;
@@ -507,7 +526,7 @@ Derivation derive(const Grammar& grammar, const Request& request) {
         derivation.error = RunError{Failure::BadRange, "", 0, 0, {}};
         return derivation;
     }
-    derivation.error = unmatched_bracket(derivation.words.back(), system.steps);
+    derivation.error = unmatched_bracket(system, derivation.words.back(), system.steps);
     return derivation;
 }
 

@@ -45,16 +45,17 @@ struct Request {
 };
 
 enum class Failure {
-    NotFinite,       // a parameter or a condition
-    BadRange,        // min > max, bounds or width not finite, a distribution out of its bounds
-    BadWeight,       // negative, not finite, or with a sum that is not finite
-    UnmatchedBracket // a `]` without its `[` in the last word
+    NotFinite,        // a parameter or a condition
+    BadRange,         // min > max, bounds or width not finite, a distribution out of its bounds
+    BadWeight,        // negative, not finite, or with a sum that is not finite
+    UnmatchedBracket, // a `]` without its `[` in the last word
+    UnmatchedPolygon  // a `}` without its `{` in the last word
 };
 
 struct RunError {
     Failure failure = Failure::NotFinite;
-    std::string production;       // empty for UnmatchedBracket and for errors before generation 0
-    std::uint64_t position = 0;   // in the word that is read; UnmatchedBracket: in the last word
+    std::string production;     // empty for an unmatched bracket and for errors before generation 0
+    std::uint64_t position = 0; // in the word that is read; an unmatched bracket: in the last word
     std::uint32_t generation = 0; // the age of that word
     Module module;                // the first module that the production rewrites
 };

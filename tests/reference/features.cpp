@@ -24,7 +24,7 @@ public:
         if (derivation_.error) {
             static const std::vector<std::string> kErrors = {
                 "error: not finite", "error: bad range", "error: bad weight",
-                "error: unmatched bracket"};
+                "error: unmatched bracket", "error: unmatched polygon"};
             found_.insert(kErrors[static_cast<std::size_t>(derivation_.error->failure)]);
         }
         if (!test_case_.request.definitions.empty()) {
@@ -98,10 +98,15 @@ private:
             defined_[statement.name] = is_curve ? "call of a curve" : "call of a function";
         } else if (statement.kind == StatementKind::Consider) {
             found_.insert("consider");
+        } else if (statement.kind == StatementKind::Material) {
+            found_.insert("material");
         }
     }
 
     void production(const Production& production) {
+        if (production.stage == Stage::Interpret) {
+            found_.insert("interpret");
+        }
         if (derivation_.applications.count(production.label) == 0) {
             return;
         }
@@ -109,10 +114,18 @@ private:
         if (production.stage == Stage::Decompose) {
             found_.insert("decompose, " + mode);
         }
+        int polygons = 0;
         for (const ModuleUse& use : production.successor) {
+            polygons += use.name == "{" ? 1 : use.name == "}" ? -1 : 0;
+            if (use.name == "'" && use.arguments.size() == 3) {
+                found_.insert("colour of three parts");
+            }
             if (use.name == "%") {
                 found_.insert("cut, " + mode);
             }
+        }
+        if (polygons != 0) {
+            found_.insert("polygon along the word");
         }
         if (production.left) {
             found_.insert("left context");
@@ -316,6 +329,11 @@ const std::vector<std::string>& feature_names() {
                                                     "computed weight",
                                                     "several axioms",
                                                     "error: unmatched bracket",
+                                                    "error: unmatched polygon",
+                                                    "polygon along the word",
+                                                    "colour of three parts",
+                                                    "material",
+                                                    "interpret",
                                                     "unary -",
                                                     "unary !",
                                                     "operator +",

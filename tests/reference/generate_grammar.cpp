@@ -361,7 +361,9 @@ private:
         expand_bundles();
         repair_probabilities();
         decompose_some();
+        interpret_some();
         cut_some();
+        add_materials();
         add_ignored();
         add_settings();
         declare_ambiguous_names();
@@ -391,9 +393,46 @@ private:
         }
     }
 
+    // Moves a group to `#interpret`, which changes no word: its productions are only drawn.
+    void interpret_some() {
+        if (!random_.percent(10)) {
+            return;
+        }
+        std::string chosen;
+        for (File& file : case_.grammar.files) {
+            for (Statement& statement : file.statements) {
+                Production& production = statement.production;
+                if (statement.kind != StatementKind::Production || production.left ||
+                    production.right || production.predecessor.size() != 1 ||
+                    production.stage != Stage::Rewrite) {
+                    continue;
+                }
+                chosen = chosen.empty() ? group_of(production) : chosen;
+                if (chosen == group_of(production)) {
+                    production.stage = Stage::Interpret;
+                }
+            }
+        }
+    }
+
+    // Adds some `#material`, each of another index.
+    void add_materials() {
+        static const std::vector<std::string> kValues = {
+            "0 colour 0.4 0.3 0.2", "(2-1) color 1 0 .5 roughness 0.9",
+            "65535 translucency (1/2) two_sided 1", "7 roughness 0", "40 colour 0 0 1"};
+        for (const std::string& values : kValues) {
+            if (random_.percent(6)) {
+                Statement statement;
+                statement.kind = StatementKind::Material;
+                statement.text = values;
+                add_statement(statement, any_file());
+            }
+        }
+    }
+
     // Inserts a `%` in some places.
     void cut_some() {
-        if (!random_.percent(15)) {
+        if (!random_.percent(22)) {
             return;
         }
         for (File& file : case_.grammar.files) {

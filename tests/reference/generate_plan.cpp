@@ -36,6 +36,7 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     plan.brackets = random.percent(60);
     plan.unbalanced = plan.brackets && random.percent(7);
     plan.polygons = random.percent(15);
+    plan.open_polygons = plan.polygons && random.percent(40);
     plan.context_percent = random.pick(std::vector<std::size_t>{0, 40, 80});
     plan.condition_percent = random.pick(std::vector<std::size_t>{0, 40, 70});
     plan.stochastic_percent = random.pick(std::vector<std::size_t>{0, 30, 70});
@@ -74,6 +75,9 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
         const std::string& symbol = symbols[static_cast<std::size_t>(i)];
         const bool bare = symbol == "|" || symbol == "$" || symbol == ".";
         add_species(plan, symbol, bare ? 0 : most, random);
+    }
+    if (random.percent(8)) {
+        plan.species.push_back({"'", 3}); // a colour
     }
     if (random.percent(25)) {
         add_species(plan, quoted[0], most, random);

@@ -22,6 +22,7 @@ struct Plan {
     bool brackets = false;
     bool unbalanced = false; // some successors do not balance their brackets
     bool polygons = false;
+    bool open_polygons = false; // some successors do not balance their polygons
     std::size_t context_percent = 0;
     std::size_t condition_percent = 0;
     std::size_t stochastic_percent = 0;

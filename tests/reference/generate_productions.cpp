@@ -221,6 +221,17 @@ std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, 
         const auto at = static_cast<std::ptrdiff_t>(random_.below(list.size() + 1));
         list.insert(list.begin() + at, {random_.percent(60) ? "[" : "]", {}});
     }
+    if (plan_.open_polygons && random_.percent(30)) {
+        // Begins a polygon, ends one, or ends one and begins another.
+        const auto at = static_cast<std::ptrdiff_t>(random_.below(list.size() + 1));
+        const std::size_t way = random_.below(4);
+        if (way != 1) {
+            list.insert(list.begin() + at, {"{", {}});
+        }
+        if (way == 1 || way == 2) {
+            list.insert(list.begin() + at, {"}", {}});
+        }
+    }
     return list;
 }
 

@@ -66,6 +66,7 @@ enum class StatementKind {
     Set,
     Ignore,
     Consider,
+    Material,
     Axiom,
     Production,
 };
@@ -73,7 +74,7 @@ enum class StatementKind {
 struct Statement {
     StatementKind kind = StatementKind::Axiom;
     std::string name;     // Define, Param, Function, Curve; Object: the module; Set: the key
-    std::string text;     // Object: the object; Set: the value as it is written
+    std::string text;     // Object: the object; Set, Material: the values as they are written
     std::size_t file = 0; // IncludeFile: index into Grammar::files
     Expr expr;            // Generations, Define, Param; Function: the body; Axiom: its probability
     bool has_probability = false;              // Axiom: one of several

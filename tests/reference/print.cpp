@@ -209,6 +209,10 @@ private:
             add(statement.name);
             add(statement.text);
             return;
+        case StatementKind::Material:
+            add("#material");
+            add(statement.text);
+            return;
         case StatementKind::Ignore:
         case StatementKind::Consider:
             add(statement.kind == StatementKind::Ignore ? "#ignore" : "#consider");

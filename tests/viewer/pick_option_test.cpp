@@ -3,6 +3,7 @@
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 #include "viewer/app/forest_document.h"
+#include "viewer/app/picking.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -104,6 +105,63 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
 }
 
+TEST_CASE("a pixel with --why tells what lsc trace does") {
+    const ScratchFolder folder;
+    const std::string file = folder / "bud.lsys";
+    write_text(file, "#n = 2;\n"
+                     "#w : !(0.4) A(3);\n"
+                     "#low  : A(x) : x < 1       : F(x);\n"
+                     "#up   : A(x) : x >= 1 ~ 0.5 : let y = x - 1 : F(y) [ +(90) S(y) ] A(x - 1);\n"
+                     "#both : A(x) : x >= 1 ~ 0.5 : F(x - 1) [ +(90) S(x - 1) ] A(x - 1);\n"
+                     "#interpret s : S(x) : * : F(x) F(0.1);\n");
+    struct Scope {
+        const char* why;
+        const char* option; // of lsc trace; empty: none
+    };
+    for (const Scope scope :
+         {Scope{"written", "--written"}, Scope{"next", ""}, Scope{"back", "--back"}}) {
+        for (const double x : {0.0, 1.2}) { // the stem, and a branch that is drawn by #interpret
+            const PickRun pick =
+                picked(with_front(file, {"--why", scope.why}), pixel(x, x == 0.0 ? 1.0 : 2.0));
+            CAPTURE(scope.why, x, pick.run.err, pick.run.out);
+            REQUIRE(pick.run.status == 0);
+            REQUIRE(pick.lines.size() > 5);
+            CHECK(pick.lines[0] == (x == 0.0 ? "F(2), module 1 of 12" : "S(2), module 4 of 12"));
+            std::vector<std::string> arguments = {"trace", file, "--at", x == 0.0 ? "1" : "4"};
+            if (scope.option[0] != '\0') {
+                arguments.emplace_back(scope.option);
+            }
+            const LscRun trace = run_lsc(arguments, "");
+            REQUIRE(trace.status == 0);
+            const std::size_t at = pick.run.out.find("\n\n");
+            REQUIRE(at != std::string::npos);
+            CHECK(pick.run.out.substr(at + 2) == trace.out);
+            if (x != 0.0) {
+                CHECK((trace.out.find("interpretation, pass 0") == std::string::npos) ==
+                      (scope.why == std::string("back")));
+            }
+        }
+    }
+    CHECK(picked(with_front(file, {"--why", "written"}), pixel(-3.0, 3.0)).lines ==
+          std::vector<std::string>{"nothing"});
+}
+
+TEST_CASE("a moment of growth with --why tells of its word") {
+    const ScratchFolder folder;
+    const std::string file = folder / "two.lsys";
+    write_text(file, "#n = 3;\n#w : !(0.4) A;\n#up : A : step() < steps() - 1 : F(2) A;\n");
+    const PickRun grown =
+        picked(with_front(file, {"--grow", "--frames", "4", "--why", "written"}), pixel(0.0, 1.0));
+    CAPTURE(grown.run.err, grown.run.out);
+    REQUIRE(grown.run.status == 0);
+    const auto says = [&](const char* text) {
+        return grown.run.out.find(text) != std::string::npos;
+    };
+    CHECK(says("F(2) at position 1 of generation 1, written by `up`"));
+    CHECK(says("F(2) at position 1 of generation 2, written by `up`"));
+    CHECK(says("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
+}
+
 TEST_CASE("a pixel of a forest tells the branch and how often it stands there") {
     const ScratchFolder folder;
     const std::string file = folder / "bush.lsys";
@@ -183,6 +241,14 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
         }
     }
     CHECK(branches > 3);
+    Picked branch;
+    branch.kind = PickedKind::Branch;
+    branch.tree = document.grown.forest.trees.front();
+    const Outcome<view::Description> told =
+        view::describe(branch, {}, document, file, make_project(console, options.run));
+    REQUIRE(told);
+    CHECK_FALSE(told.value().module); // nothing to trace, and the window says why
+    CHECK(told.value().hint.find("open its grammar alone") != std::string::npos);
 }
 
 TEST_CASE("mistakes of --pick and --colours are told") {
@@ -200,6 +266,10 @@ TEST_CASE("mistakes of --pick and --colours are told") {
               .find("outside of the picture of 32 x 24 pixels") != std::string::npos);
     CHECK(said({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=
           std::string::npos);
+    CHECK(said({plant, "--why", "back", "--screenshot", "a.png"}).find("add `--pick X,Y`") !=
+          std::string::npos);
+    CHECK(said({plant, "--count", "3", "--why", "back", "--pick", "3,3", "--screenshot", "a.png"})
+              .find("show its grammar alone") != std::string::npos);
     CHECK(said({plant, "--colours", "id", "--screenshot", "a.png"}).find("`--count 1`") !=
           std::string::npos);
     CHECK(said({plant, "--colours", "order", "--count", "3", "--screenshot", "a.png"})

@@ -19,6 +19,19 @@ float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
+/// The next view of a trace, around.
+TraceScope scope_after(TraceScope scope) {
+    switch (scope) {
+    case TraceScope::Written:
+        return TraceScope::Next;
+    case TraceScope::Next:
+        return TraceScope::Back;
+    case TraceScope::Back:
+        break;
+    }
+    return TraceScope::Written;
+}
+
 /// Rotates the camera around the target: half a turn per picture height of `drag`.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
@@ -376,6 +389,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::N:
         next_seed(view);
+        break;
+    case Key::T:
+        view.trace(view.shows_trace() ? scope_after(view.trace_scope()) : view.trace_scope());
         break;
     default:
         break;

@@ -25,9 +25,10 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 26> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 27> kPlantKeys = {{
     {"Left drag", "Orbit"},
-    {"Click", "Tell the module and its production"},
+    {"Click", "Tell the module, and why its production wrote it"},
+    {"T", "Trace of the module: why written, next step, back to the axiom"},
     {"Right drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
     {"F", "Frame all"},

@@ -121,6 +121,13 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                "branch, each with the production that wrote it, its place and generation")
         ->type_name("X,Y")
         ->group("Picture");
+    add_choice<std::optional<TraceScope>>(
+        app, "--why", options.why,
+        {{"written", TraceScope::Written}, {"next", TraceScope::Next}, {"back", TraceScope::Back}},
+        "Explain the module that --pick finds, as `lsc trace` does: the step that wrote it, the "
+        "step "
+        "that rewrites it, or the way back to the axiom")
+        ->group("Picture");
     app.add_option("--stats", options.stats,
                    "Write counts and times of the pictures as JSON; `-` is standard output")
         ->type_name("FILE")
@@ -266,6 +273,14 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.pick && options.screenshot.empty()) {
         return UsageError{"--pick tells of a pixel of a picture",
                           "add `--screenshot FILE`, or click in the window"};
+    }
+    if (options.why && options.is_forest) {
+        return UsageError{"--why explains a module of a plant, and a branch of a forest stands for "
+                          "many",
+                          "show its grammar alone"};
+    }
+    if (options.why && !options.pick) {
+        return UsageError{"--why explains the module that a pixel shows", "add `--pick X,Y`"};
     }
     if (options.pick && (options.pick->x >= options.width || options.pick->y >= options.height)) {
         return UsageError{fmt::format("--pick {},{} lies outside of the picture of {} x {} pixels",

@@ -5,6 +5,7 @@
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/scene_overrides.h"
+#include "runtime/pipeline/trace.h"
 #include "runtime/program/message_options.h"
 #include "runtime/program/run_options.h"
 #include "runtime/program/usage.h"
@@ -63,6 +64,7 @@ struct ViewOptions {
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window, growth starts to play
     std::optional<PicturePixel> pick; // report what this pixel shows
+    std::optional<TraceScope> why;    // with `pick`: trace the module of a plant
     std::string stats;                // JSON file; `-`: standard output
 };
 

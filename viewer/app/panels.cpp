@@ -127,8 +127,9 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PopID();
 }
 
-/// Draws the messages of the grammar or scene, of shaders and of OpenGL.
-void draw_messages(const View& view, const Area& area) {
+/// Draws the messages of the grammar or scene, of shaders and of OpenGL. Returns the upper edge of
+/// their panel, or the lower edge of the area.
+float draw_messages(const View& view, const Area& area) {
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
         errors.push_back({Severity::Error, "error: " + view.shader_message(), {}});
@@ -136,8 +137,9 @@ void draw_messages(const View& view, const Area& area) {
     for (const std::string& error : view.renderer().errors()) {
         errors.push_back({Severity::Error, "error: OpenGL: " + error, {}});
     }
+    float top = area.high.y;
     if (view.entries().empty() && errors.empty()) {
-        return;
+        return top;
     }
     const float width = std::max(area.high.x - area.low.x - 16.0F, 100.0F);
     ImGui::SetNextWindowPos({area.low.x + 8.0F, area.high.y - 8.0F}, ImGuiCond_Always,
@@ -156,6 +158,120 @@ void draw_messages(const View& view, const Area& area) {
         for (const ShownMessage& message : errors) {
             draw_message(message, number++, false);
         }
+        top = ImGui::GetWindowPos().y;
+    }
+    ImGui::End();
+    return top;
+}
+
+ImVec4 colour_of(TextColour colour) {
+    switch (colour) {
+    case TextColour::Red:
+        return {1.0F, 0.62F, 0.55F, 1.0F};
+    case TextColour::Green:
+        return {0.6F, 1.0F, 0.6F, 1.0F};
+    case TextColour::Yellow:
+        return {1.0F, 0.9F, 0.5F, 1.0F};
+    case TextColour::Blue:
+        return {0.55F, 0.65F, 0.85F, 1.0F};
+    case TextColour::Cyan:
+        return {0.55F, 0.95F, 1.0F, 1.0F};
+    case TextColour::Plain:
+    case TextColour::Bold:
+        break;
+    }
+    return {0.92F, 0.92F, 0.92F, 1.0F};
+}
+
+/// Whether a line of a trace is a line of the grammar: "  7 | #grow ...".
+bool is_source_line(const TextLine& text) {
+    const std::string& gutter = text.empty() ? std::string() : text.front().text;
+    const std::size_t digit = gutter.find_first_not_of(' ');
+    return gutter.ends_with(" |") && digit != std::string::npos && gutter[digit] != '|';
+}
+
+constexpr float kTraceSpacing = 2.0F; // between the lines of a trace, pixels
+
+void draw_trace_line(const TextLine& text) {
+    if (text.empty()) {
+        ImGui::NewLine();
+        return;
+    }
+    if (is_source_line(text)) {
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const ImVec2 opposite{corner.x + ImGui::GetWindowWidth() + ImGui::GetScrollMaxX(),
+                              corner.y + ImGui::GetTextLineHeight() + kTraceSpacing};
+        constexpr ImU32 kSourceBackground = IM_COL32(255, 255, 255, 22);
+        ImGui::GetWindowDrawList()->AddRectFilled(corner, opposite, kSourceBackground);
+    }
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (i != 0) {
+            ImGui::SameLine(0.0F, 0.0F);
+        }
+        ImGui::PushStyleColor(ImGuiCol_Text, colour_of(text[i].colour));
+        line(text[i].text);
+        ImGui::PopStyleColor();
+    }
+}
+
+void draw_trace_buttons(View& view) {
+    const auto choice = [&view](const char* name, TraceScope scope, const char* help) {
+        if (ImGui::RadioButton(name, view.trace_scope() == scope)) {
+            view.trace(scope);
+        }
+        if (ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s", help);
+        }
+        ImGui::SameLine();
+    };
+    choice("Why written", TraceScope::Written, "The step that wrote the module");
+    choice("Next step", TraceScope::Next, "The step that rewrites the module");
+    choice("Back to the axiom", TraceScope::Back, "Every step from the axiom to the module");
+    if (ImGui::Button("Copy")) {
+        std::string text;
+        for (const TextLine& each : view.traced()) {
+            text += plain_text(each) + '\n';
+        }
+        ImGui::SetClipboardText(text.c_str());
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Close")) {
+        view.forget_trace();
+    }
+}
+
+/// Draws the trace of the module picked last above `bottom`.
+void draw_trace(View& view, const Area& area, float bottom) {
+    if (!view.shows_trace() || !view.picked().module) {
+        return;
+    }
+    const float width = std::max(area.high.x - area.low.x - 16.0F, 100.0F);
+    ImGui::SetNextWindowPos({area.low.x + 8.0F, bottom - 8.0F}, ImGuiCond_Always, {0.0F, 1.0F});
+    ImGui::SetNextWindowBgAlpha(0.92F);
+    if (ImGui::Begin("Trace", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+        draw_trace_buttons(view);
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float text_height =
+            static_cast<float>(std::max<std::size_t>(view.traced().size(), 1)) *
+                (ImGui::GetTextLineHeight() + kTraceSpacing) +
+            style.ScrollbarSize;
+        const ImVec2 size{width - 2.0F * style.WindowPadding.x,
+                          std::min(text_height, 0.45F * area.high.y)};
+        // Each trace scrolls on its own.
+        const std::string id =
+            fmt::format("Text {} {} {}", static_cast<int>(view.trace_scope()),
+                        view.picked().module->generation, view.picked().module->position);
+        if (ImGui::BeginChild(id.c_str(), size, false, ImGuiWindowFlags_HorizontalScrollbar)) {
+            ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, kTraceSpacing});
+            if (view.traced().empty()) {
+                ImGui::TextDisabled("deriving again ...");
+            }
+            for (const TextLine& each : view.traced()) {
+                draw_trace_line(each);
+            }
+            ImGui::PopStyleVar();
+        }
+        ImGui::EndChild();
     }
     ImGui::End();
 }
@@ -175,15 +291,18 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
 
 /// Draws the lines about the last pick, in the corner opposite to the statistics, below a note.
 void draw_picked(const View& view, const Area& area) {
-    if (view.picked().empty()) {
+    if (view.picked().lines.empty()) {
         return;
     }
     ImGui::SetNextWindowPos({area.low.x + 8.0F, 48.0F});
     ImGui::SetNextWindowBgAlpha(0.7F);
     if (ImGui::Begin("Picked", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
-        for (const std::string& each : view.picked()) {
+        for (const std::string& each : view.picked().lines) {
             line(each);
+        }
+        if (!view.picked().hint.empty()) {
+            ImGui::TextDisabled("%s", view.picked().hint.c_str());
         }
     }
     ImGui::End();
@@ -249,9 +368,10 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     if (panels.statistics) {
         draw_statistics(switcher, area);
     }
-    draw_messages(switcher.current(), area);
+    const float bottom = draw_messages(switcher.current(), area);
     draw_hint(switcher.current(), panels, area);
     draw_picked(switcher.current(), area);
+    draw_trace(switcher.current(), area, bottom);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),

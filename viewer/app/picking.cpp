@@ -6,6 +6,7 @@
 #include "runtime/pipeline/item_origin.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/program/host.h"
+#include "runtime/program/trace_report.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,11 @@ std::string item_text(const SkeletonItem& item, const Skeleton& pose) {
     return fmt::format("segment {} of {}, {:.4g} m long, {:.4g} m wide, order {}", item.index,
                        grouped(pose.segments.size()), segment.length, 2.0F * segment.base_radius,
                        segment.order);
+}
+
+/// The number of generations of the whole derivation.
+std::uint32_t generations_of(const ViewOptions& options, const PlantDocument& document) {
+    return options.grammar.generations.value_or(document.plant.generations);
 }
 
 /// Counts of a branch in a forest.
@@ -76,10 +82,10 @@ std::string tree_text(const Picked& picked, const ForestDocument& document) {
 
 } // namespace
 
-Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
-                                           const PlantDocument& document,
-                                           const ViewOptions& options,
-                                           const Project& project) {
+Outcome<Description> describe(const PickedTriangle& picked,
+                              const PlantDocument& document,
+                              const ViewOptions& options,
+                              const Project& project) {
     Step step(project);
     MeshOptions mesh = picked.mesh;
     mesh.threads = project.threads;
@@ -95,7 +101,7 @@ Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
     grammar.is_module_file = document.grammar.is_module_file;
     PlantOptions plant;
     plant.file = options.file;
-    plant.generations = options.grammar.generations.value_or(document.plant.generations);
+    plant.generations = generations_of(options, document);
     plant.seed = document.plant.seed;
     const std::uint32_t generation =
         picked.moment ? picked.moment->generation + (picked.moment->part > 0.0 ? 1 : 0)
@@ -104,7 +110,8 @@ Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
     if (!step.take(origin_of_item(plant, generation, *item, grammar, project), origin)) {
         return step.end();
     }
-    std::vector<std::string> lines;
+    Description description;
+    std::vector<std::string>& lines = description.lines;
     if (origin.module.empty()) {
         lines.push_back(
             fmt::format("a part that generation {} no longer draws", origin.generation));
@@ -112,32 +119,56 @@ Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
         lines.push_back(fmt::format("{}, module {} of {}", origin.module, origin.number,
                                     grouped(origin.modules)));
         lines.push_back(origin.origin);
+        description.module = {origin.number, origin.generation};
     }
     lines.push_back(item_text(*item, *picked.pose));
     lines.push_back(place_text(picked.place));
-    return step.done(std::move(lines));
+    return step.done(std::move(description));
 }
 
-Outcome<std::vector<std::string>> describe(const Picked& picked,
-                                           const std::vector<std::uint32_t>& alike,
-                                           const ForestDocument& document,
-                                           const std::string& file,
-                                           const Project& project) {
+Outcome<std::string> trace_picked(const PickedModule& module,
+                                  TraceScope scope,
+                                  bool colour,
+                                  const PlantDocument& document,
+                                  const ViewOptions& options,
+                                  const Project& project) {
+    Step step(project);
+    TraceOptions wanted;
+    wanted.generation = module.generation;
+    wanted.generations = generations_of(options, document);
+    wanted.seed = document.plant.seed;
+    wanted.position = module.position;
+    wanted.scope = scope;
+    wanted.is_drawn = true;
+    Trace trace;
+    if (!step.take(trace_modules(wanted, document.grammar, project), trace)) {
+        return step.end();
+    }
+    return step.done(trace_text(trace, document.grammar, colour));
+}
+
+Outcome<Description> describe(const Picked& picked,
+                              const std::vector<std::uint32_t>& alike,
+                              const ForestDocument& document,
+                              const std::string& file,
+                              const Project& project) {
     Step step(project);
     switch (picked.kind) {
     case PickedKind::Cluster:
-        return step.done(std::vector<std::string>{
-            fmt::format("a picture of {}; move closer", counted(picked.trees, "tree"))});
+        return step.done(Description{
+            {fmt::format("a picture of {}; move closer", counted(picked.trees, "tree"))}, {}, {}});
     case PickedKind::Impostor:
-        return step.done(std::vector<std::string>{
-            tree_text(picked, document), "drawn as a picture; move closer to pick its branches"});
+        return step.done(Description{
+            {tree_text(picked, document), "drawn as a picture; move closer to pick its branches"},
+            {},
+            {}});
     case PickedKind::Ground:
-        return step.done(std::vector<std::string>{"the ground, " + place_text(picked.place)});
+        return step.done(Description{{"the ground, " + place_text(picked.place)}, {}, {}});
     case PickedKind::Branch:
         break;
     case PickedKind::Nothing:
     case PickedKind::Plant:
-        return step.done(std::vector<std::string>{"nothing"});
+        return step.done(Description{{"nothing"}, {}, {}});
     }
     const Forest& forest = document.grown.forest;
     const InstanceCache& cache = *document.model.forms[picked.form].cache;
@@ -160,7 +191,9 @@ Outcome<std::vector<std::string>> describe(const Picked& picked,
     if (!count) {
         return step.end(Stop::Cancelled);
     }
-    std::vector<std::string> lines;
+    Description description;
+    description.hint = "a branch stands for many, so there is no trace: open its grammar alone";
+    std::vector<std::string>& lines = description.lines;
     lines.push_back(fmt::format("branch {} of {}: id {}, age {}, hero {}", picked.instance,
                                 grouped(cache.instances.size()), slot.id, slot.age, instance.hero));
     lines.push_back(origins[picked.instance]);
@@ -168,23 +201,41 @@ Outcome<std::vector<std::string>> describe(const Picked& picked,
                                 counted(count->branches, grouped(count->branches), "time"),
                                 counted(count->trees, grouped(count->trees), "tree")));
     lines.push_back(tree_text(picked, document));
-    return step.done(std::move(lines));
+    return step.done(std::move(description));
 }
 
-PickOutcome run_pick(const PickRequest& request, const std::atomic<bool>& cancelled) {
-    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads, {}};
+namespace {
+
+Project worker_project(const RunOptions& run, const std::atomic<bool>& cancelled) {
+    return {make_file_host(&cancelled), run.limits, run.threads, {}};
+}
+
+std::string text_of(const Messages& messages) {
+    return messages_text(messages, MessageOptions{}, "lsview");
+}
+
+} // namespace
+
+Description run_pick(const PickRequest& request, const std::atomic<bool>& cancelled) {
     return catch_out_of_memory(
         [&] {
-            PickOutcome made;
-            Outcome<std::vector<std::string>> outcome = request.describe(project);
-            if (outcome) {
-                made.lines = std::move(outcome.value());
-            } else {
-                made.lines.push_back(messages_text(outcome.messages(), MessageOptions{}, "lsview"));
-            }
-            return made;
+            Outcome<Description> outcome = request.describe(worker_project(request.run, cancelled));
+            return outcome ? std::move(outcome.value())
+                           : Description{{text_of(outcome.messages())}, {}, {}};
         },
-        [] { return PickOutcome{{"out of memory"}}; });
+        [] {
+            return Description{{"out of memory"}, {}, {}};
+        });
+}
+
+std::string run_trace(const TraceRequest& request, const std::atomic<bool>& cancelled) {
+    return catch_out_of_memory(
+        [&] {
+            const Outcome<std::string> outcome = request.trace(
+                request.module, request.scope, worker_project(request.run, cancelled));
+            return (outcome ? outcome.value() : std::string()) + text_of(outcome.messages());
+        },
+        [] { return std::string("out of memory"); });
 }
 
 } // namespace lsys::view

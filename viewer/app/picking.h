@@ -1,9 +1,10 @@
-// Picking: description of the part of a plant or forest that a pixel shows, as lines of text.
-// Renderer::pick() finds the part; the production that wrote it is found by deriving again, on a
-// thread of its own in a window.
+// Picking: description of the part of a plant or forest that a pixel shows, as lines of text, and
+// the trace of the module that drew it. Renderer::pick() finds the part; the production that wrote
+// it and the trace are found by deriving again, on threads of their own in a window.
 #pragma once
 
 #include "runtime/pipeline/growth_moment.h"
+#include "runtime/pipeline/trace.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/latest_request_worker.h"
 #include "viewer/app/plant_document.h"
@@ -28,36 +29,75 @@ struct PickedTriangle {
     std::optional<GrowthMoment> moment; // moment of a growing plant; empty: all generations
 };
 
+/// A module of a word of a plant.
+struct PickedModule {
+    std::uint64_t position = 0; // in the word, from 0
+    std::uint32_t generation = 0;
+};
+
+struct Description {
+    std::vector<std::string> lines;
+    std::optional<PickedModule> module; // of a plant: the module that drew the part
+    std::string hint;                   // why there is no trace; may be empty
+};
+
 /// Describes the module, its production with place and generation, and the segment, object or
 /// polygon. `options`: the options with which the document was made.
-[[nodiscard]] Outcome<std::vector<std::string>> describe(const PickedTriangle& picked,
-                                                         const PlantDocument& document,
-                                                         const ViewOptions& options,
-                                                         const Project& project);
+[[nodiscard]] Outcome<Description> describe(const PickedTriangle& picked,
+                                            const PlantDocument& document,
+                                            const ViewOptions& options,
+                                            const Project& project);
+
+/// The text of `lsc trace` about a module that describe() has found, with the same `document` and
+/// `options`. `colour`: with SGR codes.
+[[nodiscard]] Outcome<std::string> trace_picked(const PickedModule& module,
+                                                TraceScope scope,
+                                                bool colour,
+                                                const PlantDocument& document,
+                                                const ViewOptions& options,
+                                                const Project& project);
 
 /// Describes the branch with id, age and hero, its production with place and generation, its count
 /// in the forest, and its tree; for an impostor only the tree. `alike`: numbers of the living trees
 /// of the same form, by Renderer::trees_of(). `file`: the scene, or a grammar.
-[[nodiscard]] Outcome<std::vector<std::string>> describe(const Picked& picked,
-                                                         const std::vector<std::uint32_t>& alike,
-                                                         const ForestDocument& document,
-                                                         const std::string& file,
-                                                         const Project& project);
+[[nodiscard]] Outcome<Description> describe(const Picked& picked,
+                                            const std::vector<std::uint32_t>& alike,
+                                            const ForestDocument& document,
+                                            const std::string& file,
+                                            const Project& project);
+
+/// trace_picked() with all arguments bound but the module and the scope.
+using TraceFunction =
+    std::function<Outcome<std::string>(const PickedModule&, TraceScope, const Project&)>;
 
 /// Work for another thread: a call of describe() with its arguments bound.
 struct PickRequest {
-    std::function<Outcome<std::vector<std::string>>(const Project&)> describe;
+    std::function<Outcome<Description>(const Project&)> describe;
+    TraceFunction trace; // of the module described; empty in forests
     RunOptions run;
     SteadyClock::time_point since;
     bool again = false;
 };
 
-struct PickOutcome {
-    std::vector<std::string> lines;
+/// Returns the description, or the messages of its failure.
+[[nodiscard]] Description run_pick(const PickRequest& request, const std::atomic<bool>& cancelled);
+
+using PickWorker = LatestRequestWorker<PickRequest, Description>;
+
+/// Work for another thread: a trace of a module.
+struct TraceRequest {
+    TraceFunction trace;
+    PickedModule module;
+    TraceScope scope = TraceScope::Written;
+    RunOptions run;
+    SteadyClock::time_point since;
+    bool again = false;
 };
 
-[[nodiscard]] PickOutcome run_pick(const PickRequest& request, const std::atomic<bool>& cancelled);
+/// Returns the text of the trace, and messages of errors that end it.
+[[nodiscard]] std::string run_trace(const TraceRequest& request,
+                                    const std::atomic<bool>& cancelled);
 
-using PickWorker = LatestRequestWorker<PickRequest, PickOutcome>;
+using TraceWorker = LatestRequestWorker<TraceRequest, std::string>;
 
 } // namespace lsys::view

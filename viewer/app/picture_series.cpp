@@ -139,27 +139,26 @@ ExitStatus take_series(const ViewOptions& options,
                : report_error(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
 }
 
-ExitStatus write_picked(
-    const ViewOptions& options,
-    const Frame& frame,
-    std::uint32_t number,
-    Renderer& renderer,
-    const Console& console,
-    const std::function<Outcome<std::vector<std::string>>(const Picked& picked)>& describe) {
+ExitStatus write_picked(const ViewOptions& options,
+                        const Frame& frame,
+                        std::uint32_t number,
+                        Renderer& renderer,
+                        const Console& console,
+                        const std::function<Outcome<Description>(const Picked& picked)>& describe) {
     const Result<Picked> picked =
         renderer.pick(frame, options.pick->x, frame.height - 1 - options.pick->y);
     if (!picked) {
         return report_error(picked.error(), console);
     }
-    std::vector<std::string> lines{"nothing"};
+    Description description{{"nothing"}, {}, {}};
     if (picked.value().kind != PickedKind::Nothing) {
-        if (const ExitStatus status = console.take(describe(picked.value()), lines);
+        if (const ExitStatus status = console.take(describe(picked.value()), description);
             status != ExitStatus::Ok) {
             return status;
         }
     }
     std::string text = options.frames == 0 ? std::string() : fmt::format("picture {}\n", number);
-    for (const std::string& line : lines) {
+    for (const std::string& line : description.lines) {
         text += line + '\n';
     }
     return report_result(console.write(text), console);

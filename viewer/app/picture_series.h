@@ -3,6 +3,7 @@
 
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
+#include "viewer/app/picking.h"
 #include "viewer/gl/renderer.h"
 
 #include <cstdint>
@@ -42,13 +43,13 @@ struct PictureSeries {
 /// Writes the lines of --pick for the frame to standard output; in a series, after a line with the
 /// number of the picture. `describe`: called with the result of Renderer::pick(), unless it is
 /// PickedKind::Nothing.
-[[nodiscard]] ExitStatus write_picked(
-    const ViewOptions& options,
-    const Frame& frame,
-    std::uint32_t number, // of the picture, from 1
-    Renderer& renderer,
-    const Console& console,
-    const std::function<Outcome<std::vector<std::string>>(const Picked& picked)>& describe);
+[[nodiscard]] ExitStatus
+write_picked(const ViewOptions& options,
+             const Frame& frame,
+             std::uint32_t number, // of the picture, from 1
+             Renderer& renderer,
+             const Console& console,
+             const std::function<Outcome<Description>(const Picked& picked)>& describe);
 
 /// Writes `text` to the target of --stats.
 [[nodiscard]] ExitStatus

@@ -2,6 +2,7 @@
 
 #include "runtime/physics/physics.h"
 #include "runtime/pipeline/plant_growth.h"
+#include "runtime/pipeline/step.h"
 #include "runtime/program/host.h"
 #include "runtime/program/weight_report.h"
 #include "viewer/app/picking.h"
@@ -148,6 +149,30 @@ ExitStatus begin_growth(const ViewOptions& options,
     return ExitStatus::Ok;
 }
 
+/// describe(), with the trace of --why as a further line.
+Outcome<Description> describe_with_trace(const PickedTriangle& picked,
+                                         const PlantDocument& document,
+                                         const ViewOptions& options,
+                                         const Project& project) {
+    Step step(project);
+    Description description;
+    if (!step.take(describe(picked, document, options, project), description)) {
+        return step.end();
+    }
+    if (options.why && description.module) {
+        const bool colour = options.messages.colour == ColourMode::Always;
+        std::string text;
+        if (!step.take(
+                trace_picked(*description.module, *options.why, colour, document, options, project),
+                text)) {
+            return step.end();
+        }
+        text.pop_back(); // its last line end
+        description.lines.push_back("\n" + text);
+    }
+    return step.done(std::move(description));
+}
+
 } // namespace
 
 ExitStatus take_pictures(const ViewOptions& options,
@@ -225,7 +250,7 @@ ExitStatus take_pictures(const ViewOptions& options,
                         triangle.moment = moment_of_frame(pictures - 1, options.frames,
                                                           growth->last_generation());
                     }
-                    return describe(triangle, document, options, project);
+                    return describe_with_trace(triangle, document, options, project);
                 });
         };
     }

@@ -471,6 +471,10 @@ PickRequest PlantView::request_for(const Picked& picked) const {
     request.describe = [triangle, pose, options, document = document_](const Project& project) {
         return view::describe(triangle, *document, options, project);
     };
+    request.trace = [options, document = document_](const PickedModule& module, TraceScope scope,
+                                                    const Project& project) {
+        return trace_picked(module, scope, true, *document, options, project);
+    };
     return request;
 }
 

@@ -118,6 +118,7 @@ void View::pick(const PicturePixel& pixel) {
     }
     request.run = options_.run;
     request.since = SteadyClock::now();
+    trace_function_ = request.trace;
     if (picker_ == nullptr) {
         picker_ = std::make_unique<PickWorker>(run_pick, wake_);
     }
@@ -126,21 +127,61 @@ void View::pick(const PicturePixel& pixel) {
 }
 
 void View::forget_picked() {
-    picked_.clear();
+    picked_ = {};
     wants_picked_ = false;
+    forget_trace();
 }
 
 bool View::take_picked() {
+    const bool has_trace = take_trace();
     if (picker_ == nullptr) {
-        return false;
+        return has_trace;
     }
-    std::optional<PickOutcome> outcome = picker_->take();
+    std::optional<Description> outcome = picker_->take();
     if (!outcome || !wants_picked_) {
+        return has_trace;
+    }
+    picked_ = std::move(*outcome);
+    for (const std::string& line : picked_.lines) {
+        console_.detail(fmt::format("picked: {}", line));
+    }
+    if (!picked_.hint.empty()) {
+        console_.detail(fmt::format("picked: {}", picked_.hint));
+    }
+    trace(trace_scope_);
+    return true;
+}
+
+void View::trace(TraceScope scope) {
+    if (!picked_.module || !trace_function_) {
+        return;
+    }
+    trace_scope_ = scope;
+    traced_.clear();
+    wants_trace_ = true;
+    if (tracer_ == nullptr) {
+        tracer_ = std::make_unique<TraceWorker>(run_trace, wake_);
+    }
+    tracer_->request(
+        {trace_function_, *picked_.module, scope, options_.run, SteadyClock::now(), false});
+}
+
+void View::forget_trace() {
+    traced_.clear();
+    wants_trace_ = false;
+}
+
+bool View::take_trace() {
+    if (tracer_ == nullptr) {
         return false;
     }
-    picked_ = std::move(outcome->lines);
-    for (const std::string& line : picked_) {
-        console_.detail(fmt::format("picked: {}", line));
+    const std::optional<std::string> text = tracer_->take();
+    if (!text || !wants_trace_) {
+        return false;
+    }
+    traced_ = styled_lines(*text);
+    for (const TextLine& line : traced_) {
+        console_.detail(fmt::format("traced: {}", plain_text(line)));
     }
     return true;
 }

@@ -7,6 +7,7 @@
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/app/picking.h"
+#include "viewer/app/styled_text.h"
 #include "viewer/gl/renderer.h"
 
 #include <atomic>
@@ -61,11 +62,21 @@ public:
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
 
     /// Starts to describe the part that a pixel of the last picture shows; picked() returns the
-    /// description once it is made.
+    /// description once it is made. Then a trace of its module begins.
     void pick(const PicturePixel& pixel);
-    /// Description of the part picked last, in lines; empty if there is none.
-    [[nodiscard]] const std::vector<std::string>& picked() const { return picked_; }
+    /// Description of the part picked last; without lines if there is none.
+    [[nodiscard]] const Description& picked() const { return picked_; }
     void forget_picked();
+    /// Starts to trace the module picked last; traced() has the trace once it is made. Does nothing
+    /// without a module.
+    void trace(TraceScope scope);
+    /// Scope of the last trace, and of the first trace of the next module.
+    [[nodiscard]] TraceScope trace_scope() const { return trace_scope_; }
+    /// Trace of the module picked last, in lines; empty if there is none or it is not made yet.
+    [[nodiscard]] const std::vector<TextLine>& traced() const { return traced_; }
+    /// Whether the trace of the module picked last is shown or being made.
+    [[nodiscard]] bool shows_trace() const { return wants_trace_; }
+    void forget_trace();
 
     /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
@@ -90,9 +101,12 @@ protected:
     /// The request that describes `picked`. Its function is empty if there is nothing to describe.
     /// Precondition: `picked` is not PickedKind::Nothing.
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
-    /// Takes the outcome of picker_. Returns whether picked() changed.
+    /// Takes the outcomes of picker_ and tracer_. Returns whether picked() or traced() changed.
     bool take_picked();
-    [[nodiscard]] bool is_picking() const { return picker_ != nullptr && picker_->is_busy(); }
+    [[nodiscard]] bool is_picking() const {
+        return (picker_ != nullptr && picker_->is_busy()) ||
+               (tracer_ != nullptr && tracer_->is_busy());
+    }
     /// Draws `frame` unless nothing changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
@@ -122,7 +136,14 @@ private:
     SteadyClock::time_point note_since_;
     bool failed_ = false;
     std::atomic<bool> shaders_changed_{false};
-    std::vector<std::string> picked_;
+    bool take_trace();
+
+    Description picked_;
+    TraceFunction trace_function_; // of the part picked last
+    TraceScope trace_scope_ = TraceScope::Written;
+    std::vector<TextLine> traced_;
+    bool wants_trace_ = false;            // no forget_trace() since the trace began
+    std::unique_ptr<TraceWorker> tracer_; // made by the first trace
     bool wants_picked_ = false; // the outcome of picker_ is still wanted: no forget_picked() since
     std::unique_ptr<PickWorker> picker_; // made by the first pick
 };

@@ -40,6 +40,7 @@ enum class Key : std::uint8_t {
     Q = 'Q',
     R = 'R',
     S = 'S',
+    T = 'T',
     W = 'W',
     X = 'X',
     Y = 'Y',

@@ -52,6 +52,39 @@ std::optional<Fix> range_fix(const CheckInput& input,
     return std::nullopt;
 }
 
+/// First values for a module of the axiom without any: `A(1)`, if production replaces `A(len)`.
+std::optional<Fix> first_values_fix(const CheckInput& input,
+                                    const ModuleMention& place,
+                                    const Production& production,
+                                    std::uint32_t wanted) {
+    constexpr std::uint32_t kMaxValues = 4;
+    const std::vector<Axiom>& axioms = input.program.axioms;
+    const bool in_axiom = std::any_of(axioms.begin(), axioms.end(), [&](const Axiom& axiom) {
+        return &axiom.word == place.word;
+    });
+    const SourceSpan module = module_span(input, *place.word, place.index);
+    const std::string name(input.sources.text(module));
+    if (!in_axiom || production.predecessor.items.size() != 1 || wanted > kMaxValues ||
+        production.formal_spans.size() != wanted || name.find('(') != std::string::npos) {
+        return std::nullopt;
+    }
+    std::string values = "1";
+    std::string names = fmt::format("`{}`", input.sources.text(production.formal_spans[0]));
+    for (std::uint32_t i = 1; i < wanted; ++i) {
+        values += ", 1";
+        names += fmt::format("{}`{}`", i + 1 == wanted ? " and " : ", ",
+                             input.sources.text(production.formal_spans[i]));
+    }
+    Fix fix;
+    fix.title =
+        wanted == 1
+            ? fmt::format("write `{}({})` here, 1 being the first value of {}", name, values, names)
+            : fmt::format("write `{}({})` here, the first values of {}", name, values, names);
+    fix.edits = {{{module.file, module.end, module.end}, "(" + values + ")"}};
+    fix.machine_applicable = false;
+    return fix;
+}
+
 } // namespace
 
 void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
@@ -105,7 +138,11 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
         diagnostic.notes.emplace_back(
             "a module is known by its name and its number of parameters; one that matches no "
             "production stays as it is");
-        if (std::optional<Fix> fix = range_fix(input, place, wanted, row.parameter_count)) {
+        std::optional<Fix> fix = range_fix(input, place, wanted, row.parameter_count);
+        if (!fix && row.parameter_count == 0) {
+            fix = first_values_fix(input, place, production, wanted);
+        }
+        if (fix) {
             diagnostic.fixes.push_back(std::move(*fix));
         } else if (row.parameter_count > wanted) {
             diagnostic.help.push_back(fmt::format("leave out {}, or add a production for {}",

@@ -14,6 +14,56 @@ namespace lsys {
 
 namespace {
 
+bool is_pi(std::string_view name) {
+    return name == "pi" || name == "PI" || name == "Pi" || name == "M_PI";
+}
+
+/// Offers the angle in degrees for `pi`, or for `2 * pi`, as an argument of `sin`, `cos` or `tan`;
+/// returns whether it is one.
+bool offer_degrees(const SourceMap& sources, SourceSpan pi, Diagnostic& error) {
+    const std::string_view text = sources.file(pi.file).text();
+    constexpr std::uint32_t kMaxLength = 200; // of an argument
+    const std::uint32_t least = pi.begin > kMaxLength ? pi.begin - kMaxLength : 0;
+    std::uint32_t open = pi.begin;
+    for (int depth = 1; depth != 0 && open > least; --open) {
+        const char c = text[open - 1];
+        depth += c == ')' ? 1 : c == '(' ? -1 : 0;
+        if (c == ';' || (c == ',' && depth == 1)) {
+            return false;
+        }
+        if (depth == 0) {
+            break;
+        }
+    }
+    if (open < 4 || open == least || text[open - 1] != '(') {
+        return false;
+    }
+    const std::string_view function = text.substr(open - 4, 3);
+    const bool is_word = open > 4 && is_word_character(text[open - 5]);
+    if (is_word || (function != "sin" && function != "cos" && function != "tan")) {
+        return false;
+    }
+    const std::string_view before = text.substr(open, pi.begin - open);
+    const std::size_t two = before.find_last_not_of(" *");
+    const bool twice =
+        two != std::string_view::npos && before[two] == '2' &&
+        before.find('*', two) != std::string_view::npos &&
+        (two == 0 || std::string_view(" (+-*").find(before[two - 1]) != std::string_view::npos) &&
+        before.substr(0, two).find_last_of("/^") == std::string_view::npos;
+    const SourceSpan whole{pi.file, twice ? open + static_cast<std::uint32_t>(two) : pi.begin,
+                           pi.end};
+    const std::string degrees = twice ? "360" : "180";
+    add_fix(error,
+            fmt::format("`{}` takes degrees: write `{}` for `{}`", function, degrees,
+                        sources.text(whole)),
+            whole, degrees, false);
+    return true;
+}
+
+} // namespace
+
+namespace {
+
 /// Whether `text` contains `name` as a whole word.
 bool has_word(std::string_view text, std::string_view name) {
     for (std::size_t at = text.find(name); at != std::string_view::npos;
@@ -201,6 +251,9 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
         return known != kNoName && functions_.contains(known);
     };
     if (const Synonym* const synonym = find_synonym(SynonymKind::Name, text, exists)) {
+        if (is_pi(text) && offer_degrees(resolution_.sources, expression.span(), error)) {
+            return;
+        }
         error.help.push_back(help_for(*synonym, text));
         const bool is_value = synonym->spelling == "step()" || synonym->spelling == "1" ||
                               synonym->spelling == "0" || synonym->spelling == "{0, 1}";
@@ -450,10 +503,13 @@ bool ExpressionResolver::check_range(const Expression& expression,
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadRangeBounds, expression.span(),
             fmt::format("the minimum {} of this range lies above its maximum {}", *low, *high));
-        error.fixes.push_back({"exchange them",
-                               {{first, std::string(resolution_.sources.text(second))},
-                                {second, std::string(resolution_.sources.text(first))}},
-                               true});
+        const std::string low_text(resolution_.sources.text(first));
+        const std::string high_text(resolution_.sources.text(second));
+        // With names and operators another number may be the wrong one.
+        const bool are_numbers =
+            (low_text + high_text).find_first_not_of("0123456789.eE+-") == std::string::npos;
+        error.fixes.push_back(
+            {"exchange them", {{first, high_text}, {second, low_text}}, are_numbers});
         return false;
     }
     if (!std::isfinite(*low) || !std::isfinite(*high) || !std::isfinite(*high - *low)) {
@@ -500,17 +556,29 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
     const bool reaches_a_module =
         place == ExpressionPlace::Axiom || place == ExpressionPlace::Successor;
     const char* what = reaches_a_module ? "this parameter" : "this condition";
+    const auto report = [&](SourceSpan span, const char* result) {
+        Diagnostic error =
+            make_diagnostic(DiagnosticCode::NotFinite, span, fmt::format("{} is {}", what, result));
+        if (place != ExpressionPlace::Axiom) {
+            // The production may match no module, so that nothing computes the value.
+            error.severity = Severity::Warning; // set before add(), which counts errors
+            error.notes.emplace_back(place == ExpressionPlace::Successor
+                                         ? "the derivation ends where this production is applied"
+                                         : "the derivation ends where this production is tried");
+        }
+        return error;
+    };
     if (reaches_a_module || place == ExpressionPlace::Condition) {
         if (constant && !std::isfinite(*constant)) {
             const NonFiniteCause culprit = culprit_.value_or(
                 NonFiniteCause{resolution_.ast.expression(root).span(), "", std::nullopt});
-            Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::NotFinite, culprit.span,
-                fmt::format("{} is {}", what, std::isnan(*constant) ? "not a number" : "infinite"));
+            Diagnostic error =
+                report(culprit.span, std::isnan(*constant) ? "not a number" : "infinite");
             error.label = culprit.reason;
             if (culprit.definition) {
                 error.labels.push_back({*culprit.definition, "it is defined here"});
             }
+            resolution_.diagnostics.add(std::move(error));
             return;
         }
         const Value& node = values_[value];
@@ -520,9 +588,9 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
             const SourceSpan divisor = zero_divisors_.empty()
                                            ? resolution_.ast.expression(root).span()
                                            : zero_divisors_.back();
-            Diagnostic& error = resolution_.diagnostics.add(
-                DiagnosticCode::NotFinite, divisor, fmt::format("{} is never finite", what));
+            Diagnostic error = report(divisor, "never finite");
             error.label = "division by zero";
+            resolution_.diagnostics.add(std::move(error));
             return;
         }
     }

@@ -68,7 +68,8 @@ public:
     void set_formals_incomplete() { formals_incomplete_ = true; }
 
     /// The value of an expression, or kPoison if it contains an error, which has been reported. A
-    /// parameter of a module or a condition that can never be finite is an error.
+    /// parameter of a module or a condition that can never be finite is an error in the axiom, and
+    /// a warning in a production, which may match no module.
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
     /// The value of a single name, for values of #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);

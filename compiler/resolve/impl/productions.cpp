@@ -1,6 +1,7 @@
 #include "compiler/resolve/impl/productions.h"
 
 #include "compiler/resolve/impl/definitions.h"
+#include "grammar/ast/reports.h"
 
 #include <fmt/format.h>
 
@@ -130,8 +131,12 @@ bool ProductionResolver::is_new_local(const LocalNode& node, const Production& p
             DiagnosticCode::DuplicateLocal, node.name_span,
             fmt::format("{} has the name {} already", what, quoted(resolution_.text(node.name))));
         error.labels.push_back({first, "the first is here"});
-        error.help.emplace_back("each parameter and local value of a production needs a name of "
-                                "its own");
+        const std::string_view name = resolution_.text(node.name);
+        const SourceSpan value = resolution_.ast.expression(node.value).span();
+        error.help.push_back(fmt::format(
+            "it cannot be given a new value: write `let {0}_new = {1}`, and `{0}_new` in the "
+            "successor where the new value is meant",
+            name, shown(resolution_.sources.text(value))));
         return false;
     };
     for (std::size_t i = 0; i < production.formals.size(); ++i) {

@@ -185,11 +185,14 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             }
         } else if (auto function = value_of(line, "function:")) {
             const std::size_t before = view.curves.size();
-            if (const auto curve = beside(function->substr(0, function->find_first_of(" \t")))) {
+            const std::string_view path = function->substr(0, function->find_first_of(" \t"));
+            if (const auto curve = beside(path)) {
                 read_curves(*curve, view.curves);
             }
             // A missing file takes a number, so that later curves keep theirs.
             view.curves.resize(before + 1);
+            const std::string_view file = path.substr(path.find_last_of('/') + 1);
+            view.curves.back().file = file.substr(0, file.find('.'));
         }
     }
     return view;
@@ -200,7 +203,7 @@ std::string curve_at(const CpfgCurve& curve, const std::string& x) {
         return in_parentheses(number(curve.points.back().y));
     }
     const std::vector<CurvePoint> points = chords(sampled(curve.points));
-    std::string text = "(" + in_parentheses(number(points.front().y));
+    std::string text = in_parentheses(number(points.front().y));
     for (std::size_t i = 1; i < points.size(); ++i) {
         const CurvePoint& from = points[i - 1];
         const CurvePoint& to = points[i];
@@ -210,15 +213,15 @@ std::string curve_at(const CpfgCurve& curve, const std::string& x) {
         }
         text += " + ";
         text += in_parentheses(slope);
-        text += " * (min(max(" + x + ", ";
-        text += number(from.x);
-        text += "), ";
-        text += number(to.x);
+        text += "*(clamp(" + x + ", ";
+        text += in_parentheses(number(from.x));
+        text += ", ";
+        text += in_parentheses(number(to.x));
         text += ") - ";
         text += in_parentheses(number(from.x));
         text += ")";
     }
-    return text + ")";
+    return text;
 }
 
 } // namespace lsys

@@ -3,12 +3,11 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 namespace lsys {
 
@@ -27,6 +26,26 @@ constexpr std::array kFunctions{
     Function{"fabs", "abs"},
 };
 
+/// A normal distribution by the Box-Muller transform of two random numbers from 0 to 1.
+constexpr std::string_view kNormal =
+    "#function nran(mean, sd, u, v) mean + sd*sqrt(-2*log(1 - u))*cos(360*v);\n";
+
+bool is_integer(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+/// `text` as a name of .lsys, or `fallback`.
+std::string as_name(std::string_view text, std::string_view fallback) {
+    std::string name;
+    for (const char c : text) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        const bool digit = c >= '0' && c <= '9';
+        name += letter || (digit && !name.empty()) ? c : '_';
+    }
+    const bool has_letter = name.find_first_not_of('_') != name.npos;
+    return has_letter ? name : std::string(fallback);
+}
+
 } // namespace
 
 bool is_cpfg_number(std::string_view text) {
@@ -37,268 +56,268 @@ bool is_cpfg_zero(std::string_view text) {
     return text.find_first_of("123456789") == text.npos;
 }
 
-std::string in_cpfg_parentheses(const std::string& text) {
-    const bool plain = is_cpfg_number(text) ||
-                       text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_") == std::string::npos;
-    return plain ? text : "(" + text + ")";
-}
-
 void CpfgExpressions::warn_left_out(SourceSpan span,
                                     const std::string& what,
                                     const std::string& message) {
-    if (!probes_ && warned_.insert(what).second) {
+    if (!quiet_ && warned_.insert(what).second) {
         session_.context.diagnostics.add(DiagnosticCode::ForeignIgnored, span, message);
     }
 }
 
-CpfgTerm CpfgExpressions::choose(const CpfgTerm& test,
-                                 const CpfgTerm& yes,
-                                 const CpfgTerm& no,
-                                 SourceSpan span) {
-    if (test.is_random) {
-        return chosen_by_chance(span, "a choice by a random number");
+/// A number without its fraction.
+ForeignId CpfgExpressions::whole(ForeignId value, SourceSpan span) {
+    if (tree_[value].kind == ForeignKind::Number && is_integer(tree_[value].text)) {
+        return value;
     }
-    const std::string condition = in_cpfg_parentheses(test.text);
-    CpfgTerm made{"(" + condition + " != 0) * " + in_cpfg_parentheses(yes.text) + " + (" +
-                      condition + " == 0) * " + in_cpfg_parentheses(no.text),
-                  yes.is_random || no.is_random, 0};
-    return made.text.size() > kMaxCpfgTerm ? unsupported(span, "a choice that is too long") : made;
+    has_integer_part_ = true;
+    return tree_.call("int", {value}, span);
 }
 
-CpfgTerm CpfgExpressions::element(const CpfgExpression& node) {
+ForeignId CpfgExpressions::read(ForeignId value, SourceSpan span) {
+    ForeignNode node = tree_[value];
+    node.span = node.token = span;
+    return tree_.add(std::move(node));
+}
+
+/// An element of an array: its curve at whole numbers, which keeps to the first and the last point.
+ForeignId CpfgExpressions::element(const ForeignNode& node) {
     const auto found = arrays_.find(node.text);
     if (found == arrays_.end()) {
         return unsupported(node.span, "`" + shown(node.text) + "` is no array");
     }
-    const Array& array = found->second;
+    Array& array = found->second;
     if (array.sizes.size() != node.parts.size()) {
         return unsupported(node.span, "`" + shown(node.text) + "` has " +
                                           std::to_string(array.sizes.size()) + " dimensions");
     }
-    std::string index = "0";
-    bool is_random = false;
+    ForeignId index = kNoForeign;
     for (std::size_t i = 0; i < node.parts.size(); ++i) {
-        const CpfgTerm part = term(node.parts[i]);
-        is_random = is_random || part.is_random;
-        const std::string floor = is_cpfg_number(part.text)
-                                      ? part.text
-                                      : "min(max(floor(" + part.text + "), 0), " +
-                                            std::to_string(array.sizes[i] - 1) + ")";
-        index =
-            i == 0 ? floor
-                   : fmt::format("{} * {} + {}", in_cpfg_parentheses(index), array.sizes[i], floor);
-    }
-    if (is_random) {
-        return chosen_by_chance(node.span, "a random number as the index of an array");
-    }
-    if (is_cpfg_number(index)) {
-        std::size_t at = 0;
-        std::from_chars(index.data(), index.data() + index.size(), at);
-        return {array.values[std::min(at, array.values.size() - 1)], false, 0};
-    }
-    std::string text;
-    for (std::size_t i = 0; i < array.values.size(); ++i) {
-        if (!is_cpfg_number(array.values[i]) || !is_cpfg_zero(array.values[i])) {
-            text += (text.empty() ? "((" : " + ((") + index + ") == " + std::to_string(i) + ") * " +
-                    in_cpfg_parentheses(array.values[i]);
+        ForeignId part = term(node.parts[i]);
+        if (tree_[part].kind != ForeignKind::Number || !is_integer(tree_[part].text)) {
+            part = tree_.call("floor", {part}, node.token);
         }
+        if (node.parts.size() > 1) { // each index keeps to its own size
+            const std::string last = std::to_string(array.sizes[i] - 1);
+            part = tree_.call("clamp",
+                              {part, tree_.number("0", node.token), tree_.number(last, node.token)},
+                              node.token);
+        }
+        if (i == 0) {
+            index = part;
+            continue;
+        }
+        const ForeignId size = tree_.number(std::to_string(array.sizes[i]), node.token);
+        index = tree_.binary("+", tree_.binary("*", index, size, node.token), part, node.token);
     }
-    return {text.empty() ? "0" : text, false, 0};
+    if (array.values.size() == 1) {
+        return array.values[0];
+    }
+    if (array.name.empty()) {
+        array.name = unique_name(as_name(node.text, "array"), function_names_);
+    }
+    return tree_.call(array.name, {index}, node.token);
 }
 
-CpfgTerm CpfgExpressions::name(const CpfgExpression& node) {
+std::string CpfgExpressions::known_literal(ForeignId value) {
+    std::string literal(tree_.literal(value));
+    while (!literal.empty() && tree_[value].kind == ForeignKind::Local) {
+        ForeignLocal& local = tree_.locals()[tree_[value].index];
+        local.is_inline = true;
+        value = local.value;
+    }
+    return literal;
+}
+
+/// The first value of a global variable, that of `Start:`.
+ForeignId CpfgExpressions::first_value(const std::string& global, SourceSpan span) {
+    const auto start = globals_.find(global);
+    return start == globals_.end() ? tree_.number("0", span) : read(start->second, span);
+}
+
+ForeignId CpfgExpressions::name(const ForeignNode& node) {
     if (const auto found = variables_.find(node.text); found != variables_.end()) {
-        CpfgTerm& value = found->second;
-        if (value.is_random && ++value.uses > 1) {
-            return chosen_by_chance(node.span,
-                                    "`" + shown(node.text) +
-                                        "` is a random number that is used more than once");
-        }
-        return {in_cpfg_parentheses(value.text), value.is_random, 0};
+        return read(found->second, node.span);
     }
     if (formals_.count(node.text) != 0) {
-        return {node.text, false, 0};
+        return tree_.name(node.text, node.span);
     }
     if (node.text == "Q") { // the number of the step, which cpfg counts from 1
-        return {stage_ == Stage::Rewrite ? "(step() + 1)" : "step()", false, 0};
+        const ForeignId step = tree_.call("step", {}, node.span);
+        return stage_ == Stage::Rewrite
+                   ? tree_.binary("+", step, tree_.number("1", node.span), node.span)
+                   : step;
     }
     if (node.text == "Z") {
-        return {"steps()", false, 0};
+        return tree_.call("steps", {}, node.span);
     }
-    if (const auto state = states_.find(stage_); state != states_.end()) {
-        if (const auto found = state->second.find(node.text); found != state->second.end()) {
-            return {in_cpfg_parentheses(found->second.text), false, 0};
-        }
+    if (const auto found = state_.find(node.text); found != state_.end()) {
+        return read(found->second, node.span);
     }
-    if (changed_globals_.count(node.text) != 0) {
-        return in_step_
-                   ? CpfgTerm{"0", false, 0}
-                   : unsupported(node.span,
-                                 "`" + shown(node.text) +
-                                     "` is changed in every step, by more than the same number");
+    if (changed_globals_.count(node.text) != 0 && !in_axiom_) {
+        return in_step_ ? tree_.number("0", node.span)
+                        : unsupported(node.span, "`" + shown(node.text) +
+                                                     "` is changed in every step, by more than the "
+                                                     "same number");
     }
-    if (const auto found = globals_.find(node.text); found != globals_.end()) {
-        return {in_cpfg_parentheses(found->second.text), false, 0};
+    if (globals_.count(node.text) == 0) {
+        warn_left_out(node.span, "name " + node.text,
+                      "`" + shown(node.text) + "` has no value before this; it is 0");
     }
-    warn_left_out(node.span, "name " + node.text,
-                  "`" + shown(node.text) + "` has no value before this; it is 0");
-    return {"0", false, 0};
-}
-
-/// A random number from 0 to 1.
-CpfgTerm CpfgExpressions::draw() {
-    const int index = random_needs_.draws++;
-    return draws_ == CpfgDraws::Bound ? CpfgTerm{draw_name(index), false, 0}
-                                      : CpfgTerm{"{0, 1}", true, 0};
-}
-
-CpfgTerm CpfgExpressions::chosen_by_chance(SourceSpan span, const std::string& message) {
-    random_needs_.bound_draws = true;
-    if (draws_ == CpfgDraws::Inline) {
-        static_cast<void>(unsupported(span, message));
-    }
-    return {"0", true, 0};
+    return first_value(node.text, node.span);
 }
 
 /// `func(which, x)`; which is a number, or a name in the set of functions.
-CpfgTerm CpfgExpressions::curve(const CpfgExpression& node) {
-    const CpfgExpression& which = node_at(node.parts[0]);
+ForeignId CpfgExpressions::curve(const ForeignNode& node) {
+    const ForeignNode which = tree_[node.parts[0]];
     std::size_t index = curves_.size();
-    for (std::size_t i = 0; i < curves_.size() && which.kind == CpfgKind::Name; ++i) {
+    for (std::size_t i = 0; i < curves_.size() && which.kind == ForeignKind::Name; ++i) {
         index = curves_[i].name == which.text && index == curves_.size() ? i : index;
     }
     std::string shown_name = shown(which.text);
-    const bool unnamed = which.kind == CpfgKind::Name && formals_.count(which.text) == 0 &&
+    const bool unnamed = which.kind == ForeignKind::Name && formals_.count(which.text) == 0 &&
                          variables_.count(which.text) == 0 && globals_.count(which.text) == 0;
     if (index == curves_.size() && !unnamed) {
-        const CpfgTerm number = term(node.parts[0]);
+        const std::string number = known_literal(term(node.parts[0]));
         std::size_t from_one = 0;
-        std::from_chars(number.text.data(), number.text.data() + number.text.size(), from_one);
-        if (!is_cpfg_number(number.text) || from_one == 0) {
+        std::from_chars(number.data(), number.data() + number.size(), from_one);
+        if (from_one == 0) {
             return unsupported(node.span, "a function that is chosen while the word is derived");
         }
         index = std::min(from_one - 1, curves_.size());
-        shown_name = number.text;
+        shown_name = number;
     }
-    CpfgTerm x = term(node.parts[1]);
+    const ForeignId x = term(node.parts[1]);
     if (index < curves_.size() && !curves_[index].points.empty()) {
-        if (x.is_random) { // each chord would draw its own number
-            return chosen_by_chance(node.span, "a function of a random number");
+        std::string& name = curve_names_[index];
+        if (name.empty()) {
+            const CpfgCurve& found = curves_[index];
+            name = unique_name(as_name(found.name.empty() ? found.file : found.name, "func"),
+                               function_names_);
         }
-        return {curve_at(curves_[index], x.text), false, 0};
+        return tree_.call(name, {x}, node.token);
     }
     if (stage_ == Stage::Interpret && !in_header_) {
         warn_left_out(node.span, "func " + shown_name,
                       "no view file beside this one has function `" + shown_name + "`: it is 1");
-        return {"1", false, 0};
+        return tree_.number("1", node.span);
     }
     return unsupported(node.span, "no view file beside this one has function `" + shown_name + "`");
 }
 
-CpfgTerm CpfgExpressions::call(const CpfgExpression& node) {
+/// `ran(size)` and `nran(mean, sd)`.
+ForeignId CpfgExpressions::random_call(const ForeignNode& node, std::vector<ForeignId> arguments) {
+    if (node.text == "nran") {
+        has_normal_ = true;
+        arguments.push_back(draw(node.token));
+        arguments.push_back(draw(node.token));
+        return tree_.call("nran", std::move(arguments), node.token);
+    }
+    const ForeignId size = arguments[0];
+    const ForeignId unit = draw(node.token);
+    if (tree_[size].kind != ForeignKind::Number) {
+        return tree_.binary("*", unit, size, node.token);
+    }
+    if (tree_[size].text == "1") {
+        return unit;
+    }
+    return binds_draws_ ? tree_.binary("*", unit, size, node.token)
+                        : tree_.range(tree_.number("0", node.token), size, node.token);
+}
+
+ForeignId CpfgExpressions::call(const ForeignNode& node) {
     if (node.text == "func" && node.parts.size() == 2) {
         return curve(node);
     }
-    std::vector<CpfgTerm> arguments;
-    bool is_random = false;
-    for (const int part : node.parts) {
-        if (node_at(part).kind == CpfgKind::String) {
+    std::vector<ForeignId> arguments;
+    for (const ForeignId part : node.parts) {
+        if (tree_[part].kind == ForeignKind::Text) {
             return unsupported(node.span, "`" + shown(node.text) + "`");
         }
         arguments.push_back(term(part));
-        is_random = is_random || arguments.back().is_random;
     }
     const auto wants = [&](std::size_t count) { return arguments.size() == count; };
     for (const Function& function : kFunctions) {
         if (function.name == node.text && wants(1)) {
-            return {std::string(function.lsys) + "(" + arguments[0].text + ")", is_random, 0};
+            return tree_.call(function.lsys, std::move(arguments), node.token);
         }
     }
     if (node.text == "atan2" && wants(2)) { // in cpfg the first argument is x, in .lsys y
-        return {"atan2(" + arguments[1].text + ", " + arguments[0].text + ")", is_random, 0};
+        return tree_.call("atan2", {arguments[1], arguments[0]}, node.token);
     }
     if (node.text == "trunc" && wants(1)) {
-        return {"floor(" + in_cpfg_parentheses(arguments[0].text) + " + 0.5)", is_random, 0};
+        const ForeignId half = tree_.number("0.5", node.token);
+        return tree_.call("floor", {tree_.binary("+", arguments[0], half, node.token)}, node.token);
     }
-    if (node.text == "ran" && wants(1)) {
-        const CpfgTerm u = draw();
-        return {u.text + " * " + in_cpfg_parentheses(arguments[0].text), is_random || u.is_random,
-                0};
-    }
-    if (node.text == "nran" && wants(2)) { // a normal distribution by the Box-Muller transform
-        const CpfgTerm u = draw();
-        const CpfgTerm v = draw();
-        return {in_cpfg_parentheses(arguments[0].text) + " + " +
-                    in_cpfg_parentheses(arguments[1].text) + " * sqrt(-2 * log(1 - " + u.text +
-                    ")) * cos(360 * " + v.text + ")",
-                is_random || u.is_random, 0};
+    if ((node.text == "ran" && wants(1)) || (node.text == "nran" && wants(2))) {
+        return random_call(node, std::move(arguments));
     }
     if (node.text == "GetDerivationLength") {
-        return {"steps()", false, 0};
+        return tree_.call("steps", {}, node.token);
     }
     return unsupported(node.span, "the function `" + shown(node.text) + "`");
 }
 
-CpfgTerm CpfgExpressions::binary(const CpfgExpression& node) {
-    const CpfgTerm a = term(node.parts[0]);
-    const CpfgTerm b = term(node.parts[1]);
-    const bool is_random = a.is_random || b.is_random;
+ForeignId CpfgExpressions::binary(const ForeignNode& node) {
+    const ForeignId a = term(node.parts[0]);
+    const ForeignId b = term(node.parts[1]);
     if (node.text == "%") { // the remainder of the operands cut to whole numbers
-        if (is_random) {
-            return chosen_by_chance(node.span, "the remainder of a random number");
-        }
-        const auto whole = [](const std::string& text) {
-            return "sign(" + text + ") * floor(abs(" + text + "))";
-        };
-        return {"mod(" + whole(a.text) + ", " + whole(b.text) + ")", false, 0};
+        return tree_.call("mod", {whole(a, node.token), whole(b, node.token)}, node.token);
     }
-    const std::string operation = node.text == "<>" ? "!=" : node.text;
-    return {in_cpfg_parentheses(a.text) + " " + operation + " " + in_cpfg_parentheses(b.text),
-            is_random, 0};
+    return tree_.binary(node.text == "<>" ? "!=" : node.text, a, b, node.token);
 }
 
-CpfgTerm CpfgExpressions::term(int index) {
-    const CpfgExpression node = node_at(index); // a copy, which stays valid if the vector grows
-    CpfgTerm made;
+ForeignId CpfgExpressions::term(ForeignId expression) {
+    const ForeignNode node = tree_[expression]; // a copy, which stays valid while the tree grows
     switch (node.kind) {
-    case CpfgKind::Number:
-        made.text = node.text;
-        break;
-    case CpfgKind::Name:
-        made = name(node);
-        break;
-    case CpfgKind::String:
-    case CpfgKind::Address:
-        made = unsupported(node.span, "a value that is no number");
-        break;
-    case CpfgKind::Unary: {
-        const CpfgTerm inner = term(node.parts[0]);
-        made = {node.text + in_cpfg_parentheses(inner.text), inner.is_random, 0};
-        break;
+    case ForeignKind::Name:
+        return name(node);
+    case ForeignKind::Text:
+    case ForeignKind::Address:
+        return unsupported(node.span, "a value that is no number");
+    case ForeignKind::Unary:
+        return tree_.unary(node.text, term(node.parts[0]), node.token);
+    case ForeignKind::Binary:
+        return binary(node);
+    case ForeignKind::Choose: {
+        std::vector<ForeignId> parts;
+        for (const ForeignId part : node.parts) {
+            parts.push_back(term(part));
+        }
+        return tree_.call("if", std::move(parts), node.token);
     }
-    case CpfgKind::Binary:
-        made = binary(node);
-        break;
-    case CpfgKind::Choose: {
-        const CpfgTerm test = term(node.parts[0]);
-        const CpfgTerm yes = term(node.parts[1]);
-        const CpfgTerm no = term(node.parts[2]);
-        made = choose(test, yes, no, node.span);
-        break;
+    case ForeignKind::Call:
+        return call(node);
+    case ForeignKind::Index:
+        return element(node);
+    default: // a number
+        return expression;
     }
-    case CpfgKind::Call:
-        made = call(node);
-        break;
-    case CpfgKind::Index:
-        made = element(node);
-        break;
+}
+
+void CpfgExpressions::write_functions(Translation& out, SourceSpan place) const {
+    if (has_integer_part_) {
+        out.put(kIntegerPart, place);
     }
-    if (made.text.size() > kMaxCpfgTerm) {
-        return unsupported(node.span,
-                           "an expression that is too long once its variables are replaced");
+    if (has_normal_) {
+        out.put(kNormal, place);
     }
-    return made;
+    for (const auto& [index, name] : curve_names_) {
+        out.put("#function " + name + "(x) " + curve_at(curves_[index], "x") + ";\n", place);
+    }
+    for (const auto& [variable, array] : arrays_) {
+        if (array.name.empty()) {
+            continue;
+        }
+        out.put("#curve " + array.name, place);
+        for (std::size_t i = 0; i < array.values.size(); ++i) {
+            const ForeignId value = array.values[i];
+            const bool plain = tree_[value].kind == ForeignKind::Number;
+            out.put((i == 0 ? " " : ", ") + std::to_string(i) + (plain ? " " : " ("), place);
+            tree_.write(value, {.expands = true}, out);
+            out.put(plain ? "" : ")", place);
+        }
+        out.put(";\n", place);
+    }
 }
 
 } // namespace lsys

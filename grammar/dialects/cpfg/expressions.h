@@ -1,6 +1,7 @@
-// Expressions and statements of cpfg as expressions of .lsys: variables that statements assign are
-// replaced by their values. Global variables are replaced too if each step adds the same amount to
-// them or assigns them before reading them.
+// Expressions and statements of cpfg in .lsys. An assignment of a production becomes a local value,
+// one of the header a constant, and `if` chooses among the values of the variables that its blocks
+// assign. Global variables are known if each step adds the same amount to them or assigns them
+// before reading them.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -11,83 +12,65 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
 
-/// An expression of .lsys.
-struct CpfgTerm {
-    std::string text;
-    bool is_random = false; // has a random range
-    int uses = 0;
-};
-
-struct CpfgConstant {
-    std::string name;
-    std::string value;
-    SourceSpan span;
-};
-
-/// Place where random numbers of a production are drawn.
-enum class CpfgDraws : std::uint8_t {
-    Inline,    // in the expression that uses them
-    Bound,     // in advance, as parameters of the module
-    Elsewhere, // by another .lsys statement; the terms of this one do not depend on them
-};
-
-/// Random numbers that a production needs.
-struct CpfgRandomNeeds {
-    bool bound_draws = false; // a random number is used twice or decides a choice
-    int draws = 0;            // count of bound random numbers
-};
-
 class CpfgExpressions {
 public:
     CpfgExpressions(CpfgSession& session, const std::vector<CpfgCurve>& curves)
-        : session_(session), curves_(curves) {}
+        : session_(session), tree_(session.expressions), curves_(curves) {}
 
     /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
+    /// Begins the axiom, or a setting: global variables have their first values.
+    void begin_axiom();
     /// Begins a production with its formals and without variables. `stage`: of the .lsys statement
     /// to be written.
-    void begin(std::set<std::string> formals, Stage stage, CpfgDraws draws = CpfgDraws::Inline);
-    /// Sets the index of the next bound random number.
-    void draw_from(int index) { random_needs_.draws = index; }
+    void begin(std::set<std::string> formals, Stage stage);
+    /// Makes the random numbers of the production parameters of its module, with numbers from
+    /// `first` on.
+    void bind_draws(std::uint32_t first);
     /// Defines a variable of the production.
-    void let(const std::string& name, const std::string& value);
+    void let(const std::string& name, ForeignId value) { variables_[name] = value; }
     void run(const std::vector<int>& statements);
-    [[nodiscard]] CpfgTerm term(int expression);
-    /// Constants that are drawn when the derivation begins, with their values.
-    [[nodiscard]] const std::vector<CpfgConstant>& constants() const { return constants_; }
+    /// The expression in .lsys.
+    [[nodiscard]] ForeignId term(ForeignId expression);
+    /// Count of random numbers of the production so far.
+    [[nodiscard]] std::uint32_t draws() const { return draws_; }
+    /// Constants are the local values before this one.
+    [[nodiscard]] std::size_t end_of_constants() const { return end_of_constants_; }
+    /// Writes the arrays and functions that expressions read.
+    void write_functions(Translation& out, SourceSpan place) const;
 
-    /// A copy that reports nothing, to find the random numbers that a production needs.
-    [[nodiscard]] CpfgExpressions probe() const;
-    [[nodiscard]] const CpfgRandomNeeds& random_needs() const { return random_needs_; }
-    /// Name of the parameter that holds bound random number `index`.
-    [[nodiscard]] std::string draw_name(int index) const;
-    /// Notes that a decision depends on a random number, which must be bound; reports an error if
-    /// random numbers are drawn inline. Returns the term 0, so that reading
-    /// goes on.
-    [[nodiscard]] CpfgTerm chosen_by_chance(SourceSpan span, const std::string& message);
-
+    /// Reports nothing from here on if `quiet`: what is read has been reported.
+    void set_quiet(bool quiet) { quiet_ = quiet; }
     /// Warns once per `what` that lsc leaves it out.
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
-    using Variables = std::map<std::string, CpfgTerm>;
+    using Variables = std::map<std::string, ForeignId>; // nodes without parts
     struct Array {
         std::vector<int> sizes;
-        std::vector<std::string> values;
+        std::vector<ForeignId> values;
+        std::string name; // of its curve in .lsys; empty: not read
     };
 
-    [[nodiscard]] CpfgTerm name(const CpfgExpression& node);
-    [[nodiscard]] CpfgTerm call(const CpfgExpression& node);
-    [[nodiscard]] CpfgTerm curve(const CpfgExpression& node);
-    [[nodiscard]] CpfgTerm element(const CpfgExpression& node);
-    [[nodiscard]] CpfgTerm binary(const CpfgExpression& node);
-    [[nodiscard]] CpfgTerm draw();
-    [[nodiscard]] CpfgTerm
-    choose(const CpfgTerm& test, const CpfgTerm& yes, const CpfgTerm& no, SourceSpan span);
+    [[nodiscard]] ForeignId name(const ForeignNode& node);
+    [[nodiscard]] ForeignId call(const ForeignNode& node);
+    [[nodiscard]] ForeignId random_call(const ForeignNode& node, std::vector<ForeignId> arguments);
+    [[nodiscard]] ForeignId curve(const ForeignNode& node);
+    [[nodiscard]] ForeignId element(const ForeignNode& node);
+    [[nodiscard]] ForeignId binary(const ForeignNode& node);
+    [[nodiscard]] ForeignId draw(SourceSpan span) { return tree_.draw(draws_++, span); }
+    [[nodiscard]] ForeignId whole(ForeignId value, SourceSpan span);
+    /// The node of a variable, as read at `span`.
+    [[nodiscard]] ForeignId read(ForeignId value, SourceSpan span);
+    /// The literal that `value` is known to be, or empty. Local values on the way to it are written
+    /// as the literal, since what depends on it stays as it is here.
+    [[nodiscard]] std::string known_literal(ForeignId value);
+    void assign(const std::string& variable, ForeignId value, SourceSpan span);
     void run(const CpfgStatement& statement);
     void branch(const CpfgStatement& statement);
     void call_statement(const CpfgStatement& statement);
@@ -96,52 +79,54 @@ private:
     void read_each_step();
     [[nodiscard]] int assignments(const std::vector<int>& statements, const std::string& to) const;
     /// Returns true when the expression has one of the names, or a random number.
-    [[nodiscard]] bool uses(int expression, const std::set<std::string>& names) const;
+    [[nodiscard]] bool uses(ForeignId expression, const std::set<std::string>& names) const;
     [[nodiscard]] bool depends(const std::vector<int>& statements,
                                const std::string& to,
                                const std::set<std::string>& names) const;
-    [[nodiscard]] int step_of(const std::string& variable) const;
+    [[nodiscard]] ForeignId step_of(const std::string& variable) const;
     [[nodiscard]] std::optional<bool> is_assigned_first(const std::vector<int>& statements,
                                                         const std::string& variable) const;
     void enter_step();
-    [[nodiscard]] const CpfgExpression& node_at(int index) const {
-        return session_.expressions[static_cast<std::size_t>(index)];
-    }
+    [[nodiscard]] ForeignId first_value(const std::string& global, SourceSpan span);
     [[nodiscard]] const CpfgStatement& statement_at(int index) const {
         return session_.statements[static_cast<std::size_t>(index)];
     }
-    [[nodiscard]] CpfgTerm unsupported(SourceSpan span, const std::string& message) const {
-        if (!probes_) {
+    [[nodiscard]] ForeignId unsupported(SourceSpan span, const std::string& message) {
+        if (!quiet_) {
             session_.report_unsupported(span, message);
         }
-        return {"0", false, 0};
+        return tree_.number("0", span);
     }
 
     CpfgSession& session_;
+    ForeignExpressions& tree_;
     const std::vector<CpfgCurve>& curves_;
     Variables variables_;
     Variables globals_;
-    std::map<Stage, Variables> states_;     // values of changing globals in productions, by stage
-    std::map<std::string, int> increments_; // by global: the expression that each step adds to it
-    std::set<std::string> reset_;           // globals that each step assigns before reading them
-    std::vector<CpfgConstant> constants_;
+    Variables state_;                             // values of changing globals in this production
+    std::map<std::string, ForeignId> increments_; // by global: what each step adds to it
+    std::set<std::string> reset_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
+    std::map<std::size_t, std::string> curve_names_; // of functions that are read
+    std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign
+    std::set<Stage> entered_;               // stages whose step statements have been reported
     std::set<std::string> warned_;
-    CpfgRandomNeeds random_needs_;
+    std::uint32_t draws_ = 0;
+    std::size_t end_of_constants_ = 0;
     Stage stage_ = Stage::Rewrite;
+    bool binds_draws_ = false;
     bool in_header_ = false;
+    bool in_axiom_ = false;
     bool in_step_ = false; // in a block that runs in each step
-    CpfgDraws draws_ = CpfgDraws::Inline;
-    bool probes_ = false;
+    bool has_integer_part_ = false;
+    bool has_normal_ = false;
+    bool quiet_ = false;
 };
 
 [[nodiscard]] bool is_cpfg_number(std::string_view text);
 /// Whether a number is 0. Precondition: is_cpfg_number(text).
 [[nodiscard]] bool is_cpfg_zero(std::string_view text);
-[[nodiscard]] std::string in_cpfg_parentheses(const std::string& text);
-/// Maximum bytes of an expression, which grows as variables are replaced by their values.
-inline constexpr std::size_t kMaxCpfgTerm = 20'000;
 
 } // namespace lsys

@@ -18,25 +18,23 @@ namespace lsys {
 namespace {
 
 /// Max nesting, since the stages after the parser recurse.
-constexpr int kMaxDepth = 1000;
+constexpr std::uint32_t kMaxDepth = 1000;
 
 } // namespace
 
-int CpfgSession::add(CpfgExpression expression) {
-    for (const int part : expression.parts) {
-        expression.depth =
-            std::max(expression.depth, expressions[static_cast<std::size_t>(part)].depth + 1);
+ForeignId CpfgSession::add(ForeignNode expression) {
+    const SourceSpan span = expression.span;
+    const ForeignId added = expressions.add(std::move(expression));
+    const std::uint32_t depth = expressions[added].depth;
+    if (depth <= kMaxDepth) {
+        return added;
     }
-    if (expression.depth > kMaxDepth) {
-        if (expression.depth == kMaxDepth + 1) { // once, not for every parent
-            report_unsupported(expression.span,
-                               "an expression of more than 1000 operations in one another");
-        }
-        expression.parts.clear();
-        expression.kind = CpfgKind::Number;
+    if (depth == kMaxDepth + 1) { // once, not for every parent
+        report_unsupported(span, "an expression of more than 1000 operations in one another");
     }
-    expressions.push_back(std::move(expression));
-    return static_cast<int>(expressions.size()) - 1;
+    ForeignNode flat{.kind = ForeignKind::Number, .text = "0", .span = span, .token = span};
+    flat.depth = depth + 1; // of the parents, which are not reported
+    return expressions.add(std::move(flat));
 }
 
 int CpfgSession::add(CpfgStatement statement) {
@@ -47,8 +45,8 @@ int CpfgSession::add(CpfgStatement statement) {
             statement.depth = std::max(statement.depth, depth);
         }
     }
-    if (statement.depth > kMaxDepth) {
-        if (statement.depth == kMaxDepth + 1) {
+    if (statement.depth > static_cast<int>(kMaxDepth)) {
+        if (statement.depth == static_cast<int>(kMaxDepth) + 1) {
             report_unsupported(statement.span, "more than 1000 blocks in one another");
         }
         statement.block.clear();

@@ -90,8 +90,8 @@ void CpfgWriter::check_module(CpfgModule& module) {
         expressions_.warn_left_out(module.span, "{(", "parameters of `" + name + "` are left out");
     }
     // Drop strings, the texts of labels.
-    std::erase_if(module.arguments, [&](int argument) {
-        return name.starts_with("@") && expression(argument).kind == CpfgKind::String;
+    std::erase_if(module.arguments, [&](ForeignId argument) {
+        return name.starts_with("@") && expression(argument).kind == ForeignKind::Text;
     });
     module.has_arguments = !module.arguments.empty();
 }
@@ -123,27 +123,24 @@ std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) con
                             : "`" + name + "`";
 }
 
-void CpfgWriter::write_setting(const char* begin, int expression, const char* fallback) {
-    if (expression < 0) {
+void CpfgWriter::write_setting(const char* begin, ForeignId expression, const char* fallback) {
+    if (expression == kNoForeign) {
         if (fallback != nullptr) {
             out_.put(std::string(begin) + fallback + ";\n", header_);
         }
         return;
     }
     const SourceSpan span = this->expression(expression).span;
-    const CpfgTerm value = expressions_.term(expression);
-    if (value.is_random) {
-        session_.report_unsupported(span, "a random number in the header");
-    }
-    const bool number = literal_length(value.text) == value.text.size();
+    const bool number = this->expression(expression).kind == ForeignKind::Number;
     out_.put(begin, span);
-    out_.put(number ? value.text : "(" + value.text + ")", span);
-    out_.put(";\n", span);
+    out_.put(number ? "" : "(", span);
+    tree_.write(expression, {}, out_);
+    out_.put(number ? ";\n" : ");\n", span);
 }
 
-/// Writes the number of passes of a stage. Drawing bound random numbers takes additional passes: up
+/// Writes the number of passes of a stage. Random numbers in conditions take additional passes: up
 /// to one per pass of this stage, and one pass of Decompose for those of Rewrite.
-void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
+void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
     if (!own && !first) {
@@ -154,11 +151,10 @@ void CpfgWriter::write_depth(const char* begin, int expression, Stage stage) {
         out_.put(std::string(begin) + "1;\n", header_);
         return;
     }
-    std::string text =
-        expression < 0 ? "1" : in_cpfg_parentheses(expressions_.term(expression).text);
-    text += own ? " * 2" : "";
-    text += first ? " + 1" : "";
-    out_.put(begin + ("(" + text + ")") + ";\n", header_);
+    ForeignId depth = expression == kNoForeign ? tree_.number("1", header_) : expression;
+    depth = own ? tree_.binary("*", depth, tree_.number("2", header_), header_) : depth;
+    depth = first ? tree_.binary("+", depth, tree_.number("1", header_), header_) : depth;
+    write_setting(begin, depth, nullptr);
 }
 
 /// Reads the view file, which lies beside the L-system and has its name.
@@ -187,24 +183,25 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
         out_.put("#set rewriting leftmost;\n", header_);
     }
+    write_constants();
     if (!view_.angle.empty()) {
         out_.put("#set angle " + view_.angle + ";\n", header_);
     }
     const bool decomposes = has(Stage::Decompose) || bound_.count(Stage::Rewrite) != 0;
     if (decomposes) {
-        write_depth("#set decompose_depth ", session_.decompose_depth, Stage::Decompose);
+        write_depth("#set decompose_depth ", decompose_depth_, Stage::Decompose);
     }
     if (has(Stage::Interpret)) {
-        write_depth("#set interpret_depth ", session_.interpret_depth, Stage::Interpret);
+        write_depth("#set interpret_depth ", interpret_depth_, Stage::Interpret);
     }
     if (decomposes || has(Stage::Interpret)) {
         out_.put("#set at_depth stop;\n", header_);
     }
-    if (session_.seed >= 0) {
+    if (seed_ != kNoForeign) {
         out_.put("#set weights any;\n", header_);
-        write_setting("#set seed ", session_.seed, nullptr);
+        write_setting("#set seed ", seed_, nullptr);
     }
-    write_setting("#n = ", session_.derivation_length, "0");
+    write_setting("#n = ", length_, "0");
     if (used_.count("G") != 0) {
         out_.put("#object G BRANCH;\n", header_);
     }
@@ -213,15 +210,18 @@ void CpfgWriter::write_settings(std::string_view turtle) {
             out_.put("#object " + name + " LEAF;\n", header_);
         }
     }
-    for (const CpfgConstant& constant : expressions_.constants()) {
-        out_.put("#define " + constant.name + " " + constant.value + ";\n", constant.span);
-    }
     write_declarations();
     if (session_.considers) {
         write_names("#consider : ", session_.considered);
     } else if (session_.ignores) {
         write_names("#ignore : ", session_.ignored);
     }
+}
+
+/// Writes functions, arrays and the variables of `Start:`, which settings may read.
+void CpfgWriter::write_constants() {
+    expressions_.write_functions(out_, header_);
+    tree_.write_constants(0, expressions_.end_of_constants(), out_);
 }
 
 /// Declares the modules that no production rewrites and that draw nothing.

@@ -1,10 +1,11 @@
-// The state of one parse of a cpfg file, shared by scanner, parser and writer. Nodes lie in
-// vectors, children before parents.
+// The state of one parse of a cpfg file, shared by scanner, parser and writer. Statements lie in a
+// vector, children before parents.
 #pragma once
 
 #include "grammar/ast/translation.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/stage.h"
+#include "grammar/dialects/impl/foreign_expression.h"
 #include "grammar/lsys/parse.h"
 
 #include <cstdint>
@@ -15,35 +16,16 @@
 
 namespace lsys {
 
-enum class CpfgKind : std::uint8_t {
-    Number,
-    Name,
-    String,
-    Unary,   // text: the operator
-    Binary,  // text: the operator
-    Choose,  // a ? b : c
-    Call,    // text: the function
-    Index,   // text: the array
-    Address, // &name
-};
-
-struct CpfgExpression {
-    CpfgKind kind = CpfgKind::Number;
-    std::string text;
-    std::vector<int> parts; // in CpfgSession::expressions
-    SourceSpan span;
-    int depth = 1; // of nested expressions
-};
-
 enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };
 
 struct CpfgStatement {
     CpfgStatementKind kind = CpfgStatementKind::Call;
-    int target = -1;        // Assign: a Name or Index. Array: an Index
-    int value = -1;         // Assign, Call; the condition of If
-    std::vector<int> block; // statements of If; values of Array
-    std::vector<int> otherwise;
-    SourceSpan span;
+    ForeignId target = kNoForeign; // Assign: a Name or Index. Array: an Index
+    ForeignId value = kNoForeign;  // Assign, Call; the condition of If
+    std::vector<int> block{};      // statements of If
+    std::vector<int> otherwise{};
+    std::vector<ForeignId> values{}; // Array
+    SourceSpan span{};
     int depth = 1;
 };
 
@@ -51,20 +33,20 @@ struct CpfgModule {
     std::string name;
     SourceSpan span; // of the name
     bool has_arguments = false;
-    std::vector<int> arguments;
+    std::vector<ForeignId> arguments;
 };
 
-/// A production. Missing parts are empty lists or -1.
+/// A production. Missing parts are empty lists or kNoForeign.
 struct CpfgProduction {
     Stage stage = Stage::Rewrite;
     std::vector<CpfgModule> left;
     std::vector<CpfgModule> predecessor;
     std::vector<CpfgModule> right;
-    std::vector<int> before; // statements
-    int condition = -1;      // none: always
+    std::vector<int> before;          // statements
+    ForeignId condition = kNoForeign; // none: always
     std::vector<int> after;
     std::vector<CpfgModule> successor;
-    int weight = -1;
+    ForeignId weight = kNoForeign;
     SourceSpan span; // of the predecessor
     SourceSpan arrow;
 };
@@ -77,7 +59,7 @@ public:
     const ParseContext& context;
     const Translation& text;
 
-    std::vector<CpfgExpression> expressions;
+    ForeignExpressions expressions;
     std::vector<CpfgStatement> statements;
     std::vector<CpfgProduction> productions;
     std::vector<CpfgModule> axiom;
@@ -86,10 +68,10 @@ public:
     std::vector<CpfgModule> considered;
     bool ignores = false;
     bool considers = false;
-    int derivation_length = -1;
-    int seed = -1;
-    int decompose_depth = -1;
-    int interpret_depth = -1;
+    ForeignId derivation_length = kNoForeign;
+    ForeignId seed = kNoForeign;
+    ForeignId decompose_depth = kNoForeign;
+    ForeignId interpret_depth = kNoForeign;
     std::vector<int> definitions; // statements
     std::vector<int> start;
     std::vector<int> start_each;
@@ -116,7 +98,7 @@ public:
 
     // --- for the parser
     /// Adds a node; reports and drops nesting beyond the limit.
-    int add(CpfgExpression expression);
+    ForeignId add(ForeignNode expression);
     int add(CpfgStatement statement);
     void report_unsupported(SourceSpan span, std::string message) const {
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));

@@ -16,13 +16,20 @@ namespace {
 constexpr std::array<std::string_view, 10> kProcedures{
     "printf", "fprintf", "fopen", "fclose", "fflush", "stop", "play", "Display", "srand", "fputs"};
 
+/// Names that arrays and functions of a file cannot have in .lsys.
+constexpr std::array<std::string_view, 32> kFunctionNames{
+    "sin", "cos", "tan",  "asin",   "acos",    "atan",     "atan2", "sqrt",
+    "exp", "log", "pow",  "abs",    "floor",   "ceil",     "round", "sign",
+    "min", "max", "mod",  "step",   "steps",   "if",       "clamp", "mix",
+    "let", "int", "nran", "normal", "poisson", "binomial", "_",     "define"};
+
 } // namespace
 
 void CpfgExpressions::find_changed_globals(const std::vector<int>& statements) {
     for (const int index : statements) {
         const CpfgStatement& statement = statement_at(index);
         if (statement.kind == CpfgStatementKind::Assign) {
-            changed_globals_.insert(node_at(statement.target).text);
+            changed_globals_.insert(tree_[statement.target].text);
         }
         find_changed_globals(statement.block);
         find_changed_globals(statement.otherwise);
@@ -30,12 +37,22 @@ void CpfgExpressions::find_changed_globals(const std::vector<int>& statements) {
 }
 
 void CpfgExpressions::read_header() {
+    function_names_ = {kFunctionNames.begin(), kFunctionNames.end()};
     in_header_ = true;
     for (const int index : session_.definitions) {
         define_array(statement_at(index));
     }
     run(session_.start);
     globals_ = std::exchange(variables_, {});
+    end_of_constants_ = tree_.locals().size();
+    for (ForeignLocal& constant : tree_.locals()) {
+        constant.is_constant = true;
+        // drawn once, before the derivation begins
+        constant.is_final = constant.is_final || tree_.has_draw(constant.value);
+        constant.is_inline |= tree_.has(constant.value, [](const ForeignNode& node) {
+            return node.kind == ForeignKind::Call && (node.text == "step" || node.text == "steps");
+        }); // these are known to productions only
+    }
     read_each_step();
     for (const int index : session_.end) {
         warn_left_out(statement_at(index).span, "End",
@@ -50,11 +67,16 @@ void CpfgExpressions::read_each_step() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);
     for (const std::string& variable : changed_globals_) {
-        const int added = step_of(variable);
-        if (added >= 0) {
+        const ForeignId added = step_of(variable);
+        if (added != kNoForeign) {
             increments_[variable] = added;
         } else if (is_assigned_first(session_.start_each, variable).value_or(false)) {
             reset_.insert(variable);
+        }
+    }
+    for (const auto& [variable, value] : globals_) { // local values have the name itself
+        if (changed_globals_.count(variable) != 0 && tree_[value].kind == ForeignKind::Local) {
+            tree_.locals()[tree_[value].index].name = "start_" + variable;
         }
     }
     std::set<std::string> unknown; // includes the variables that depend on an unknown one
@@ -82,7 +104,7 @@ int CpfgExpressions::assignments(const std::vector<int>& statements, const std::
     int count = 0;
     for (const int index : statements) {
         const CpfgStatement& statement = statement_at(index);
-        count += statement.kind == CpfgStatementKind::Assign && node_at(statement.target).text == to
+        count += statement.kind == CpfgStatementKind::Assign && tree_[statement.target].text == to
                      ? 1
                      : 0;
         count += assignments(statement.block, to) + assignments(statement.otherwise, to);
@@ -90,15 +112,15 @@ int CpfgExpressions::assignments(const std::vector<int>& statements, const std::
     return count;
 }
 
-bool CpfgExpressions::uses(int expression, const std::set<std::string>& names) const {
-    if (expression < 0) {
+bool CpfgExpressions::uses(ForeignId expression, const std::set<std::string>& names) const {
+    if (expression == kNoForeign) {
         return false;
     }
-    const CpfgExpression& node = node_at(expression);
-    return (node.kind == CpfgKind::Name && names.count(node.text) != 0) ||
-           (node.kind == CpfgKind::Call && (node.text == "ran" || node.text == "nran")) ||
+    const ForeignNode& node = tree_[expression];
+    return (node.kind == ForeignKind::Name && names.count(node.text) != 0) ||
+           (node.kind == ForeignKind::Call && (node.text == "ran" || node.text == "nran")) ||
            std::any_of(node.parts.begin(), node.parts.end(),
-                       [&](int part) { return uses(part, names); });
+                       [&](ForeignId part) { return uses(part, names); });
 }
 
 /// Returns true when a value assigned to `to` has a random number or one of the names in it.
@@ -113,28 +135,28 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
     });
 }
 
-/// The expression that each step adds to the variable, or -1. It exists if the only assignment to
+/// The expression that each step adds to the variable, or kNoForeign. It exists if the only assignment to
 /// the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
-int CpfgExpressions::step_of(const std::string& variable) const {
+ForeignId CpfgExpressions::step_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {
-        return -1;
+        return kNoForeign;
     }
     for (const std::vector<int>* block : {&session_.start_each, &session_.end_each}) {
         for (const int index : *block) {
             const CpfgStatement& statement = statement_at(index);
             if (statement.kind != CpfgStatementKind::Assign ||
-                node_at(statement.target).text != variable) {
+                tree_[statement.target].text != variable) {
                 continue;
             }
-            const CpfgExpression& value = node_at(statement.value);
-            const bool sum = value.kind == CpfgKind::Binary && value.text == "+" &&
-                             node_at(value.parts[0]).kind == CpfgKind::Name &&
-                             node_at(value.parts[0]).text == variable;
-            return sum && !uses(value.parts[1], changed_globals_) ? value.parts[1] : -1;
+            const ForeignNode& value = tree_[statement.value];
+            const bool sum = value.kind == ForeignKind::Binary && value.text == "+" &&
+                             tree_[value.parts[0]].kind == ForeignKind::Name &&
+                             tree_[value.parts[0]].text == variable;
+            return sum && !uses(value.parts[1], changed_globals_) ? value.parts[1] : kNoForeign;
         }
     }
-    return -1;
+    return kNoForeign;
 }
 
 /// Whether statements assign the variable before they read it; nullopt if they do neither.
@@ -146,7 +168,7 @@ std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& s
             return false;
         }
         if (statement.kind == CpfgStatementKind::Assign &&
-            node_at(statement.target).text == variable) {
+            tree_[statement.target].text == variable) {
             return true;
         }
         const std::optional<bool> yes = is_assigned_first(statement.block, variable);
@@ -158,22 +180,24 @@ std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& s
     return std::nullopt;
 }
 
-/// Finds the values of global variables in productions of the stage.
+/// Finds the values of global variables in the production that begins.
 void CpfgExpressions::enter_step() {
-    const auto [known, is_new] = states_.try_emplace(stage_);
-    if (!is_new) {
-        return;
-    }
-    const std::string done = stage_ == Stage::Rewrite ? "step()" : "(step() - 1)";
+    const bool was_quiet = std::exchange(quiet_, quiet_ || !entered_.insert(stage_).second);
     in_header_ = true;
     in_step_ = true;
-    variables_.clear();
     for (const auto& [variable, added] : increments_) {
-        const auto start = globals_.find(variable);
-        const std::string from = start == globals_.end() ? "0" : start->second.text;
-        variables_[variable] = {in_cpfg_parentheses(from) + " + " +
-                                    in_cpfg_parentheses(term(added).text) + " * " + done,
-                                false, 0};
+        const SourceSpan span = tree_[added].span;
+        const ForeignId first = first_value(variable, span);
+        const std::string start = known_literal(first); // no constant beside the local value
+        ForeignId done = tree_.call("step", {}, span);  // count of finished steps
+        if (stage_ != Stage::Rewrite) {
+            done = tree_.binary("-", done, tree_.number("1", span), span);
+        }
+        const ForeignId each = term(added);
+        const bool by_one = tree_.literal(each) == "1";
+        const ForeignId all = by_one ? done : tree_.binary("*", each, done, span);
+        const bool from_zero = by_one && is_cpfg_number(start) && is_cpfg_zero(start);
+        assign(variable, from_zero ? all : tree_.binary("+", first, all, span), span);
     }
     run(session_.start_each);
     if (stage_ == Stage::Interpret) {
@@ -181,49 +205,65 @@ void CpfgExpressions::enter_step() {
     }
     in_header_ = false;
     in_step_ = false;
-    for (auto& [variable, value] : variables_) {
-        if (increments_.count(variable) != 0 || reset_.count(variable) != 0) {
-            const auto start = globals_.find(variable);
-            const CpfgTerm first =
-                start == globals_.end() ? CpfgTerm{"0", false, 0} : start->second;
-            // the axiom is decomposed before any step
-            known->second[variable] = stage_ == Stage::Decompose && first.text != value.text
-                                          ? choose({"step() == 0", false, 0}, first, value, {})
-                                          : value;
+    quiet_ = was_quiet;
+    for (const auto& [variable, value] : std::exchange(variables_, {})) {
+        if (increments_.count(variable) == 0 && reset_.count(variable) == 0) {
+            continue;
+        }
+        if (stage_ == Stage::Decompose) { // the axiom is decomposed before any step
+            const SourceSpan span = tree_[value].span;
+            static_cast<void>(known_literal(first_value(variable, span)));
+            const ForeignId begins =
+                tree_.binary("==", tree_.call("step", {}, span), tree_.number("0", span), span);
+            variables_[variable] = value;
+            assign(variable,
+                   tree_.call("if", {begins, first_value(variable, span), read(value, span)}, span),
+                   span);
+            state_[variable] = variables_[variable];
+        } else {
+            state_[variable] = value;
         }
     }
     variables_.clear();
 }
 
-CpfgExpressions CpfgExpressions::probe() const {
-    CpfgExpressions copy = *this;
-    copy.probes_ = true;
-    return copy;
-}
-
-std::string CpfgExpressions::draw_name(int index) const {
-    std::string name = "random" + std::to_string(index + 1);
-    while (formals_.count(name) != 0) {
-        name += "x";
-    }
-    return name;
-}
-
-void CpfgExpressions::begin(std::set<std::string> formals, Stage stage, CpfgDraws draws) {
+void CpfgExpressions::begin_axiom() {
     formals_.clear();
+    variables_.clear();
+    state_.clear();
+    stage_ = Stage::Rewrite;
+    in_axiom_ = true;
+    binds_draws_ = false;
+}
+
+void CpfgExpressions::begin(std::set<std::string> formals, Stage stage) {
+    begin_axiom();
+    in_axiom_ = false;
     stage_ = stage;
-    draws_ = CpfgDraws::Inline;
     if (!changed_globals_.empty()) {
         enter_step();
     }
     formals_ = std::move(formals);
-    variables_.clear();
-    draws_ = draws;
-    random_needs_ = {};
+    draws_ = 0;
 }
 
-void CpfgExpressions::let(const std::string& name, const std::string& value) {
-    variables_[name] = {value, false, 0};
+void CpfgExpressions::bind_draws(std::uint32_t first) {
+    binds_draws_ = true;
+    draws_ = first;
+}
+
+/// Gives a variable a value. What another variable is called needs no name of its own.
+void CpfgExpressions::assign(const std::string& variable, ForeignId value, SourceSpan span) {
+    const ForeignKind kind = tree_[value].kind;
+    const auto before = variables_.find(variable);
+    if (before != variables_.end() && tree_[before->second].kind == ForeignKind::Local) {
+        ForeignLocal& old = tree_.locals()[tree_[before->second].index];
+        old.is_final = old.is_final && old.name != variable;
+    }
+    const bool is_other = kind == ForeignKind::Name || kind == ForeignKind::Local;
+    variables_[variable] =
+        is_other ? value
+                 : tree_.local({.name = variable, .value = value, .span = span, .is_final = true});
 }
 
 void CpfgExpressions::run(const std::vector<int>& statements) {
@@ -235,8 +275,8 @@ void CpfgExpressions::run(const std::vector<int>& statements) {
 void CpfgExpressions::run(const CpfgStatement& statement) {
     switch (statement.kind) {
     case CpfgStatementKind::Assign: {
-        const CpfgExpression& target = node_at(statement.target);
-        if (target.kind == CpfgKind::Index) {
+        const ForeignNode target = tree_[statement.target];
+        if (target.kind == ForeignKind::Index) {
             static_cast<void>(
                 unsupported(statement.span,
                             "an element of an array that is changed while the word is derived"));
@@ -251,19 +291,7 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
                                                 "production"));
             return;
         }
-        CpfgTerm value = term(statement.value);
-        if (value.text.size() > kMaxCpfgTerm) {
-            value = unsupported(statement.span, "the value of `" + shown(target.text) +
-                                                    "` is too long for one expression");
-        }
-        if (value.is_random && in_header_ &&
-            !in_step_) { // drawn once, before the derivation begins
-            constants_.push_back(
-                {"start_" + std::to_string(constants_.size() + 1), value.text, statement.span});
-            value = {constants_.back().name, false, 0};
-        }
-        value.uses = 0;
-        variables_[target.text] = std::move(value);
+        assign(target.text, term(statement.value), statement.span);
         break;
     }
     case CpfgStatementKind::Call:
@@ -282,8 +310,8 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
 }
 
 void CpfgExpressions::call_statement(const CpfgStatement& statement) {
-    const CpfgExpression& called = node_at(statement.value);
-    if (called.kind != CpfgKind::Call) {
+    const ForeignNode called = tree_[statement.value];
+    if (called.kind != ForeignKind::Call) {
         return; // an unused value
     }
     const bool known =
@@ -300,27 +328,26 @@ void CpfgExpressions::call_statement(const CpfgStatement& statement) {
 }
 
 void CpfgExpressions::branch(const CpfgStatement& statement) {
-    const CpfgTerm test = term(statement.value);
-    if (is_cpfg_number(test.text)) {
-        run(is_cpfg_zero(test.text) ? statement.otherwise : statement.block);
+    const SourceSpan span = tree_[statement.value].span;
+    ForeignId test = term(statement.value);
+    if (const std::string known = known_literal(test); !known.empty()) {
+        run(is_cpfg_zero(known) ? statement.otherwise : statement.block);
         return;
     }
-    const bool chance = test.is_random;
-    if (chance) {
-        static_cast<void>(
-            chosen_by_chance(node_at(statement.value).span, "a random number in an `if`"));
+    if (!tree_[test].parts.empty()) { // a name, for a test that decides several variables
+        test = tree_.local({.name = "test", .value = test, .span = span});
     }
     const Variables before = variables_;
     run(statement.block);
-    Variables yes = std::exchange(variables_, before);
+    const Variables yes = std::exchange(variables_, before);
     run(statement.otherwise);
-    Variables no = std::exchange(variables_, before);
+    const Variables no = std::exchange(variables_, before);
     const auto value_in = [&](const Variables& values, const std::string& name) {
         const auto found = values.find(name);
         if (found != values.end()) {
-            return found->second;
+            return read(found->second, span);
         }
-        return CpfgTerm{formals_.count(name) != 0 ? name : "0", false, 0};
+        return formals_.count(name) != 0 ? tree_.name(name, span) : tree_.number("0", span);
     };
     std::set<std::string> names;
     for (const Variables* values : {&yes, &no}) {
@@ -329,24 +356,33 @@ void CpfgExpressions::branch(const CpfgStatement& statement) {
         }
     }
     for (const std::string& name : names) {
-        const CpfgTerm a = value_in(yes, name);
-        const CpfgTerm b = value_in(no, name);
-        variables_[name] = a.text == b.text ? a
-                           : chance         ? CpfgTerm{"0", true, 0}
-                                            : choose(test, a, b, statement.span);
+        const auto in_yes = yes.find(name);
+        const auto in_no = no.find(name);
+        if (in_yes != yes.end() && in_no != no.end() && in_yes->second == in_no->second) {
+            continue; // neither block assigns it
+        }
+        const ForeignId a = value_in(yes, name);
+        const ForeignId b = value_in(no, name);
+        for (const ForeignId value : {a, b}) { // values of this variable give way to the choice
+            if (tree_[value].kind == ForeignKind::Local) {
+                ForeignLocal& old = tree_.locals()[tree_[value].index];
+                old.is_final = old.is_final && old.name != name;
+            }
+        }
+        assign(name, tree_.call("if", {read(test, span), a, b}, span), span);
     }
 }
 
 void CpfgExpressions::define_array(const CpfgStatement& statement) {
     constexpr int kMaxElements = 256;
-    const CpfgExpression& target = node_at(statement.target);
+    const ForeignNode target = tree_[statement.target];
     Array array;
     int count = 1;
-    for (const int part : target.parts) {
-        const CpfgTerm size = term(part);
+    for (const ForeignId part : target.parts) {
+        const std::string size = known_literal(term(part));
         int value = 0;
-        std::from_chars(size.text.data(), size.text.data() + size.text.size(), value);
-        if (!is_cpfg_number(size.text) || value <= 0 || value > kMaxElements / count) {
+        std::from_chars(size.data(), size.data() + size.size(), value);
+        if (value <= 0 || value > kMaxElements / count) {
             static_cast<void>(
                 unsupported(target.span, "an array whose size is no number from 1 to 256"));
             return;
@@ -354,15 +390,15 @@ void CpfgExpressions::define_array(const CpfgStatement& statement) {
         array.sizes.push_back(value);
         count *= value;
     }
-    for (const int value : statement.block) {
-        const CpfgTerm made = term(value);
-        if (made.is_random) {
+    for (const ForeignId value : statement.values) {
+        const ForeignId made = term(value);
+        if (tree_.has_draw(made)) {
             static_cast<void>(unsupported(statement.span, "random numbers in an array"));
             return;
         }
-        array.values.push_back(made.text);
+        array.values.push_back(made);
     }
-    array.values.resize(static_cast<std::size_t>(count), "0");
+    array.values.resize(static_cast<std::size_t>(count), tree_.number("0", statement.span));
     arrays_[target.text] = std::move(array);
 }
 

@@ -14,127 +14,329 @@ namespace {
 
 /// Maximum random numbers of one choice, since each production of the module has all of them as
 /// parameters.
-constexpr int kMaxDraws = 1000;
+constexpr std::uint32_t kMaxDraws = 1000;
+
+/// Maximum nodes of a condition, in which variables are replaced by their values.
+constexpr std::uint64_t kMaxCondition = 4'000;
+
+/// Label of the production that replaces a module of random numbers.
+std::string bound_label(Stage stage, const std::string& name) {
+    return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
+}
+Stage bound_stage(Stage stage) {
+    return stage == Stage::Rewrite ? Stage::Decompose : stage;
+}
 
 } // namespace
 
 CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
     : session_(session), context_(session.context), out_(out), header_{out.file(), 0, 1},
-      expressions_(session, view_.curves) {}
+      expressions_(session, view_.curves), tree_(session.expressions) {}
 
 void CpfgWriter::write(std::string_view turtle) {
     find_names();
     read_view_file();
     expressions_.read_header();
-    find_bindings();
-    expressions_.begin({}, Stage::Rewrite);
+    lower_header();
+    lower_productions();
+    find_groups();
+    find_local_names();
     write_settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
-    write_modules(session_.axiom);
+    write_modules(session_.axiom, axiom_, {});
     out_.put(";\n\n", header_);
     for (std::size_t i = 0; i < session_.productions.size(); ++i) {
-        write_production(i);
+        if (lowered_[i].in_group) {
+            if (groups_.count(i) != 0) {
+                write_group(i);
+            }
+        } else if (lowered_[i].is_written) {
+            write_production(i);
+        }
     }
 }
 
-bool CpfgWriter::is_always(const CpfgProduction& production) const {
-    if (production.condition < 0) {
+/// Returns true if a condition always holds.
+bool CpfgWriter::is_always(ForeignId condition) const {
+    if (condition == kNoForeign) {
         return true;
     }
-    const CpfgExpression& test = expression(production.condition);
-    return test.kind == CpfgKind::Number && !is_cpfg_zero(test.text);
+    const std::string_view number = tree_.literal(condition);
+    return !number.empty() && !is_cpfg_zero(number);
 }
 
 /// Returns true if the production is chosen at random among others.
 bool CpfgWriter::is_random_choice(const CpfgProduction& production) const {
-    return session_.seed >= 0 && production.stage == Stage::Rewrite &&
+    return session_.seed != kNoForeign && production.stage == Stage::Rewrite &&
            !production.predecessor.empty() && alternatives_.at(key_of(production)) > 1;
 }
 
-/// Finds the productions whose random numbers must be bound.
-void CpfgWriter::find_bindings() {
-    bindings_.resize(session_.productions.size());
-    std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
-    std::set<std::pair<Stage, std::string>> grouped;
-    for (std::size_t i = 0; i < session_.productions.size(); ++i) {
+void CpfgWriter::lower_header() {
+    expressions_.begin_axiom();
+    for (const auto& [expression, setting] : {std::pair{session_.derivation_length, &length_},
+                                              {session_.seed, &seed_},
+                                              {session_.decompose_depth, &decompose_depth_},
+                                              {session_.interpret_depth, &interpret_depth_}}) {
+        if (expression == kNoForeign) {
+            continue;
+        }
+        *setting = expressions_.term(expression);
+        if (tree_.has_draw(*setting)) {
+            session_.report_unsupported(this->expression(expression).span,
+                                        "a random number in the header");
+        }
+    }
+    axiom_ = terms_of(session_.axiom);
+}
+
+std::vector<std::vector<ForeignId>> CpfgWriter::terms_of(const std::vector<CpfgModule>& list) {
+    std::vector<std::vector<ForeignId>> terms(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (const ForeignId argument : list[i].arguments) {
+            terms[i].push_back(expressions_.term(argument));
+        }
+    }
+    return terms;
+}
+
+void CpfgWriter::lower_productions() {
+    lowered_.resize(session_.productions.size());
+    for (std::size_t i = 0; i < lowered_.size(); ++i) {
         const CpfgProduction& production = session_.productions[i];
-        if (production.predecessor.empty()) {
+        if (!check(production)) {
             continue;
         }
         const std::vector<std::string> names = formals_of(production);
-        CpfgExpressions probe = expressions_.probe();
-        probe.begin({names.begin(), names.end()}, production.stage);
-        probe.run(production.before);
-        const bool drawn_test =
-            production.condition >= 0 && probe.term(production.condition).is_random;
-        bool weighted = false;
-        if (is_random_choice(production) && production.weight >= 0) {
-            const std::string text = probe.term(production.weight).text;
-            weighted = !is_cpfg_number(text);
+        lowered_[i].is_written = true;
+        lowered_[i].first_local = tree_.locals().size();
+        expressions_.begin({names.begin(), names.end()}, production.stage);
+        lower(i);
+        warn_weight(production);
+    }
+}
+
+/// Lowers a production that has begun.
+void CpfgWriter::lower(std::size_t index) {
+    const CpfgProduction& production = session_.productions[index];
+    Lowered& lowered = lowered_[index];
+    expressions_.run(production.before);
+    if (production.condition != kNoForeign) {
+        lowered.condition = expressions_.term(production.condition);
+        if (tree_.expanded_size(lowered.condition) > kMaxCondition) {
+            session_.report_unsupported(
+                expression(production.condition).span,
+                "a condition that is too long once its variables are replaced");
         }
-        probe.run(production.after);
-        for (const CpfgModule& module : production.successor) {
-            for (const int argument : module.arguments) {
-                static_cast<void>(probe.term(argument));
-            }
+    }
+    if (production.weight != kNoForeign && is_random_choice(production)) {
+        lowered.weight = expressions_.term(production.weight);
+    }
+    expressions_.run(production.after);
+    lowered.arguments = terms_of(production.successor);
+    lowered.end_local = tree_.locals().size();
+    lowered.draws = expressions_.draws();
+}
+
+/// Finds the modules whose productions match by chance: all productions of such a module become one
+/// that draws the random numbers, and decompositions that choose by them.
+void CpfgWriter::find_groups() {
+    std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
+    std::set<std::pair<Stage, std::string>> drawn;
+    for (std::size_t i = 0; i < lowered_.size(); ++i) {
+        const Lowered& lowered = lowered_[i];
+        if (!lowered.is_written) {
+            continue;
         }
+        const CpfgProduction& production = session_.productions[i];
         const std::pair<Stage, std::string> module{production.stage, key_of(production)};
         by_module[module].push_back(i);
-        bindings_[i] = {probe.random_needs().bound_draws ? Binding::Own : Binding::None, 0,
-                        probe.random_needs().draws};
-        if (drawn_test || weighted) {
-            grouped.insert(module);
+        for (const ForeignId id : {lowered.condition, lowered.weight}) {
+            if (id != kNoForeign && tree_.has_draw(id)) {
+                drawn.insert(module);
+            }
         }
     }
-    for (const auto& module : grouped) {
-        bind_group(by_module[module]);
-    }
-    for (std::size_t i = 0; i < bindings_.size(); ++i) {
-        const CpfgProduction& production = session_.productions[i];
-        if (bindings_[i].binding != Binding::None && bound_.insert(production.stage).second &&
-            production.stage != Stage::Rewrite) {
-            expressions_.warn_left_out(production.span, "passes",
-                                       "random numbers that are used more than once take a pass of "
-                                       "their own: `maximum depth` counts twice");
+    for (const auto& module : drawn) {
+        const std::vector<std::size_t>& members = by_module[module];
+        if (!can_bind(members)) {
+            continue;
+        }
+        bind_group(members);
+        const CpfgProduction& first = session_.productions[members.front()];
+        if (bound_.insert(first.stage).second && first.stage != Stage::Rewrite) {
+            expressions_.warn_left_out(first.span, "passes",
+                                       "a random number in a condition takes a pass of its own: "
+                                       "`maximum depth` counts twice");
         }
     }
 }
 
-void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
-    int draws = 0;
+/// Returns whether the productions can be a group; reports an error if not.
+bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
+    std::uint32_t draws = 0;
     for (const std::size_t i : members) {
         const CpfgProduction& production = session_.productions[i];
         if (!production.left.empty() || !production.right.empty() ||
             production.predecessor.size() != 1) {
             session_.report_unsupported(production.span,
-                                        "a choice by a random number, or by weights that depend on "
-                                        "parameters, among productions with contexts or of several "
-                                        "modules");
-            return;
+                                        "a choice by a random number among productions with "
+                                        "contexts or of several modules");
+            return false;
         }
-        draws += bindings_[i].draws;
+        draws += lowered_[i].draws;
         if (draws > kMaxDraws) {
             session_.report_unsupported(production.span,
                                         "more than 1000 random numbers, here and before, that the "
                                         "choice among the productions of one module needs");
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Lowers the productions anew, with their random numbers as parameters.
+void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
+    groups_[members.front()] = members;
+    expressions_.set_quiet(true);
+    std::uint32_t draws = 0;
+    for (const std::size_t i : members) {
+        const CpfgProduction& production = session_.productions[i];
+        const std::vector<std::string> names = formals_of(production);
+        lowered_[i].in_group = true;
+        lowered_[i].first_draw = draws;
+        lowered_[i].first_local = tree_.locals().size();
+        expressions_.begin({names.begin(), names.end()}, bound_stage(production.stage));
+        expressions_.bind_draws(draws);
+        draws += lowered_[i].draws;
+        lower(i);
+    }
+    const bool chooses = is_random_choice(session_.productions[members.front()]);
+    for (const std::size_t i : members) {
+        lowered_[i].draws = draws + (chooses ? 1 : 0);
+    }
+    if (chooses) {
+        weigh_group(members);
+    }
+    expressions_.set_quiet(false);
+}
+
+/// Makes the choice by weights part of the conditions.
+void CpfgWriter::weigh_group(const std::vector<std::size_t>& members) {
+    std::vector<ForeignId> conditions;
+    for (const std::size_t i : members) {
+        conditions.push_back(weighted_condition(members, i));
+        if (conditions.back() != kNoForeign &&
+            tree_.expanded_size(conditions.back()) > kMaxCondition) {
+            session_.report_unsupported(
+                session_.productions[members.front()].span,
+                "so many productions for one module that the sum of their weights is "
+                "too long for one expression");
             return;
         }
     }
-    draws += is_random_choice(session_.productions[members.front()]) ? 1 : 0;
-    int first = 0;
-    for (const std::size_t i : members) {
-        const int own = bindings_[i].draws;
-        bindings_[i] = {Binding::Group, first, draws};
-        first += own;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        lowered_[members[i]].condition = conditions[i];
     }
-    groups_[members.front()] = members;
+}
+
+/// The condition of the choice: the last random number, times the sum of the weights of all
+/// matching productions, lies below the sum of the weights up to this one.
+ForeignId CpfgWriter::weighted_condition(const std::vector<std::size_t>& members,
+                                         std::size_t index) {
+    const CpfgProduction& production = session_.productions[index];
+    const SourceSpan span =
+        production.weight == kNoForeign ? production.span : expression(production.weight).span;
+    const std::vector<std::string> own = formals_of(production);
+    ForeignId all = kNoForeign;
+    ForeignId until = kNoForeign;
+    ForeignId test = kNoForeign;
+    for (const std::size_t member : members) {
+        const CpfgProduction& other = session_.productions[member];
+        expressions_.begin({own.begin(), own.end()}, bound_stage(production.stage));
+        expressions_.bind_draws(lowered_[member].first_draw);
+        const std::vector<std::string> names = formals_of(other);
+        for (std::size_t i = 0; i < names.size() && i < own.size(); ++i) {
+            if (names[i] != own[i]) {
+                expressions_.let(names[i], tree_.name(own[i], span));
+            }
+        }
+        expressions_.run(other.before);
+        const ForeignId condition =
+            other.condition == kNoForeign ? kNoForeign : expressions_.term(other.condition);
+        ForeignId part =
+            other.weight == kNoForeign ? tree_.number("1", span) : expressions_.term(other.weight);
+        if (!is_always(condition)) {
+            part = tree_.call("if", {condition, part, tree_.number("0", span)}, span);
+        }
+        all = all == kNoForeign ? part : tree_.binary("+", all, part, span);
+        if (member == index) {
+            until = all;
+            test = condition;
+        }
+    }
+    ForeignId chance = kNoForeign;
+    if (index != members.back()) {
+        const ForeignId drawn =
+            tree_.binary("*", tree_.draw(lowered_[index].draws - 1, span), all, span);
+        chance = tree_.binary("<", drawn, until, span);
+    }
+    if (is_always(test)) {
+        return chance;
+    }
+    return chance == kNoForeign ? test : tree_.binary("&&", test, chance, span);
+}
+
+/// Decides which variables become local values and constants, and their names.
+void CpfgWriter::find_local_names() {
+    std::vector<ForeignId> roots{length_, seed_, decompose_depth_, interpret_depth_};
+    std::vector<ForeignId> expanded;
+    const auto add = [](std::vector<ForeignId>& to,
+                        const std::vector<std::vector<ForeignId>>& arguments) {
+        for (const std::vector<ForeignId>& list : arguments) {
+            to.insert(to.end(), list.begin(), list.end());
+        }
+    };
+    add(roots, axiom_);
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < lowered_.size(); ++i) {
+        if (lowered_[i].is_written) {
+            add(roots, lowered_[i].arguments);
+            expanded.push_back(lowered_[i].condition);
+            expanded.push_back(lowered_[i].weight);
+            for (const std::string& formal : formals_of(session_.productions[i])) {
+                names.insert(formal);
+            }
+        }
+    }
+    std::erase(roots, kNoForeign);
+    std::erase(expanded, kNoForeign);
+    tree_.count_reads(roots, expanded, 0);
+    tree_.name_locals(0, expressions_.end_of_constants(), names);
+    std::set<std::string> constants;
+    for (std::size_t i = 0; i < expressions_.end_of_constants(); ++i) {
+        constants.insert(tree_.locals()[i].name);
+    }
+    for (std::size_t i = 0; i < lowered_.size(); ++i) {
+        const Lowered& lowered = lowered_[i];
+        if (!lowered.is_written) {
+            continue;
+        }
+        const std::vector<std::string> formals = formals_of(session_.productions[i]);
+        std::set<std::string> taken = constants;
+        taken.insert(formals.begin(), formals.end());
+        if (lowered.in_group) {
+            const std::vector<std::string> draws = draw_names(formals, lowered.draws);
+            taken.insert(draws.begin(), draws.end());
+        }
+        tree_.name_locals(lowered.first_local, lowered.end_local, taken);
+    }
 }
 
 std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& production) const {
     std::vector<std::string> names;
     for (const auto* list : {&production.left, &production.predecessor, &production.right}) {
         for (const CpfgModule& module : *list) {
-            for (const int argument : module.arguments) {
+            for (const ForeignId argument : module.arguments) {
                 names.push_back(expression(argument).text);
             }
         }
@@ -150,17 +352,19 @@ void CpfgWriter::write_name(const CpfgModule& module) {
     }
 }
 
-void CpfgWriter::write_modules(const std::vector<CpfgModule>& list) {
-    for (const CpfgModule& module : list) {
+void CpfgWriter::write_modules(const std::vector<CpfgModule>& list,
+                               const std::vector<std::vector<ForeignId>>& arguments,
+                               const ForeignWriting& how) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const CpfgModule& module = list[i];
         const bool polygon = module.name == "{" || module.name == "}";
         write_name(module);
         if (!module.has_arguments || polygon) {
             continue;
         }
-        for (std::size_t i = 0; i < module.arguments.size(); ++i) {
-            const SourceSpan span = expression(module.arguments[i]).span;
-            out_.put(i == 0 ? "(" : ", ", span);
-            out_.put(expressions_.term(module.arguments[i]).text, span);
+        for (std::size_t k = 0; k < arguments[i].size(); ++k) {
+            out_.put(k == 0 ? "(" : ", ", expression(module.arguments[k]).span);
+            tree_.write(arguments[i][k], how, out_);
         }
         out_.put(")", module.span);
     }
@@ -175,8 +379,8 @@ void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
         }
         write_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {
-            const CpfgExpression& formal = expression(module.arguments[i]);
-            if (formal.kind != CpfgKind::Name) {
+            const ForeignNode& formal = expression(module.arguments[i]);
+            if (formal.kind != ForeignKind::Name) {
                 context_.diagnostics.add(DiagnosticCode::ForeignSyntax, formal.span,
                                          "a parameter is a name here");
             }
@@ -237,255 +441,123 @@ std::string label_of(Stage stage, std::size_t index) {
                                        : "#interpret i" + number;
 }
 
-/// Label of the production that replaces a module of random numbers.
-std::string bound_label(Stage stage, const std::string& name) {
-    return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
-}
-Stage bound_stage(Stage stage) {
-    return stage == Stage::Rewrite ? Stage::Decompose : stage;
-}
-
 } // namespace
 
 std::string CpfgWriter::drawing_module(std::size_t index) const {
     return "`random" + std::to_string(index + 1) + "`";
 }
 
-void CpfgWriter::write_formals(const std::vector<std::string>& names, int count, SourceSpan span) {
+void CpfgWriter::write_parameters(const std::vector<std::string>& names,
+                                  const std::vector<std::string>& draws,
+                                  SourceSpan span) {
     std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "(" : ", ") + name;
-    }
-    for (int i = 0; i < count; ++i) {
-        text += (text.empty() ? "(" : ", ") + expressions_.draw_name(i);
+    for (const std::vector<std::string>* const list : {&names, &draws}) {
+        for (const std::string& name : *list) {
+            text += (text.empty() ? "(" : ", ") + name;
+        }
     }
     out_.put(text.empty() ? text : text + ")", span);
 }
 
-void CpfgWriter::write_draws(const std::vector<std::string>& names, int count, SourceSpan span) {
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "(" : ", ") + name;
+std::vector<std::string> CpfgWriter::draw_names(const std::vector<std::string>& formals,
+                                                std::uint32_t count) {
+    std::set<std::string> taken(formals.begin(), formals.end());
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        names.push_back(unique_name("random" + std::to_string(i + 1), taken));
     }
-    for (int i = 0; i < count; ++i) {
-        text += text.empty() ? "({0, 1}" : ", {0, 1}";
-    }
-    out_.put(text.empty() ? text : text + ")", span);
-}
-
-void CpfgWriter::write_production(std::size_t index) {
-    const CpfgProduction& production = session_.productions[index];
-    const BoundDraws& bound = bindings_[index];
-    if (!check(production)) {
-        return;
-    }
-    if (bound.binding == Binding::Group) {
-        if (groups_.count(index) != 0) {
-            write_group(index);
-        }
-        return;
-    }
-    const std::vector<std::string> names = formals_of(production);
-    write_head(production, label_of(production.stage, index));
-    const bool own = bound.binding == Binding::Own;
-    expressions_.begin({names.begin(), names.end()}, production.stage,
-                       own ? CpfgDraws::Elsewhere : CpfgDraws::Inline);
-    expressions_.run(production.before);
-    write_condition(production);
-    write_weight(production);
-    if (own) {
-        write_bound_production(index);
-        return;
-    }
-    expressions_.run(production.after);
-    out_.put(" : ", production.arrow);
-    write_modules(production.successor);
-    out_.put(";\n", production.arrow);
-}
-
-void CpfgWriter::begin_bound(const CpfgProduction& production, int first_draw) {
-    const std::vector<std::string> names = formals_of(production);
-    expressions_.begin({names.begin(), names.end()}, bound_stage(production.stage),
-                       CpfgDraws::Bound);
-    expressions_.draw_from(first_draw);
-}
-
-/// The formals that the successor reads.
-std::vector<std::string> CpfgWriter::read_formals(const CpfgProduction& production) {
-    begin_bound(production, 0);
-    expressions_.run(production.before);
-    expressions_.run(production.after);
-    std::string text;
-    for (const CpfgModule& module : production.successor) {
-        for (const int argument : module.arguments) {
-            text += " " + expressions_.term(argument).text;
-        }
-    }
-    std::set<std::string> read;
-    const auto is_part = [&](std::size_t at) {
-        return std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_';
-    };
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t begin = at;
-        while (at < text.size() && is_part(at)) {
-            ++at;
-        }
-        read.insert(text.substr(begin, at - begin));
-        at += at == begin ? 1 : 0;
-    }
-    std::vector<std::string> names = formals_of(production);
-    std::erase_if(names, [&](const std::string& name) { return read.count(name) == 0; });
     return names;
 }
 
-/// Draws the random numbers of a production that matches, and writes its successor with them.
-void CpfgWriter::write_bound_production(std::size_t index) {
+void CpfgWriter::write_production(std::size_t index) {
+    write_head(session_.productions[index], label_of(session_.productions[index].stage, index));
+    write_condition(index, {.expands = true});
+    write_weight(index, {.expands = true});
+    write_successor(index, {});
+}
+
+/// Writes the local values, the successor and the end of a production.
+void CpfgWriter::write_successor(std::size_t index, const ForeignWriting& how) {
     const CpfgProduction& production = session_.productions[index];
-    const int count = bindings_[index].draws;
-    const std::vector<std::string> names = read_formals(production);
-    out_.put(" : " + drawing_module(index), production.arrow);
-    write_draws(names, count, production.arrow);
-    out_.put(";\n" + bound_label(production.stage, "b" + std::to_string(index + 1)) + " : " +
-                 drawing_module(index),
-             production.arrow);
-    begin_bound(production, 0);
-    write_formals(names, count, production.arrow);
-    out_.put(" : * : ", production.arrow);
-    expressions_.run(production.before);
-    expressions_.run(production.after);
-    write_modules(production.successor);
+    const Lowered& lowered = lowered_[index];
+    tree_.write_locals(" : ", lowered.first_local, lowered.end_local, how, out_);
+    out_.put(" : ", production.arrow);
+    write_modules(production.successor, lowered.arguments, how);
     out_.put(";\n", production.arrow);
 }
 
-/// Writes the productions of a module that is rewritten by a random choice: the first draws the
-/// random numbers, on which the others depend.
+/// Writes the productions of a module that match by chance: the first draws the random numbers, by
+/// which the others choose.
 void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];
-    const int count = bindings_[index].draws;
+    const std::uint32_t count = lowered_[index].draws;
     const std::vector<std::string> names = formals_of(first);
     write_head(first, label_of(first.stage, index));
     out_.put("* : " + drawing_module(index), first.arrow);
-    write_draws(names, count, first.arrow);
+    write_parameters(names, std::vector<std::string>(count, "{0, 1}"), first.arrow);
     out_.put(";\n", first.arrow);
     bool always = false;
     for (const std::size_t member : members) {
         const CpfgProduction& production = session_.productions[member];
         const std::vector<std::string> own = formals_of(production);
+        const std::vector<std::string> draws = draw_names(own, count);
         out_.put(bound_label(production.stage, "b" + std::to_string(member + 1)) + " : " +
                      drawing_module(index),
                  production.span);
-        begin_bound(production, bindings_[member].first_draw);
-        write_formals(own, count, production.span);
+        write_parameters(own, draws, production.span);
         out_.put(" : ", production.span);
-        if (is_random_choice(production)) {
-            write_weighted_condition(production, index);
-            begin_bound(production, bindings_[member].first_draw);
-            expressions_.run(production.before);
-        } else {
-            expressions_.run(production.before);
-            write_condition(production);
-        }
-        always = always || is_always(production);
-        expressions_.run(production.after);
-        out_.put(" : ", production.arrow);
-        write_modules(production.successor);
-        out_.put(";\n", production.arrow);
+        write_condition(member, {.expands = true, .draws = draws});
+        always = always || is_always(lowered_[member].condition);
+        write_successor(member, {.draws = draws});
     }
     if (!always) { // if no production matches, the module stays
         out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
                      drawing_module(index),
                  first.span);
-        begin_bound(first, 0);
-        write_formals(names, count, first.span);
+        write_parameters(names, draw_names(names, count), first.span);
         out_.put(" : * : " + spelled(first.predecessor.front().name,
                                      first.predecessor.front().has_arguments),
                  first.span);
-        write_draws(names, 0, first.span);
+        write_parameters(names, {}, first.span);
         out_.put(";\n", first.span);
     }
 }
 
-void CpfgWriter::write_condition(const CpfgProduction& production) {
-    if (production.condition < 0) {
-        out_.put("*", production.span);
-        return;
+void CpfgWriter::write_condition(std::size_t index, const ForeignWriting& how) {
+    const ForeignId condition = lowered_[index].condition;
+    if (is_always(condition)) {
+        out_.put("*", session_.productions[index].span);
+    } else {
+        tree_.write(condition, how, out_);
     }
-    const SourceSpan span = expression(production.condition).span;
-    const CpfgTerm test = expressions_.term(production.condition);
-    const bool number = is_cpfg_number(test.text);
-    const bool always = number && !is_cpfg_zero(test.text);
-    out_.put(always ? "*" : test.text, span);
 }
 
-void CpfgWriter::write_weight(const CpfgProduction& production) {
-    if (production.weight >= 0 && session_.seed < 0) {
+void CpfgWriter::warn_weight(const CpfgProduction& production) {
+    if (production.weight != kNoForeign && session_.seed == kNoForeign) {
         expressions_.warn_left_out(
             expression(production.weight).span, "weight",
             "without `seed:` the first production that matches is taken: this is left out");
     }
-    if (!is_random_choice(production)) {
-        return;
-    }
-    if (!production.left.empty() || !production.right.empty()) {
+    if (is_random_choice(production) && (!production.left.empty() || !production.right.empty())) {
         expressions_.warn_left_out(production.span, "choice " + key_of(production),
                                    "the choice is among productions with the same contexts; cpfg "
                                    "chooses among all that match");
     }
-    if (production.weight < 0) {
-        out_.put(" ~ 1", production.span);
-        return;
-    }
-    const SourceSpan span = expression(production.weight).span;
-    out_.put(" ~ ", span);
-    out_.put("(" + expressions_.term(production.weight).text + ")", span);
 }
 
-/// Writes the condition of the choice: the last random number, times the sum of the weights of all
-/// matching productions, lies in the interval of the weight of this one.
-void CpfgWriter::write_weighted_condition(const CpfgProduction& production, std::size_t index) {
-    const std::vector<std::string> own = formals_of(production);
-    std::string until;
-    std::string all;
-    std::string test;
-    bool last = false;
-    for (const std::size_t member : groups_.at(index)) {
-        const CpfgProduction& other = session_.productions[member];
-        begin_bound(production, bindings_[member].first_draw);
-        const std::vector<std::string> names = formals_of(other);
-        for (std::size_t i = 0; i < names.size() && i < own.size(); ++i) {
-            if (names[i] != own[i]) {
-                expressions_.let(names[i], own[i]);
-            }
-        }
-        expressions_.run(other.before);
-        const std::string condition =
-            is_always(other) ? "" : in_cpfg_parentheses(expressions_.term(other.condition).text);
-        std::string part =
-            other.weight < 0 ? "1" : in_cpfg_parentheses(expressions_.term(other.weight).text);
-        part += condition.empty() ? "" : " * (" + condition + " != 0)";
-        all += (all.empty() ? "" : " + ") + part;
-        if (all.size() > kMaxCpfgTerm) { // the sum is part of the condition of each production
-            session_.report_unsupported(
-                session_.productions[groups_.at(index).front()].span,
-                "so many productions for one module that the sum of their weights is "
-                "too long for one expression");
-            return;
-        }
-        if (until.empty() || !last) {
-            until = all;
-        }
-        last = last || &other == &production;
-        test = &other == &production ? condition : test;
+void CpfgWriter::write_weight(std::size_t index, const ForeignWriting& how) {
+    const CpfgProduction& production = session_.productions[index];
+    if (!is_random_choice(production)) {
+        return;
     }
-    const SourceSpan span =
-        production.weight < 0 ? production.span : expression(production.weight).span;
-    const std::string u = expressions_.draw_name(bindings_[index].draws - 1);
-    const std::string chance =
-        until == all ? "" : u + " * (" + all + ") < " + in_cpfg_parentheses(until);
-    const std::string both =
-        test.empty() || chance.empty() ? test + chance : test + " != 0 && " + chance;
-    out_.put(both.empty() ? "*" : both, span);
+    const ForeignId weight = lowered_[index].weight;
+    out_.put(" ~ ", weight == kNoForeign ? production.span : expression(production.weight).span);
+    if (weight == kNoForeign) {
+        out_.put("1", production.span);
+    } else {
+        tree_.write(weight, how, out_);
+    }
 }
 
 } // namespace lsys

@@ -1,8 +1,8 @@
 // Writes a parsed cpfg file as .lsys text.
 //
-// A random range of .lsys draws a number at each place where it is written. So a random number that
-// is used twice, or on which a decision depends, becomes a parameter of an intermediate module,
-// which is decomposed at once: `A(x) --> random1(x, {0, 1})`, `random1(x, u) --> ...`.
+// The conditions of .lsys draw no random numbers. So where one decides whether a production matches,
+// it becomes a parameter of an intermediate module, which is decomposed at once:
+// `A(x) --> random1(x, {0, 1})`, `random1(x, u) : u < 0.5 --> ...`.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -25,15 +25,17 @@ public:
     void write(std::string_view turtle);
 
 private:
-    enum class Binding : std::uint8_t {
-        None,
-        Own,   // the production matches, then its random numbers are drawn
-        Group, // random numbers are drawn, then one of the productions of the module is chosen
-    };
-    struct BoundDraws {
-        Binding binding = Binding::None;
-        int first_draw = 0; // in a group: index of the first number of this production
-        int draws = 0;      // count of random numbers of the module
+    /// A production in .lsys.
+    struct Lowered {
+        bool is_written = false;
+        bool in_group = false;
+        ForeignId condition = kNoForeign;
+        ForeignId weight = kNoForeign;
+        std::vector<std::vector<ForeignId>> arguments; // by module of the successor
+        std::size_t first_local = 0;                   // of its local values
+        std::size_t end_local = 0;
+        std::uint32_t first_draw = 0; // in a group: of the random numbers of its module
+        std::uint32_t draws = 0;
     };
 
     // --- names
@@ -46,38 +48,50 @@ private:
 
     // --- the header
     void write_settings(std::string_view turtle);
-    void write_setting(const char* begin, int expression, const char* fallback);
-    void write_depth(const char* begin, int expression, Stage stage);
+    void write_setting(const char* begin, ForeignId expression, const char* fallback);
+    void write_depth(const char* begin, ForeignId expression, Stage stage);
     void read_view_file();
+    void write_constants();
     void write_declarations();
     void write_names(const char* begin, const std::vector<CpfgModule>& list);
     [[nodiscard]] bool has(Stage stage) const;
 
     // --- productions
-    void find_bindings();
+    void lower_header();
+    void lower_productions();
+    void lower(std::size_t index);
+    void find_groups();
     void bind_group(const std::vector<std::size_t>& members);
+    [[nodiscard]] bool can_bind(const std::vector<std::size_t>& members);
+    void weigh_group(const std::vector<std::size_t>& members);
+    [[nodiscard]] ForeignId weighted_condition(const std::vector<std::size_t>& members,
+                                               std::size_t index);
+    void find_local_names();
     [[nodiscard]] bool check(const CpfgProduction& production);
     void write_production(std::size_t index);
-    void write_bound_production(std::size_t index);
     void write_group(std::size_t index);
     void write_head(const CpfgProduction& production, const std::string& label);
-    void write_condition(const CpfgProduction& production);
-    void write_weight(const CpfgProduction& production);
-    void write_weighted_condition(const CpfgProduction& production, std::size_t index);
+    void write_condition(std::size_t index, const ForeignWriting& how);
+    void write_weight(std::size_t index, const ForeignWriting& how);
+    void write_successor(std::size_t index, const ForeignWriting& how);
     void write_name(const CpfgModule& module);
-    void write_modules(const std::vector<CpfgModule>& list);
+    void write_modules(const std::vector<CpfgModule>& list,
+                       const std::vector<std::vector<ForeignId>>& arguments,
+                       const ForeignWriting& how);
+    [[nodiscard]] std::vector<std::vector<ForeignId>> terms_of(const std::vector<CpfgModule>& list);
     void write_pattern(const std::vector<CpfgModule>& list);
     [[nodiscard]] std::string drawing_module(std::size_t index) const;
-    [[nodiscard]] std::vector<std::string> read_formals(const CpfgProduction& production);
-    void begin_bound(const CpfgProduction& production, int first_draw);
-    void write_formals(const std::vector<std::string>& names, int draws, SourceSpan span);
-    void write_draws(const std::vector<std::string>& names, int count, SourceSpan span);
+    void warn_weight(const CpfgProduction& production);
+    void write_parameters(const std::vector<std::string>& names,
+                          const std::vector<std::string>& draws,
+                          SourceSpan span);
     [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& production) const;
+    /// Names of the parameters with the random numbers of a group.
+    [[nodiscard]] static std::vector<std::string>
+    draw_names(const std::vector<std::string>& formals, std::uint32_t count);
     [[nodiscard]] bool is_random_choice(const CpfgProduction& production) const;
-    [[nodiscard]] bool is_always(const CpfgProduction& production) const;
-    [[nodiscard]] const CpfgExpression& expression(int index) const {
-        return session_.expressions[static_cast<std::size_t>(index)];
-    }
+    [[nodiscard]] bool is_always(ForeignId condition) const;
+    [[nodiscard]] const ForeignNode& expression(ForeignId id) const { return tree_[id]; }
 
     CpfgSession& session_;
     const ParseContext& context_;
@@ -85,11 +99,18 @@ private:
     SourceSpan header_; // for text without a place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
-    std::vector<BoundDraws> bindings_;                       // by production
-    std::map<std::size_t, std::vector<std::size_t>> groups_; // by the first of its productions
-    std::set<Stage> bound_;                                  // stages with bindings
-    std::set<std::string> used_;                             // names of all modules
-    std::set<std::string> matched_;                          // names in predecessors and contexts
+    ForeignExpressions& tree_;
+    ForeignId length_ = kNoForeign; // settings in .lsys
+    ForeignId seed_ = kNoForeign;
+    ForeignId decompose_depth_ = kNoForeign;
+    ForeignId interpret_depth_ = kNoForeign;
+    std::vector<std::vector<ForeignId>> axiom_; // arguments by module
+    std::vector<Lowered> lowered_;              // by production
+    // Productions among which a random number decides, by the first of them.
+    std::map<std::size_t, std::vector<std::size_t>> groups_;
+    std::set<Stage> bound_;         // stages with groups
+    std::set<std::string> used_;    // names of all modules
+    std::set<std::string> matched_; // names in predecessors and contexts
     std::set<std::string> surfaces_;
     std::map<std::string, int> alternatives_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -16,214 +17,156 @@ struct Function {
     std::string_view name;
     std::string_view in_lsys;
 };
-constexpr std::array<Function, 21> kFunctions{{
+constexpr std::array<Function, 22> kFunctions{{
     {"sin", "sin"},    {"cos", "cos"},     {"tan", "tan"},     {"asin", "asin"}, {"acos", "acos"},
     {"atan", "atan"},  {"atan2", "atan2"}, {"sqrt", "sqrt"},   {"exp", "exp"},   {"log", "log"},
     {"pow", "pow"},    {"abs", "abs"},     {"floor", "floor"}, {"ceil", "ceil"}, {"round", "round"},
     {"rint", "round"}, {"min", "min"},     {"max", "max"},     {"sign", "sign"}, {"fmod", "mod"},
-    {"mod", "mod"},
+    {"mod", "mod"},    {"int", "int"},
 }};
 
 /// Variables of the turtle, unknown to rules.
 constexpr std::string_view kTurtleVariables = "xyzALTUVW";
 
 std::string_view operator_of(std::string_view text) {
-    if (text[0] == '&') {
-        return " && ";
-    }
-    return text[0] == '|' ? " || " : text;
+    return text == "&" ? "&&" : text == "|" ? "||" : text;
 }
 
 } // namespace
 
-void HoudiniExpressions::report_unsupported(SourceSpan place, const std::string& message) const {
+ForeignId HoudiniExpressions::unsupported(SourceSpan place, const std::string& message) {
     session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, place, message);
+    return tree_.number("0", place);
 }
 
-void HoudiniExpressions::write(int node, const HoudiniScope& scope) {
-    items_.push_back({node, {}, {}});
-    while (!items_.empty()) {
-        const Item item = items_.back();
-        items_.pop_back();
-        if (item.node == -1) {
-            translation_.put(item.text, item.span);
-        } else {
-            write_node(session_.node(item.node), scope);
+ForeignId HoudiniExpressions::term(ForeignId root, const HoudiniScope& scope) {
+    Terms terms;
+    std::vector<ForeignId> wanted;
+    std::vector<ForeignId> open{root};
+    while (!open.empty()) { // a seed is no part of what is written
+        const ForeignId id = open.back();
+        open.pop_back();
+        wanted.push_back(id);
+        const ForeignNode& node = tree_[id];
+        if (node.kind != ForeignKind::Call || node.text != "rand") {
+            open.insert(open.end(), node.parts.begin(), node.parts.end());
         }
     }
+    std::sort(wanted.begin(), wanted.end()); // children before parents
+    for (const ForeignId id : wanted) {
+        const ForeignId made = lower(id, terms, scope);
+        terms[id] = made;
+    }
+    return terms[root];
 }
 
-void HoudiniExpressions::write_node(const HoudiniNode& node, const HoudiniScope& scope) {
+ForeignId HoudiniExpressions::lower(ForeignId id, const Terms& terms, const HoudiniScope& scope) {
+    const ForeignNode node = tree_[id]; // a copy, which stays valid while the tree grows
+    if (node.kind == ForeignKind::Call && node.text == "rand") {
+        return random(node, scope);
+    }
+    std::vector<ForeignId> parts;
+    for (const ForeignId part : node.parts) {
+        parts.push_back(terms.at(part));
+    }
     switch (node.kind) {
-    case HoudiniNodeKind::Number:
-        translation_.copy(node.span, session_.context.sources);
-        return;
-    case HoudiniNodeKind::Name:
-        write_name(node, scope);
-        return;
-    case HoudiniNodeKind::Call:
-        write_call(node, scope);
-        return;
-    case HoudiniNodeKind::Group:
-        translation_.put("(", {node.span.file, node.span.begin, node.span.begin + 1});
-        items_.push_back({-1, ")", {node.span.file, node.span.end - 1, node.span.end}});
-        items_.push_back({node.parts[0], {}, {}});
-        return;
-    case HoudiniNodeKind::Unary:
-        translation_.copy(node.span, session_.context.sources);
-        items_.push_back({node.parts[0], {}, {}});
-        return;
-    case HoudiniNodeKind::Binary:
-        write_binary(node);
-        return;
-    case HoudiniNodeKind::Text:
-        report_unsupported(node.span, "a text is no value here");
-        return;
-    case HoudiniNodeKind::Missing:
-        translation_.put("0", node.span);
-        return;
+    case ForeignKind::Name:
+        return name(node, scope);
+    case ForeignKind::Call:
+        return call(node, std::move(parts));
+    case ForeignKind::Unary:
+        return tree_.unary(node.text, parts[0], node.token);
+    case ForeignKind::Binary:
+        return node.text == "%"
+                   ? tree_.call("mod", std::move(parts), node.token)
+                   : tree_.binary(operator_of(node.text), parts[0], parts[1], node.token);
+    case ForeignKind::Text:
+        return unsupported(node.span, "a text is no value here");
+    case ForeignKind::Missing:
+        return tree_.number("0", node.span);
+    default: // a number
+        return id;
     }
 }
 
-void HoudiniExpressions::write_binary(const HoudiniNode& node) {
-    const std::string_view text = session_.context.sources.text(node.span);
-    if (text == "%") {
-        translation_.put("mod(", node.span);
-        items_.push_back({-1, ")", node.span});
-        items_.push_back({node.parts[1], {}, {}});
-        items_.push_back({-1, ", ", node.span});
-    } else {
-        items_.push_back({node.parts[1], {}, {}});
-        items_.push_back({-1, operator_of(text), node.span});
-    }
-    items_.push_back({node.parts[0], {}, {}});
-}
-
-void HoudiniExpressions::write_name(const HoudiniNode& node, const HoudiniScope& scope) {
-    const std::string_view name = session_.context.sources.text(node.span);
+ForeignId HoudiniExpressions::name(const ForeignNode& node, const HoudiniScope& scope) {
+    const std::string& name = node.text;
     const bool in_premise = scope.place == HoudiniPlace::Premise;
     if (scope.rule != nullptr && names_parameter(*scope.rule, name)) {
         const bool is_zero =
             scope.zeros != nullptr &&
             std::find(scope.zeros->begin(), scope.zeros->end(), name) != scope.zeros->end();
-        if (is_zero) {
-            translation_.put("0", node.span);
-        } else {
-            translation_.copy(node.span, session_.context.sources);
-        }
-    } else if (name == "a") {
-        translation_.put(angle_, node.span);
-    } else if (name == "b" || name == "c" || name == "d") {
-        translation_.put("value_" + std::string(name), node.span);
-    } else if (name == "t") {
-        translation_.put(in_premise ? "0" : "step()", node.span);
-    } else if (name == "g") {
-        translation_.put(in_premise ? "0" : "g", node.span);
-    } else if (name == "i") {
-        report_unsupported(node.span,
+        return is_zero ? tree_.number("0", node.span) : tree_.name(name, node.span);
+    }
+    if (name == "a") {
+        return tree_.number(angle_, node.span);
+    }
+    if (name == "b" || name == "c" || name == "d") {
+        return tree_.name("value_" + name, node.span);
+    }
+    if (name == "t") {
+        return in_premise ? tree_.number("0", node.span) : tree_.call("step", {}, node.span);
+    }
+    if (name == "g") {
+        return in_premise ? tree_.number("0", node.span) : tree_.name("g", node.span);
+    }
+    if (name == "i") {
+        return unsupported(node.span,
                            "where a module stands in the word, `i`, is not known to rules of lsc, "
                            "except as the seed of `rand`");
-    } else if (name.size() == 1 && kTurtleVariables.find(name[0]) != std::string_view::npos) {
-        report_unsupported(node.span,
-                           "`" + std::string(name) +
-                               "` is of the turtle, which draws when all rules have been applied");
-    } else {
-        session_.context.diagnostics.add(
-            DiagnosticCode::ForeignSyntax, node.span,
-            "`" + shown(name) + "` is neither a parameter of this rule nor a variable of Houdini");
     }
+    if (name.size() == 1 && kTurtleVariables.find(name[0]) != std::string_view::npos) {
+        return unsupported(node.span,
+                           "`" + name +
+                               "` is of the turtle, which draws when all rules have been applied");
+    }
+    session_.context.diagnostics.add(
+        DiagnosticCode::ForeignSyntax, node.span,
+        "`" + shown(name) + "` is neither a parameter of this rule nor a variable of Houdini");
+    return tree_.number("0", node.span);
 }
 
-void HoudiniExpressions::write_call(const HoudiniNode& node, const HoudiniScope& scope) {
-    const std::string_view name = session_.context.sources.text(node.span);
-    if (name == "rand") {
-        write_random(node, scope);
-        return;
-    }
-    if (name == "int") {
-        write_integer(node);
-        return;
-    }
+ForeignId HoudiniExpressions::call(const ForeignNode& node, std::vector<ForeignId> arguments) {
+    const std::string& name = node.text;
     const auto* const found =
         std::find_if(kFunctions.begin(), kFunctions.end(),
                      [&](const Function& function) { return function.name == name; });
     if (found == kFunctions.end()) {
         const bool of_scene = name == "in" || name == "pic";
-        report_unsupported(node.span,
-                           of_scene ? "`" + std::string(name) +
+        return unsupported(node.token,
+                           of_scene ? "`" + name +
                                           "` asks an input of Houdini's node, which lsc does not "
                                           "have"
                                     : "lsc has no function `" + shown(name) + "`");
-        return;
     }
-    translation_.put(found->in_lsys, node.span);
-    translation_.put("(", node.span);
-    items_.push_back({-1, ")", node.span});
-    for (std::size_t i = node.parts.size(); i-- > 0;) {
-        items_.push_back({node.parts[i], {}, {}});
-        if (i != 0) {
-            items_.push_back({-1, ", ", node.span});
-        }
-    }
-}
-
-/// Returns whether an expression has a random number. Sets `is_positive` to whether the expression
-/// is certain to be at least 0.
-bool HoudiniExpressions::draws(int root, bool& is_positive) const {
-    bool found = false;
-    is_positive = true;
-    std::vector<int> open{root};
-    while (!open.empty()) {
-        const HoudiniNode& node = session_.node(open.back());
-        open.pop_back();
-        const std::string_view text = session_.context.sources.text(node.span);
-        const bool random = node.kind == HoudiniNodeKind::Call && text == "rand";
-        const bool keeps_sign =
-            node.kind == HoudiniNodeKind::Number || node.kind == HoudiniNodeKind::Group ||
-            (node.kind == HoudiniNodeKind::Binary && (text == "+" || text == "*" || text == "/"));
-        found = found || random;
-        is_positive = is_positive && (random || keeps_sign);
-        if (!random) {
-            open.insert(open.end(), node.parts.begin(), node.parts.end());
-        }
-    }
-    return found;
-}
-
-/// Writes `int(x)`, x without its fraction, as `(sign(x) * floor(abs(x)))`. An x with a random
-/// number is written once only, as `floor(x)`, because each copy would draw another number.
-void HoudiniExpressions::write_integer(const HoudiniNode& node) {
-    bool is_positive = false;
-    if (node.parts.size() != 1) {
-        session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.span,
+    if (name == "int" && node.parts.size() != 1) {
+        session_.context.diagnostics.add(DiagnosticCode::ForeignSyntax, node.token,
                                          "`int` takes one number");
-    } else if (!draws(node.parts[0], is_positive)) {
-        items_.push_back({-1, ")))", node.span});
-        items_.push_back({node.parts[0], {}, {}});
-        items_.push_back({-1, ") * floor(abs(", node.span});
-        items_.push_back({node.parts[0], {}, {}});
-        items_.push_back({-1, "(sign(", node.span});
-    } else if (is_positive) {
-        items_.push_back({-1, ")", node.span});
-        items_.push_back({node.parts[0], {}, {}});
-        items_.push_back({-1, "floor(", node.span});
-    } else {
-        report_unsupported(node.span, "`int` of a random number that may be below 0");
     }
+    return tree_.call(found->in_lsys, std::move(arguments), node.token);
 }
 
-/// Writes `{0, 1}` for `rand(seed)`; the seed is ignored.
-void HoudiniExpressions::write_random(const HoudiniNode& node, const HoudiniScope& scope) {
+/// A number from 0 to 1, the same for the same seed in one rule.
+ForeignId HoudiniExpressions::random(const ForeignNode& node, const HoudiniScope& scope) {
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =
-            session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, node.span,
+            session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, node.token,
                                              "chance cannot stand in a condition or probability");
         error.help.emplace_back("write the probability behind the rule, as in `A=B:0.3`; a first "
                                 "rule with `rand(i)<0.3` and a second without condition are read");
-        return;
+        return tree_.number("0", node.span);
     }
-    warn_random(node.span);
-    translation_.put("{0, 1}", node.span);
+    warn_random(node.token);
+    std::string seed(session_.context.sources.text(node.span));
+    std::erase_if(seed, [](char c) { return c == ' ' || c == '\t'; });
+    const auto [known, is_new] = seeds_.try_emplace(std::move(seed), kNoForeign);
+    if (is_new) {
+        known->second =
+            tree_.local({.name = "chance", .value = tree_.draw(0, node.token), .span = node.token});
+    }
+    ForeignNode read = tree_[known->second];
+    read.span = read.token = node.token;
+    return tree_.add(std::move(read));
 }
 
 void HoudiniExpressions::warn_random(SourceSpan place) {

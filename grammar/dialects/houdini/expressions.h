@@ -1,10 +1,10 @@
-// Writes the expressions of a Houdini rule text in .lsys.
+// Houdini's expressions in .lsys. Equal seeds of `rand` in one rule are one random number.
 #pragma once
 
-#include "grammar/ast/translation.h"
 #include "grammar/dialects/houdini/session.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,36 +23,30 @@ struct HoudiniScope {
 
 class HoudiniExpressions {
 public:
-    HoudiniExpressions(const HoudiniSession& session, Translation& translation)
-        : session_(session), translation_(translation) {}
+    explicit HoudiniExpressions(HoudiniSession& session)
+        : session_(session), tree_(session.nodes) {}
 
     /// Sets the value of the variable `a`.
     void set_angle(std::string angle) { angle_ = std::move(angle); }
-    void write(int node, const HoudiniScope& scope);
+    /// Begins the premise or a variant of a rule, whose local values come next.
+    void begin() { seeds_.clear(); }
+    /// The expression in .lsys.
+    [[nodiscard]] ForeignId term(ForeignId root, const HoudiniScope& scope);
     /// Warns once that `rand` does not depend on its seed.
     void warn_random(SourceSpan place);
 
 private:
-    /// A part to be written: a node, or a text with its place.
-    struct Item {
-        int node = -1;
-        std::string_view text;
-        SourceSpan span;
-    };
+    using Terms = std::map<ForeignId, ForeignId>; // by node of the file
+    [[nodiscard]] ForeignId lower(ForeignId id, const Terms& terms, const HoudiniScope& scope);
+    [[nodiscard]] ForeignId name(const ForeignNode& node, const HoudiniScope& scope);
+    [[nodiscard]] ForeignId call(const ForeignNode& node, std::vector<ForeignId> arguments);
+    [[nodiscard]] ForeignId random(const ForeignNode& node, const HoudiniScope& scope);
+    ForeignId unsupported(SourceSpan place, const std::string& message);
 
-    void write_node(const HoudiniNode& node, const HoudiniScope& scope);
-    void write_name(const HoudiniNode& node, const HoudiniScope& scope);
-    void write_call(const HoudiniNode& node, const HoudiniScope& scope);
-    void write_random(const HoudiniNode& node, const HoudiniScope& scope);
-    void write_integer(const HoudiniNode& node);
-    [[nodiscard]] bool draws(int root, bool& is_positive) const;
-    void write_binary(const HoudiniNode& node);
-    void report_unsupported(SourceSpan place, const std::string& message) const;
-
-    const HoudiniSession& session_;
+    HoudiniSession& session_;
+    ForeignExpressions& tree_;
     std::string angle_;
-    Translation& translation_;
-    std::vector<Item> items_; // stack of parts to be written
+    std::map<std::string, ForeignId> seeds_; // random numbers of the rule, by seed as written
     bool has_warned_random_ = false;
 };
 

@@ -2,7 +2,9 @@
 #include "grammar/ast/number.h"
 #include "grammar/dialects/houdini/writer.h"
 
+#include <set>
 #include <string>
+#include <utility>
 
 namespace lsys {
 
@@ -36,31 +38,22 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
 
 /// Probability that the condition `rand(seed) < number` or `rand(seed) > number` holds, as an
 /// expression; empty for other conditions.
-std::string HoudiniWriter::chance_of(int condition) const {
-    const auto node_at = [&](int index) -> const HoudiniNode& {
-        const HoudiniNode* node = &session_.node(index);
-        while (node->kind == HoudiniNodeKind::Group) {
-            node = &session_.node(node->parts[0]);
-        }
-        return *node;
-    };
-    const HoudiniNode& test = node_at(condition);
-    if (test.kind != HoudiniNodeKind::Binary) {
+std::string HoudiniWriter::chance_of(ForeignId condition) const {
+    const ForeignNode& test = tree_[condition];
+    if (test.kind != ForeignKind::Binary) {
         return {};
     }
-    const HoudiniNode& left = node_at(test.parts[0]);
-    const HoudiniNode& right = node_at(test.parts[1]);
-    const std::string_view sign = text(test.span);
-    if (left.kind != HoudiniNodeKind::Call || text(left.span) != "rand" ||
-        right.kind != HoudiniNodeKind::Number || (sign[0] != '<' && sign[0] != '>')) {
+    const ForeignNode& left = tree_[test.parts[0]];
+    const ForeignNode& right = tree_[test.parts[1]];
+    if (left.kind != ForeignKind::Call || left.text != "rand" ||
+        right.kind != ForeignKind::Number || (test.text[0] != '<' && test.text[0] != '>')) {
         return {};
     }
-    const float limit = read_literal(text(right.span)).value;
+    const float limit = read_literal(right.text).value;
     if (!(limit > 0.0F && limit < 1.0F)) {
         return {};
     }
-    const std::string number(text(right.span));
-    return sign[0] == '<' ? number : "(1 - " + number + ")";
+    return test.text[0] == '<' ? right.text : "(1 - " + right.text + ")";
 }
 
 /// Finds pairs of rules that together are a random choice: the only two rules of a group, the first
@@ -74,7 +67,8 @@ void HoudiniWriter::find_chances() {
     }
     for (const auto& [group, rules] : groups) {
         if (rules.size() != 2 || rules_of[text(rules[0]->predecessor.front().symbol)] != 2 ||
-            has_probability_[group] || rules[0]->condition == -1 || rules[1]->condition != -1) {
+            has_probability_[group] || rules[0]->condition == kNoForeign ||
+            rules[1]->condition != kNoForeign) {
             continue;
         }
         const std::string chance = chance_of(rules[0]->condition);
@@ -93,10 +87,9 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
     bool is_valid = true;
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
         for (const HoudiniModule& module : *modules) {
-            for (const int argument : module.arguments) {
-                const HoudiniNode& formal = session_.node(argument);
-                if (formal.kind != HoudiniNodeKind::Name &&
-                    formal.kind != HoudiniNodeKind::Missing) {
+            for (const ForeignId argument : module.arguments) {
+                const ForeignNode& formal = session_.node(argument);
+                if (formal.kind != ForeignKind::Name && formal.kind != ForeignKind::Missing) {
                     report_syntax(formal.span, "here a parameter is named");
                     is_valid = false;
                 }
@@ -156,9 +149,9 @@ void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count
     const SourceSpan place = head.arguments.empty() ? head.symbol : head.parentheses;
     for (std::uint32_t i = 0; i < count; ++i) {
         translation_.put(i == 0 ? "(" : ", ", place);
-        const HoudiniNode* const formal =
+        const ForeignNode* const formal =
             i < head.arguments.size() ? &session_.node(head.arguments[i]) : nullptr;
-        if (formal != nullptr && formal->kind == HoudiniNodeKind::Name) {
+        if (formal != nullptr && formal->kind == ForeignKind::Name) {
             translation_.copy(formal->span, session_.context.sources);
         } else {
             translation_.put("_" + std::to_string(++fresh_), place);
@@ -210,22 +203,35 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
     if (const auto chance = chances_.find(&rule); chance != chances_.end()) {
         expressions_.warn_random(rule.span);
         translation_.put("* ~ " + chance->second, rule.span);
-    } else if (rule.condition != -1) {
-        expressions_.write(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
+    } else if (rule.condition != kNoForeign) {
+        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
     } else if (!weighted) {
         translation_.put("*", rule.span);
     }
     if (weighted) {
         translation_.put(" ~ ", rule.span);
-        if (rule.probability != -1) {
-            expressions_.write(rule.probability, {HoudiniPlace::Probability, &rule, &zeros_});
+        if (rule.probability != kNoForeign) {
+            write_expression(rule.probability, {HoudiniPlace::Probability, &rule, &zeros_});
         } else {
             translation_.put("1", rule.span);
         }
     }
+    const std::size_t first = tree_.locals().size();
+    const Word word = lower_word(rule.successor, {HoudiniPlace::Successor, &rule, &zeros_});
+    std::set<std::string> taken{"value_b", "value_c", "value_d", "g"};
+    taken.insert(rule.formals.begin(), rule.formals.end());
+    for (std::size_t i = 0; i < constants_; ++i) {
+        taken.insert(tree_.locals()[i].name);
+    }
+    name_locals(word, first, std::move(taken));
+    tree_.write_locals(" : ", first, tree_.locals().size(), {}, translation_);
     translation_.put(" : ", rule.span);
-    write_word(rule.successor, {HoudiniPlace::Successor, &rule, &zeros_});
+    write_word(word);
     translation_.put(";\n", {rule.span.file, rule.span.end, rule.span.end});
+}
+
+void HoudiniWriter::write_expression(ForeignId expression, const HoudiniScope& scope) {
+    tree_.write(expressions_.term(expression, scope), {.expands = true}, translation_);
 }
 
 /// Writes the rule that ages a symbol matched by no other rule.

@@ -64,13 +64,22 @@ void HoudiniSession::end_line() {
     tail_ = false;
 }
 
-int HoudiniSession::add_node(HoudiniNodeKind kind, SourceSpan span, std::vector<int> parts) {
-    nodes.push_back({kind, span, std::move(parts)});
-    if (depth_ == kMaxDepth && kind == HoudiniNodeKind::Group) {
+ForeignId HoudiniSession::add_node(ForeignKind kind,
+                                   SourceSpan token,
+                                   std::vector<ForeignId> parts,
+                                   SourceSpan span) {
+    return nodes.add({.kind = kind,
+                      .text = std::string(context.sources.text(token)),
+                      .parts = std::move(parts),
+                      .span = span,
+                      .token = token});
+}
+
+void HoudiniSession::check_nesting(SourceSpan span) const {
+    if (depth_ == kMaxDepth) {
         context.diagnostics.add(DiagnosticCode::NestingTooDeep, span,
                                 "parentheses are nested more than 10,000 deep");
     }
-    return static_cast<int>(nodes.size()) - 1;
 }
 
 void HoudiniSession::add_premise(std::vector<HoudiniModule> modules, SourceSpan span) {
@@ -90,9 +99,9 @@ void HoudiniSession::add_rule(HoudiniRule rule, SourceSpan span) {
     rule.span = span;
     for (const std::vector<HoudiniModule>* const modules : rule.head()) {
         for (const HoudiniModule& module : *modules) {
-            for (const int argument : module.arguments) {
-                const HoudiniNode& formal = node(argument);
-                if (formal.kind == HoudiniNodeKind::Name) {
+            for (const ForeignId argument : module.arguments) {
+                const ForeignNode& formal = node(argument);
+                if (formal.kind == ForeignKind::Name) {
                     rule.formals.push_back(context.sources.text(formal.span));
                 }
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grammar/base/contract.h"
+#include "grammar/dialects/impl/foreign_expression.h"
 #include "grammar/lsys/parse.h"
 
 #include <array>
@@ -11,28 +12,10 @@
 
 namespace lsys {
 
-enum class HoudiniNodeKind : std::uint8_t {
-    Number,
-    Name,
-    Call,    // span: the name; parts: the arguments
-    Group,   // part in parentheses
-    Unary,   // span: the operator
-    Binary,  // span: the operator
-    Text,    // in quotes
-    Missing, // an argument that is left out
-};
-
-/// A node of an expression.
-struct HoudiniNode {
-    HoudiniNodeKind kind{};
-    SourceSpan span;
-    std::vector<int> parts; // in HoudiniSession::nodes
-};
-
 struct HoudiniModule {
     SourceSpan symbol;
-    SourceSpan parentheses;     // with their contents; empty: none
-    std::vector<int> arguments; // in HoudiniSession::nodes; Missing ones count
+    SourceSpan parentheses;           // with their contents; empty: none
+    std::vector<ForeignId> arguments; // Missing ones count
 };
 
 /// A line `key: value`.
@@ -47,8 +30,8 @@ struct HoudiniRule {
     std::vector<HoudiniModule> predecessor;
     std::vector<HoudiniModule> right;
     std::vector<HoudiniModule> successor;
-    int condition = -1;           // a node; -1: none
-    int probability = -1;         // a node; -1: none
+    ForeignId condition = kNoForeign;
+    ForeignId probability = kNoForeign;
     std::uint32_t first_node = 0; // nodes of the line are [first_node, end_node)
     std::uint32_t end_node = 0;
     SourceSpan span;
@@ -66,14 +49,12 @@ public:
 
     const ParseContext& context;
     std::vector<HoudiniSetting> settings;
-    std::vector<HoudiniNode> nodes;
+    ForeignExpressions nodes;
     std::vector<HoudiniRule> rules;
     std::vector<HoudiniModule> premise; // empty: none
     SourceSpan premise_span;
 
-    [[nodiscard]] const HoudiniNode& node(int index) const {
-        return nodes[static_cast<std::size_t>(index)];
-    }
+    [[nodiscard]] const ForeignNode& node(ForeignId id) const { return nodes[id]; }
 
     // For the scanner.
     SourceSpan take(std::uint32_t length);
@@ -94,7 +75,11 @@ public:
     void end_line();
 
     // For the parser.
-    int add_node(HoudiniNodeKind kind, SourceSpan span, std::vector<int> parts);
+    /// Adds a node whose text is that of `token`.
+    ForeignId
+    add_node(ForeignKind kind, SourceSpan token, std::vector<ForeignId> parts, SourceSpan span);
+    /// Reports parentheses that are nested too deep.
+    void check_nesting(SourceSpan span) const;
     void add_premise(std::vector<HoudiniModule> modules, SourceSpan span);
     /// `rule` has no nodes, span and formals yet.
     void add_rule(HoudiniRule rule, SourceSpan span);

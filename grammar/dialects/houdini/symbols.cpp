@@ -43,8 +43,7 @@ const HoudiniSymbol& HoudiniSymbols::symbol(const HoudiniModule& module) const {
 
 std::uint32_t HoudiniSymbols::count(const HoudiniModule& module) const {
     auto given = static_cast<std::uint32_t>(module.arguments.size());
-    while (given != 0 &&
-           session_.node(module.arguments[given - 1]).kind == HoudiniNodeKind::Missing) {
+    while (given != 0 && session_.node(module.arguments[given - 1]).kind == ForeignKind::Missing) {
         --given;
     }
     return given;
@@ -63,8 +62,8 @@ void HoudiniSymbols::count_symbols(const std::vector<HoudiniModule>& modules, bo
 
 bool HoudiniSymbols::reads_age(const HoudiniRule& rule) const {
     for (std::uint32_t i = rule.first_node; i < rule.end_node; ++i) {
-        const HoudiniNode& node = session_.nodes[i];
-        if (node.kind == HoudiniNodeKind::Name && session_.context.sources.text(node.span) == "g") {
+        const ForeignNode& node = session_.node(static_cast<ForeignId>(i));
+        if (node.kind == ForeignKind::Name && node.text == "g") {
             return !names_parameter(rule, "g");
         }
     }

@@ -6,17 +6,18 @@
 #include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lsys {
 
-HoudiniWriter::HoudiniWriter(const HoudiniSession& session, Translation& translation)
-    : session_(session), translation_(translation), symbols_(session),
-      expressions_(session, translation) {
+HoudiniWriter::HoudiniWriter(HoudiniSession& session, Translation& translation)
+    : session_(session), tree_(session.nodes), translation_(translation), symbols_(session),
+      expressions_(session) {
     read_settings();
     expressions_.set_angle(number("angle", "90"));
     for (const HoudiniRule& rule : session.rules) {
         bool& known = has_probability_[group_of(rule)];
-        known = known || rule.probability != -1;
+        known = known || rule.probability != kNoForeign;
     }
     find_chances();
 }
@@ -65,7 +66,7 @@ void HoudiniWriter::write_settings(std::string_view turtle) {
         translation_.put(";\n");
     }
     if (std::any_of(session_.rules.begin(), session_.rules.end(),
-                    [](const HoudiniRule& rule) { return rule.probability != -1; })) {
+                    [](const HoudiniRule& rule) { return rule.probability != kNoForeign; })) {
         translation_.put("#set weights any;\n");
     }
     const auto ignored = settings_.find("ignore");
@@ -84,10 +85,20 @@ bool HoudiniWriter::reads_variable(std::string_view value) const {
         while (rule < session_.rules.size() && session_.rules[rule].end_node <= i) {
             ++rule;
         }
-        const HoudiniNode& node = session_.nodes[i];
-        if (node.kind == HoudiniNodeKind::Name && text(node.span) == value &&
+        const ForeignNode& node = session_.node(static_cast<ForeignId>(i));
+        if (node.kind == ForeignKind::Name && node.text == value &&
             (rule == session_.rules.size() || session_.rules[rule].first_node > i ||
              !names_parameter(session_.rules[rule], value))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool HoudiniWriter::calls(std::string_view function) const {
+    for (std::uint32_t i = 0; i < session_.nodes.size(); ++i) {
+        const ForeignNode& node = session_.node(static_cast<ForeignId>(i));
+        if (node.kind == ForeignKind::Call && node.text == function) {
             return true;
         }
     }
@@ -121,8 +132,19 @@ void HoudiniWriter::write(std::string_view turtle) {
     }
     write_settings(turtle);
     write_values();
+    if (calls("int")) {
+        translation_.put(kIntegerPart, session_.premise_span);
+    }
+    const Word premise = lower_word(session_.premise, {HoudiniPlace::Premise, nullptr, nullptr});
+    std::set<std::string> taken{"value_b", "value_c", "value_d"};
+    for (const HoudiniRule& rule : session_.rules) {
+        taken.insert(rule.formals.begin(), rule.formals.end());
+    }
+    name_locals(premise, 0, std::move(taken));
+    constants_ = tree_.locals().size();
+    tree_.write_constants(0, constants_, translation_);
     translation_.put("\n#w : ", session_.premise_span);
-    write_word(session_.premise, {HoudiniPlace::Premise, nullptr, nullptr});
+    write_word(premise);
     translation_.put(";\n\n");
     for (std::size_t i = 0; i < session_.rules.size(); ++i) {
         if (check_head(session_.rules[i])) {
@@ -153,9 +175,39 @@ void HoudiniWriter::write_symbol(const HoudiniModule& module) {
     }
 }
 
-void HoudiniWriter::write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope) {
+HoudiniWriter::Word HoudiniWriter::lower_word(const std::vector<HoudiniModule>& word,
+                                              const HoudiniScope& scope) {
+    expressions_.begin();
+    Word made;
     for (const HoudiniModule& module : word) {
-        write_module(module, scope);
+        made.push_back(lower_module(module, scope));
+    }
+    return made;
+}
+
+void HoudiniWriter::name_locals(const Word& word, std::size_t first, std::set<std::string> taken) {
+    std::vector<ForeignId> roots;
+    for (const Lowered& module : word) {
+        roots.insert(roots.end(), module.arguments.begin(), module.arguments.end());
+    }
+    tree_.count_reads(roots, {}, first);
+    tree_.name_locals(first, tree_.locals().size(), taken);
+}
+
+void HoudiniWriter::write_word(const Word& word) {
+    for (const Lowered& made : word) {
+        const HoudiniModule& module = *made.module;
+        const SourceSpan place = symbols_.count(module) != 0 ? module.parentheses : module.symbol;
+        if (made.name.empty()) {
+            write_symbol(module);
+        } else {
+            translation_.put(made.name, module.symbol);
+        }
+        for (std::size_t i = 0; i < made.arguments.size(); ++i) {
+            translation_.put(i == 0 ? "(" : ", ", place);
+            tree_.write(made.arguments[i], {}, translation_);
+        }
+        translation_.put(made.arguments.empty() ? "" : ")", place);
     }
 }
 
@@ -174,44 +226,49 @@ void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
                                          "; the module stays in the word and that is left out");
 }
 
-void HoudiniWriter::write_module(const HoudiniModule& module, const HoudiniScope& scope) {
-    const std::string_view symbol = text(module.symbol);
+HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
+                                                   const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.symbol(module);
-    if (known.is_command && !known.is_rewritten && write_special(module, symbol[0], scope)) {
-        return;
+    Lowered made{.module = &module, .name = {}, .arguments = {}};
+    if (!known.is_command || known.is_rewritten ||
+        !lower_special(made, text(module.symbol)[0], scope)) {
+        made.arguments = arguments(module, 0, scope);
     }
-    write_symbol(module);
-    write_arguments(module, 0, scope);
+    return made;
 }
 
-/// Writes symbols of the turtle that .lsys spells in another way; returns false for others.
-bool HoudiniWriter::write_special(const HoudiniModule& module,
-                                  char symbol,
-                                  const HoudiniScope& scope) {
+/// Angles of `~`, which are drawn when the module is written.
+std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
+                                                   const HoudiniScope& scope) {
+    const SourceSpan span = module.symbol;
+    ForeignId most = symbols_.count(module) == 0
+                         ? tree_.number("180", span)
+                         : expressions_.term(module.arguments.front(), scope);
+    if (tree_[most].kind != ForeignKind::Number) {
+        const ForeignId size = tree_.call("abs", {most}, span);
+        most = tree_.local({.name = "turn", .value = size, .span = span});
+    }
+    std::vector<ForeignId> turns;
+    for (int turn = 0; turn < 3; ++turn) {
+        turns.push_back(tree_.range(tree_.unary("-", most, span), most, span));
+    }
+    return turns;
+}
+
+/// Reads symbols of the turtle that .lsys spells in another way; returns false for others.
+bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope& scope) {
+    const HoudiniModule& module = *made.module;
     const std::uint32_t count = symbols_.count(module);
-    const int first = count != 0 ? module.arguments.front() : -1;
     switch (symbol) {
-    case '~': // random angles are drawn when the module is written
-        translation_.put("`~`(", module.symbol);
-        for (int turn = 0; turn < 3; ++turn) {
-            translation_.put(turn == 0 ? "{-abs(" : ", {-abs(", module.symbol);
-            for (int end = 0; end < 2; ++end) {
-                if (first == -1) {
-                    translation_.put("180", module.symbol);
-                } else {
-                    expressions_.write(first, scope);
-                }
-                translation_.put(end == 0 ? "), abs(" : ")}", module.symbol);
-            }
-        }
-        translation_.put(")", module.symbol);
+    case '~':
+        made.name = "`~`";
+        made.arguments = random_turns(module, scope);
         return true;
     case 'T':
         if (count != 0) {
             return false;
         }
-        translation_.copy(module.symbol, session_.context.sources);
-        translation_.put("(" + number("gravity", "0") + ")", module.symbol);
+        made.arguments = {tree_.number(number("gravity", "0"), module.symbol)};
         return true;
     case '$':
         if (count == 0) {
@@ -220,18 +277,17 @@ bool HoudiniWriter::write_special(const HoudiniModule& module,
         if (count != 3) {
             report_syntax(module.parentheses, "`$` takes a point: three numbers");
         }
-        translation_.put("`aim`", module.symbol);
+        made.name = "`aim`";
         translation_.replace_name("aim", "$");
-        write_arguments(module, 0, scope);
+        made.arguments = arguments(module, 0, scope);
         return true;
     case 'a': {
         if (count == 0) {
             return false;
         }
         warn_lost('a', module.symbol);
-        const bool named = session_.node(first).kind == HoudiniNodeKind::Text;
-        translation_.copy(module.symbol, session_.context.sources);
-        write_arguments(module, named ? 1 : 0, scope);
+        const bool named = session_.node(module.arguments.front()).kind == ForeignKind::Text;
+        made.arguments = arguments(module, named ? 1 : 0, scope);
         return true;
     }
     case 'g':
@@ -255,15 +311,15 @@ bool HoudiniWriter::write_special(const HoudiniModule& module,
     }
 }
 
-/// Writes the value that Houdini takes for an omitted parameter with others after it.
-void HoudiniWriter::write_left_out(const HoudiniModule& module,
-                                   std::uint32_t index,
-                                   SourceSpan place) {
+/// The value that Houdini takes for an omitted parameter with others after it.
+ForeignId
+HoudiniWriter::left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place) {
     const char symbol = text(module.symbol)[0];
+    std::string value = "0";
     if (!symbols_.symbol(module).is_command) {
-        translation_.put("0", place);
+        value = "0";
     } else if (symbol == 'J' || symbol == 'K' || symbol == 'M') {
-        translation_.put(index == 0 ? number("step_scale", "0.9") : "0", place);
+        value = index == 0 ? number("step_scale", "0.9") : "0";
     } else if (std::string_view("FHGfh").find(symbol) == std::string_view::npos) {
         report_syntax(place, "a parameter is missing");
     } else if (index == 0 && (symbols_.occurs("\"") || symbols_.occurs("_"))) {
@@ -273,40 +329,36 @@ void HoudiniWriter::write_left_out(const HoudiniModule& module,
         report_unsupported(place,
                            "the width that the turtle then has cannot be written as a parameter");
     } else if (index < 2) {
-        translation_.put(index == 0 ? number("step", "1") : number("width", "0.1"), place);
+        value = index == 0 ? number("step", "1") : number("width", "0.1");
     } else {
-        translation_.put(index == 2 ? std::string("1") : number("sides", "8"), place);
+        value = index == 2 ? std::string("1") : number("sides", "8");
     }
+    return tree_.number(value, place);
 }
 
-/// Writes the parameters of a module of a word, without the first `skip`.
-void HoudiniWriter::write_arguments(const HoudiniModule& module,
-                                    std::uint32_t skip,
-                                    const HoudiniScope& scope) {
+/// The parameters of a module of a word, without the first `skip`.
+std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
+                                                std::uint32_t skip,
+                                                const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.symbol(module);
     const std::uint32_t given = symbols_.count(module);
     const std::uint32_t count = known.is_command ? given : known.max_count;
+    std::vector<ForeignId> made;
     if (count > HoudiniSymbols::kMaxParameters) {
         report_syntax(module.parentheses, "a module with so many parameters is not read");
-        return;
-    }
-    if (count <= skip && !known.has_age) {
-        return;
+        return made;
     }
     const SourceSpan place = given != 0 ? module.parentheses : module.symbol;
-    translation_.put("(", place);
     for (std::uint32_t i = skip; i < count; ++i) {
-        translation_.put(i > skip ? ", " : "", place);
-        if (i < given && session_.node(module.arguments[i]).kind != HoudiniNodeKind::Missing) {
-            expressions_.write(module.arguments[i], scope);
-        } else {
-            write_left_out(module, i, place);
-        }
+        const bool is_given =
+            i < given && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
+        made.push_back(is_given ? expressions_.term(module.arguments[i], scope)
+                                : left_out(module, i, place));
     }
     if (known.has_age) {
-        translation_.put(count > skip ? ", 0" : "0", place);
+        made.push_back(tree_.number("0", place));
     }
-    translation_.put(")", place);
+    return made;
 }
 
 } // namespace lsys

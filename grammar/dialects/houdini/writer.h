@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,7 @@ namespace lsys {
 
 class HoudiniWriter {
 public:
-    HoudiniWriter(const HoudiniSession& session, Translation& translation);
+    HoudiniWriter(HoudiniSession& session, Translation& translation);
 
     /// Writes the system as .lsys statements. `turtle`: name of the turtle profile in `#set turtle`.
     void write(std::string_view turtle);
@@ -25,6 +26,13 @@ public:
 private:
     /// A variant of a rule: the number of parameters of each symbol of the turtle in its head.
     using ParameterCounts = std::vector<std::uint32_t>;
+    /// A module of a word in .lsys.
+    struct Lowered {
+        const HoudiniModule* module = nullptr;
+        std::string name; // empty: the symbol
+        std::vector<ForeignId> arguments;
+    };
+    using Word = std::vector<Lowered>;
 
     [[nodiscard]] std::string_view text(SourceSpan span) const {
         return session_.context.sources.text(span);
@@ -35,6 +43,7 @@ private:
     void write_settings(std::string_view turtle);
     void write_values();
     [[nodiscard]] bool reads_variable(std::string_view value) const;
+    [[nodiscard]] bool calls(std::string_view function) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
     void
@@ -47,22 +56,31 @@ private:
     [[nodiscard]] std::vector<ParameterCounts> all_parameter_counts(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
     void find_chances();
-    [[nodiscard]] std::string chance_of(int condition) const;
+    [[nodiscard]] std::string chance_of(ForeignId condition) const;
     bool check_head(const HoudiniRule& rule);
 
-    void write_word(const std::vector<HoudiniModule>& word, const HoudiniScope& scope);
-    void write_module(const HoudiniModule& module, const HoudiniScope& scope);
-    bool write_special(const HoudiniModule& module, char symbol, const HoudiniScope& scope);
-    void
-    write_arguments(const HoudiniModule& module, std::uint32_t skip, const HoudiniScope& scope);
-    void write_left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
+    [[nodiscard]] Word lower_word(const std::vector<HoudiniModule>& word,
+                                  const HoudiniScope& scope);
+    /// Finds the local values of a word, and their names, from `first` on.
+    void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
+    void write_word(const Word& word);
+    void write_expression(ForeignId expression, const HoudiniScope& scope);
+    [[nodiscard]] Lowered lower_module(const HoudiniModule& module, const HoudiniScope& scope);
+    bool lower_special(Lowered& made, char symbol, const HoudiniScope& scope);
+    [[nodiscard]] std::vector<ForeignId> random_turns(const HoudiniModule& module,
+                                                      const HoudiniScope& scope);
+    [[nodiscard]] std::vector<ForeignId>
+    arguments(const HoudiniModule& module, std::uint32_t skip, const HoudiniScope& scope);
+    [[nodiscard]] ForeignId
+    left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
     void write_symbol(const HoudiniModule& module);
     void warn_lost(char symbol, SourceSpan place);
 
     void report_syntax(SourceSpan place, const std::string& message) const;
     void report_unsupported(SourceSpan place, const std::string& message) const;
 
-    const HoudiniSession& session_;
+    HoudiniSession& session_;
+    ForeignExpressions& tree_;
     Translation& translation_;
     HoudiniSymbols symbols_;
     std::map<std::string_view, SourceSpan> settings_; // by name of the setting in .lsys
@@ -74,6 +92,7 @@ private:
     std::vector<std::string_view> zeros_;
     std::string warned_; // symbols that have been reported
     std::uint32_t fresh_ = 0;
+    std::size_t constants_ = 0; // local values of the premise
 };
 
 } // namespace lsys

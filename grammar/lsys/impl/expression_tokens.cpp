@@ -205,8 +205,10 @@ Token foreign_value(ParseSession& session, std::string_view text) {
         const std::string_view all = session.scanned.text;
         const std::string statement(
             without_line_ends(all.substr(scan.statement_begin, scan.begin - scan.statement_begin)));
+        const bool is_frame = synonym != nullptr && synonym->spelling.empty() && !is_call;
         diagnostic.help.push_back(
-            scan.part == Part::Setting
+            is_frame ? "the age of the word is `step()`"
+            : scan.part == Part::Setting
                 ? "write a number, `" + statement +
                       "25;`, or one that is set from outside: `#param " +
                       "VALUE 25 {0, 90};` and `" + statement + "VALUE;`"
@@ -501,10 +503,6 @@ bool report_macro(ParseSession& session) {
     return true;
 }
 
-bool is_number_end(char c) {
-    return is_digit(c) || c == '.';
-}
-
 /// Whether the current name begins a local value, `b = 2`, without a `,` before it.
 bool begins_next_local(const ParseSession& session) {
     const ScanState& scan = session.scan;
@@ -520,7 +518,6 @@ bool begins_next_local(const ParseSession& session) {
 
 Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
-    const bool had_name = scan.name_before;
     if (report_macro(session) || report_exchanged_parts(session) || report_lost_open(session) ||
         report_lost_close(session)) {
         return discard_statement(session);
@@ -558,10 +555,8 @@ Token between_values(ParseSession& session) {
         Diagnostic& diagnostic = session.report(DiagnosticCode::MissingOperator, place,
                                                 "two values without an operator between them");
         if (adjacent) {
-            // `2x` and `2(x + 1)` are products; other pairs may lack any operator.
-            const bool is_product = !had_name && is_number_end(text[scan.last_end - 1]) &&
-                                    !is_digit(text[scan.begin]) && text[scan.begin] != '{';
-            add_fix(diagnostic, "a product is written with `*`", place, "*", is_product);
+            // `2x` is a product in mathematics, but may as well lack another operator: `2/x`.
+            add_fix(diagnostic, "a product is written with `*`", place, "*", false);
         } else {
             std::uint32_t end = scan.end;
             while (end < text.size() && is_word_character(text[end])) {
@@ -711,7 +706,9 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
     LSYS_DCHECK(synonym != nullptr && synonym->spelling == right);
     Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                             "there is no operator `" + std::string(text) + "`");
-    add_fix(diagnostic, help_for(*synonym, text), diagnostic.span, std::string(right), true);
+    // `2**x` may be a power, `2*3*x` without its number, or a `*` typed twice.
+    add_fix(diagnostic, help_for(*synonym, text), diagnostic.span, std::string(right),
+            text != "**");
 }
 
 bool is_word_for_operator(ParseSession& session, std::string_view word) {

@@ -740,6 +740,9 @@ private:
                 diagnostic->help.push_back("parameters of a predecessor are names, and their value "
                                            "is a condition: `" +
                                            word + "(t) : t >= " + inside + "`");
+                diagnostic->help.push_back("ages do not grow by themselves: add `#age_" + word +
+                                           " : " + word + "(t) : t < " + inside + " : " + word +
+                                           "(t + 1);`");
                 const std::size_t star = text().find_first_not_of(
                     " \t\r\n", std::min(text().find(':', close), statement_.end) + 1);
                 if (star < statement_.end && char_at(star) == '*') {

@@ -815,6 +815,21 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
+/// Where a comment begins in a line of papers; npos: nowhere. Slashes between modules are rolls.
+std::size_t comment_in(std::string_view line) {
+    for (std::size_t at = line.find("//"); at != std::string_view::npos;
+         at = line.find("//", line.find_first_not_of('/', at))) {
+        const std::size_t end = std::min(line.find_first_not_of('/', at), line.size());
+        if (end == at + 2 && (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t')) {
+            return at;
+        }
+        if (end == line.size()) {
+            break;
+        }
+    }
+    return std::string_view::npos;
+}
+
 void repair_foreign_lines(DraftText& draft) {
     Diagnostic* diagnostic = nullptr;
     std::string source;
@@ -825,7 +840,7 @@ void repair_foreign_lines(DraftText& draft) {
     RuleNames names{has_names ? "rule" : "p", 0};
     bool has_statement = false;
     for (FreeLine& line : free_lines(draft.text)) {
-        line.text = without_blanks(line.text.substr(0, line.text.find("//")));
+        line.text = without_blanks(line.text.substr(0, comment_in(line.text)));
         if (!is_foreign(line.text)) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;

@@ -174,11 +174,13 @@ std::optional<LikelyComment> comment_behind_modules(std::string_view text,
     if (before == std::string_view::npos || before + 1 < begin) {
         return std::nullopt;
     }
-    // Arguments and comments `/* ... */` have words that are no modules either.
+    // Arguments and comments `/* ... */` have words that are no modules either; brackets and rows of
+    // rolls are modules.
     const std::string_view line = text.substr(comment, line_end(text, comment) - comment);
-    const bool has_words_of_others =
-        line.find('(') != std::string_view::npos || line.find("/*") != std::string_view::npos;
-    return LikelyComment{comment, first == 0 && !has_words_of_others &&
+    const bool may_be_modules = line.find_first_of("()[]{}") != std::string_view::npos ||
+                                line.find("/*") != std::string_view::npos ||
+                                line.starts_with("////");
+    return LikelyComment{comment, first == 0 && !may_be_modules &&
                                       has_foreign_word(text, comment, end, letters)};
 }
 

@@ -505,6 +505,53 @@ bool is_doubled_colon(ParseSession& session) {
     return true;
 }
 
+namespace {
+
+/// Reports `A : * : B : 0.6`, the probability at the end as in Houdini; returns whether it did.
+bool report_probability_at_end(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    constexpr std::string_view kBlanks = " \t\r\n";
+    const std::size_t number = std::min(text.find_first_not_of(kBlanks, scan.end), text.size());
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.", number), text.size());
+    const std::size_t behind = std::min(text.find_first_not_of(kBlanks, end), text.size());
+    const std::size_t third = text.rfind(':', scan.part_begin);
+    const std::size_t second =
+        third == std::string_view::npos || third == 0 ? third : text.rfind(':', third - 1);
+    if (end == number || text.substr(behind, 1) != ";" || second == std::string_view::npos ||
+        second < scan.statement_begin) {
+        return false;
+    }
+    const std::string_view part = text.substr(second + 1, third - second - 1);
+    const std::size_t last = part.find_last_not_of(kBlanks);
+    if (last == std::string_view::npos || part.find_first_of("~=") != std::string_view::npos) {
+        return false; // it has a probability, or local values stand here
+    }
+    const std::string probability(text.substr(number, end - number));
+    const auto condition_end = static_cast<std::uint32_t>(second + 1 + last + 1);
+    const std::size_t successor_end =
+        scan.begin == 0 ? 0 : text.find_last_not_of(kBlanks, scan.begin - 1) + 1;
+    Diagnostic& diagnostic = session.report(
+        DiagnosticCode::ExtraColon,
+        session.scanned.span(scan.begin, static_cast<std::uint32_t>(end)),
+        "`: " + shown(probability) +
+            "` at the end is a probability of Houdini; here it stands behind the condition");
+    Fix fix;
+    fix.title = "write `" +
+                shown(std::string(part.substr(part.find_first_not_of(kBlanks),
+                                              last + 1 - part.find_first_not_of(kBlanks)))) +
+                " ~ " + probability + "`";
+    fix.edits = {{session.scanned.span(condition_end, condition_end), " ~ " + probability},
+                 {session.scanned.span(static_cast<std::uint32_t>(successor_end),
+                                       static_cast<std::uint32_t>(end)),
+                  ""}};
+    fix.machine_applicable = false;
+    diagnostic.fixes.push_back(std::move(fix));
+    return true;
+}
+
+} // namespace
+
 Token colon_after_modules(ParseSession& session) {
     ScanState& scan = session.scan;
     if (scan.part == Part::Head) {
@@ -520,7 +567,8 @@ Token colon_after_modules(ParseSession& session) {
         is_behind_comment(session)) {
         return discard_statement(session);
     }
-    if (session.wants(DiagnosticCode::ExtraColon)) {
+    if (session.wants(DiagnosticCode::ExtraColon) &&
+        !(scan.part == Part::Successor && report_probability_at_end(session))) {
         const std::string word(spelling(scan.keyword));
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::ExtraColon, scan.part == Part::Successor

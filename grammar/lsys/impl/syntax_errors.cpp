@@ -119,6 +119,30 @@ void explain_attribute(const ParseSession& session, Diagnostic& diagnostic) {
                                   : "functions stand without a `.`: `" + shown(word) + "(x)`");
 }
 
+/// Reports `math.sqrt`, a function of a library that is not needed; returns whether it did.
+bool report_library(ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const ScanState& scan = session.scan;
+    std::uint32_t begin = scan.begin;
+    while (begin > 0 && is_word_character(text[begin - 1])) {
+        --begin;
+    }
+    const std::string_view library = text.substr(begin, scan.begin - begin);
+    const std::string_view function = leading_word(text.substr(scan.end));
+    if ((library != "math" && library != "Math" && library != "np" && library != "numpy") ||
+        find_synonym(SynonymKind::Function, function) != nullptr ||
+        text.substr(scan.end + function.size(), 1) != "(") {
+        return false;
+    }
+    const auto end = static_cast<std::uint32_t>(scan.end + function.size());
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::SyntaxError, session.scanned.span(begin, end),
+                       "there is no `" + std::string(library) + "`: functions are built in");
+    add_fix(diagnostic, "write `" + std::string(function) + "`",
+            session.scanned.span(begin, scan.end), "", false);
+    return true;
+}
+
 /// Offers quotes around the name of a file that the current `.` is part of.
 void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
     const std::string_view text = session.scanned.text;
@@ -159,6 +183,10 @@ void report_expected(ParseSession& session, const Unexpected& error) {
         return;
     }
     const ScanState& scan = session.scan;
+    if (error.text == "." && error.part != Part::ObjectValue && is_attribute(session) &&
+        report_library(session)) {
+        return;
+    }
     const std::vector<std::string> words = expected_in_words(error, scan);
     const std::string found = found_text(error, scan);
     Diagnostic& diagnostic =

@@ -128,6 +128,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
     std::vector<TracedPart> parts;
     std::vector<TracedRange> ranges;
     std::map<std::size_t, TracedLocal> locals; // by slot
+    std::vector<std::string> choices;          // conditions of `if` in the next local value
     std::vector<Shown> taken;
     std::string fault;
 
@@ -139,7 +140,8 @@ struct ShownNumbers : UnknownDomain<Shown> {
         for (std::size_t i = 0; i < slots.size(); ++i) {
             Shown& slot = slots[i];
             if (slot.is_new_slot && !slot.text.empty() && i < named) {
-                locals[i] = {frame.names->locals[i].name, slot.text, slot.number};
+                locals[i] = {frame.names->locals[i].name, slot.text, slot.number,
+                             std::exchange(choices, {})};
                 slot.text = frame.names->locals[i].name;
                 slot.binding = Binding::Leaf;
             }
@@ -224,6 +226,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
             parts.push_back({"if(" + x.text + ", ...)", "if(" + number_text(x.number) + ", ...)",
                              x.number != 0.0F ? 1.0F : 0.0F, true});
         }
+        choices.push_back(x.text + " is " + (x.is_truth ? truth_text(x) : number_text(x.number)));
         return x.number != 0.0F;
     }
     bool random_draw(
@@ -287,7 +290,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         for (std::size_t i = 0; i < named; ++i) {
             const ProductionNames::Local& local = frame.names->locals[i];
             if (const std::optional<Shown> shown = leaf_of(local)) {
-                locals[i] = {local.name, shown->text, shown->number};
+                locals[i] = {local.name, shown->text, shown->number, {}};
             }
         }
     }

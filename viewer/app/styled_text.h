@@ -1,0 +1,26 @@
+// Text with the colours of a terminal, as lines of runs of one colour, for widgets. Reads the SGR
+// codes that reports of runtime/program and frames of grammar/rendering write.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::view {
+
+enum class TextColour : std::uint8_t { Plain, Bold, Red, Green, Yellow, Blue, Cyan };
+
+struct TextRun {
+    TextColour colour = TextColour::Plain;
+    std::string text;
+};
+using TextLine = std::vector<TextRun>; // empty: a blank line
+
+/// The lines of `text`; a line end at its end begins no further line. Unknown codes are left out and
+/// change no colour.
+[[nodiscard]] std::vector<TextLine> styled_lines(std::string_view text);
+/// The text of a line without colours.
+[[nodiscard]] std::string plain_text(const TextLine& line);
+
+} // namespace lsys::view
