@@ -36,11 +36,19 @@ target_compile_options(lsys_warnings INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-Wconditional-uninitialized>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
 
+# lsys_shareable(TARGET): objects of a library may be part of the shared library, which exports what its headers mark
+# with LSYS_API. Precompiled headers need the same options as their users.
+function(lsys_shareable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # Standard headers that most sources include, compiled once for all libraries and once for all tests. Sources must
 # still include what they use: the preset `clang` builds without precompiled headers and finds missing includes.
 option(LSYS_PRECOMPILED "Precompile common headers" ON)
 add_library(lsys_precompiled STATIC "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
 target_link_libraries(lsys_precompiled PRIVATE lsys_options lsys_warnings)
+lsys_shareable(lsys_precompiled)
 target_precompile_headers(lsys_precompiled PRIVATE
   <algorithm> <array> <cmath> <cstddef> <cstdint> <cstring> <functional> <limits> <memory> <optional>
   <span> <string> <string_view> <unordered_map> <utility> <vector>
@@ -70,6 +78,7 @@ endfunction()
 function(lsys_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC lsys_options PRIVATE lsys_warnings)
+  lsys_shareable(${name})
   lsys_precompile(${name})
 endfunction()
 
