@@ -43,9 +43,9 @@ foreach(path ${sources})
     if(line MATCHES "#include <imgui" AND NOT folder MATCHES "^viewer/(gl|app)$")
       list(APPEND failures "${path}: only viewer/gl and viewer/app know ImGui: ${line}")
     endif()
-    if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^viewer/app$"
+    if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^(viewer/app|runtime/python)$"
         AND NOT path MATCHES "^runtime/base/workers\\.cpp$")
-      list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp and in viewer/app: ${line}")
+      list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp, viewer/app and runtime/python: ${line}")
     endif()
     if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")
