@@ -1,7 +1,6 @@
 /* The C interface: derives a word and lists its modules; then counts the triangles of its plant.
  * Usage: list_modules FILE */
 #include <lsys.h>
-
 #include <stdio.h>
 
 int main(int count, char** arguments) {

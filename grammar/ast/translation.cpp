@@ -52,7 +52,12 @@ void Translation::put(std::string_view text, SourceSpan span) {
         return;
     }
     text_ += text;
-    parts_.push_back({static_cast<std::uint32_t>(text_.size()), false, span});
+    const auto end = static_cast<std::uint32_t>(text_.size());
+    if (!parts_.empty() && !parts_.back().verbatim && parts_.back().span == span) {
+        parts_.back().end = end;
+    } else {
+        parts_.push_back({end, false, span});
+    }
 }
 
 void Translation::put(std::string_view text) {

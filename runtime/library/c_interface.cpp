@@ -1,11 +1,10 @@
 // The C interface, on top of the C++ one. No exception passes it.
+#include <cstddef>
 #include <lsys.h>
 #include <lsys/export.h>
 #include <lsys/grammar.h>
 #include <lsys/plant.h>
 #include <lsys/word.h>
-
-#include <cstddef>
 #include <new>
 #include <optional>
 #include <string>
@@ -99,8 +98,7 @@ api::GrammarOptions options_of(const lsys_grammar_options* given) {
 }
 
 std::optional<std::uint32_t> generations_of(std::int64_t generations) {
-    return generations < 0 ? std::nullopt
-                           : std::optional(static_cast<std::uint32_t>(generations));
+    return generations < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(generations));
 }
 
 std::optional<std::uint64_t> seed_of(const std::uint64_t* seed) {
@@ -183,9 +181,8 @@ lsys_status lsys_compile_file(const char* path,
                               const lsys_project* project,
                               lsys_grammar** grammar,
                               lsys_messages** messages) {
-    return call(
-        [&] { return api::compile_file(path, options_of(options), project_of(project)); }, grammar,
-        messages);
+    return call([&] { return api::compile_file(path, options_of(options), project_of(project)); },
+                grammar, messages);
 }
 
 lsys_status lsys_compile_text(const char* text,
@@ -351,12 +348,9 @@ lsys_mesh_part lsys_mesh_get_part(const lsys_mesh* mesh, std::size_t index) {
     const api::MeshPart& part = mesh->value.parts()[index];
     const api::Material& material = mesh->value.materials()[part.material];
     const api::Vector4& colour = material.colour;
-    return {part.first_index,
-            part.index_count,
-            material.name.c_str(),
-            {colour.x, colour.y, colour.z, colour.w},
-            material.roughness,
-            material.two_sided ? 1 : 0};
+    return {part.first_index,      part.index_count,
+            material.name.c_str(), {colour.x, colour.y, colour.z, colour.w},
+            material.roughness,    material.two_sided ? 1 : 0};
 }
 
 lsys_status lsys_export(const lsys_plant* plant,
@@ -370,9 +364,8 @@ lsys_status lsys_export(const lsys_plant* plant,
         *messages = nullptr;
     }
     try {
-        const auto outcome =
-            api::export_plant(plant->value, mesh->value, format, piece_writer(write, user), {},
-                              project_of(project));
+        const auto outcome = api::export_plant(plant->value, mesh->value, format,
+                                               piece_writer(write, user), {}, project_of(project));
         hand_over(outcome.messages(), messages);
         return c_status(outcome.status());
     } catch (...) {

@@ -22,8 +22,8 @@ std::string_view line_at(std::string_view text, std::size_t at) {
     return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-/// `text` with blanks in place of parentheses and their contents (arguments of modules), and of
-/// comments `/* ... */`.
+/// The modules of `text` up to the `:` or `;` behind them, with blanks in place of parentheses and
+/// their contents (arguments), and of comments `/* ... */`.
 std::string without_arguments(std::string_view text) {
     std::string kept;
     std::size_t depth = 0;
@@ -32,6 +32,9 @@ std::string without_arguments(std::string_view text) {
             at = std::min(text.find("*/", at + 2), text.size() - 2) + 1;
             kept += ' ';
             continue;
+        }
+        if (depth == 0 && (text[at] == ':' || text[at] == ';')) {
+            break; // what follows is another part, or another statement
         }
         depth += text[at] == '(' ? 1U : 0U;
         kept += depth == 0 ? text[at] : ' ';

@@ -59,6 +59,7 @@ struct ForeignExpressions::Item {
     bool leads = true;   // stands at the beginning, where a sign needs no parentheses
     std::string_view text{};
     SourceSpan span{};
+    bool is_operator = false; // between blanks
 };
 
 ForeignId ForeignExpressions::add(ForeignNode node) {
@@ -223,12 +224,14 @@ std::vector<ForeignId> ForeignExpressions::below(ForeignId root) const {
 }
 
 void ForeignExpressions::write(ForeignId root, const ForeignWriting& how, Translation& out) const {
-    std::vector<Item> items{{.node = root}};
+    std::deque<Item> items{{.node = root}};
     while (!items.empty()) {
         Item item = items.back();
         items.pop_back();
         if (item.node == kNoForeign) {
+            out.put(item.is_operator ? " " : "", item.span);
             out.put(item.text, item.span);
+            out.put(item.is_operator ? " " : "", item.span);
             continue;
         }
         while (is_expanded((*this)[item.node], how)) {
@@ -246,7 +249,7 @@ void ForeignExpressions::write(ForeignId root, const ForeignWriting& how, Transl
 
 void ForeignExpressions::write_node(const ForeignNode& node,
                                     const ForeignWriting& how,
-                                    std::vector<Item>& items,
+                                    std::deque<Item>& items,
                                     Translation& out) const {
     const Level level = level_of(node);
     switch (node.kind) {
@@ -256,9 +259,7 @@ void ForeignExpressions::write_node(const ForeignNode& node,
         return;
     case ForeignKind::Binary:
         items.push_back({.node = node.parts[1], .loosest = right_level(level), .leads = false});
-        items.push_back({.text = " ", .span = node.token});
-        items.push_back({.text = node.text, .span = node.token});
-        items.push_back({.text = " ", .span = node.token});
+        items.push_back({.text = node.text, .span = node.token, .is_operator = true});
         items.push_back({.node = node.parts[0], .loosest = left_level(level)});
         return;
     case ForeignKind::Draw:

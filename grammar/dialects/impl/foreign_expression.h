@@ -1,6 +1,6 @@
 // The expressions of other languages as one tree. A parser adds the nodes of its file; a front end
 // adds what they are in .lsys, and writes that with the place of each part in the original file.
-// Nodes lie in a vector, children before parents. A local value is one node however often it is
+// Nodes are numbered, children before parents. A local value is one node however often it is
 // read, so text never grows by what it stands for, and a random number is drawn once.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <set>
 #include <span>
 #include <string>
@@ -145,14 +146,14 @@ private:
     struct Item;
     void write_node(const ForeignNode& node,
                     const ForeignWriting& how,
-                    std::vector<Item>& items,
+                    std::deque<Item>& items,
                     Translation& out) const;
     [[nodiscard]] bool is_expanded(const ForeignNode& node, const ForeignWriting& how) const {
         return node.kind == ForeignKind::Local &&
                (locals_[node.index].is_inline || (how.expands && !locals_[node.index].is_constant));
     }
 
-    std::vector<ForeignNode> nodes_;
+    std::deque<ForeignNode> nodes_; // of millions, without room for as many again
     std::vector<ForeignLocal> locals_;
 };
 
