@@ -3,22 +3,26 @@
 Usage: python3 test_lsys.py LSC SAMPLES [unittest options], with the module on PYTHONPATH.
 """
 
+import contextlib
 import gc
+import io
 import os
+import re
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import threading
+import types
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
 
 import lsys
 
-LSC, SAMPLES = sys.argv[1:3]
+LSC, SAMPLES = map(os.path.abspath, sys.argv[1:3])
 TREE = "#n = 3; #w : A; #p : A : * : F [ + A ] F A;"
 RANDOM = "#n = 30; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});"
 
@@ -250,6 +254,48 @@ class Threads(unittest.TestCase):
         ended = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60,
                                check=False)
         self.assertEqual((ended.returncode, ended.stderr), (0, b""))
+
+
+class Recipes(unittest.TestCase):
+    """The examples of docs/python.md run, with stand-ins for other packages."""
+
+    def test_documentation(self):
+        class Bar:
+            def __init__(self, total):
+                self.n = 0
+
+            def __enter__(self):
+                return self
+
+            def __exit__(self, *_):
+                pass
+
+            def update(self, count):
+                self.n += count
+
+        nothing = unittest.mock.MagicMock()
+        packages = {"pandas": nothing, "matplotlib": nothing, "matplotlib.pyplot": nothing,
+                    "trimesh": nothing}
+        with open(os.path.join(SAMPLES, "..", "docs", "python.md"), encoding="utf-8") as file:
+            examples = re.findall(r"```python\n(.*?)```", file.read(), re.DOTALL)
+        self.assertGreater(len(examples), 10)
+        names = {"tqdm": types.SimpleNamespace(tqdm=Bar)}
+        here = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(
+                sys.modules, packages), contextlib.redirect_stdout(io.StringIO()):
+            os.chdir(folder)
+            try:
+                os.mkdir("plants")
+                with open("tree.lsys", "w", encoding="ascii") as file:
+                    file.write("#n = 4; #param ratio 0.6 {0, 1}; #set angle 20; #w : A(1);\n"
+                               "#p : A(x) : x > 0.05 :"
+                               " !(x/10) F(x) [ + A(x*ratio) ] [ - A(x*ratio) ] A(x*0.8);\n")
+                for example in examples:
+                    exec(example, names)  # pylint: disable=exec-used
+                self.assertTrue(os.path.exists("tree.glb"))
+                self.assertEqual(len(os.listdir("plants")), 100)
+            finally:
+                os.chdir(here)
 
 
 if __name__ == "__main__":
