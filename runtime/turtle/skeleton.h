@@ -43,11 +43,11 @@ struct Segment {
     float mass = 0.0F;                 // kg
     std::uint32_t parent = kNoSegment; // the segment drawn before it on its path
     ItemColour colour = 0;
-    std::uint16_t order = 0; // number of open brackets around it: 0 is the trunk
-    std::uint8_t sides = 0;  // corners of its cross-section, set by the author
-    bool linked : 1 = false; // begins where its parent ends
-    bool forked : 1 = false; // branches that the skeleton leaves out begin at its tip
-    bool cut : 1 = false;    // begins within its parent, with a closed surface of its own
+    std::uint16_t order = 0;     // number of open brackets around it: 0 is the trunk
+    std::uint8_t sides = 0;      // corners of its cross-section, set by the author
+    bool linked : 1 = false;     // begins where its parent ends
+    bool forked : 1 = false;     // branches that the skeleton leaves out begin at its tip
+    bool cut : 1 = false;        // begins within its parent, with a closed surface of its own
     std::uint8_t unused : 5 = 0; // so that every bit of a segment has a value
 };
 static_assert(sizeof(Segment) == 60);
