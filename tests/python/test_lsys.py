@@ -276,7 +276,7 @@ class Recipes(unittest.TestCase):
         nothing = unittest.mock.MagicMock()
         packages = {"pandas": nothing, "matplotlib": nothing, "matplotlib.pyplot": nothing,
                     "trimesh": nothing}
-        with open(os.path.join(SAMPLES, "..", "docs", "python.md"), encoding="utf-8") as file:
+        with open(os.path.join(SAMPLES, os.pardir, "docs/python.md"), encoding="utf-8") as file:
             examples = re.findall(r"```python\n(.*?)```", file.read(), re.DOTALL)
         self.assertGreater(len(examples), 10)
         names = {"tqdm": types.SimpleNamespace(tqdm=Bar)}
