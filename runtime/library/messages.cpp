@@ -109,6 +109,7 @@ Messages::Messages() : Messages(std::make_shared<const Data>()) {}
 Messages::Messages(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 Messages::Messages(const Messages&) = default;
 // A moved-from object keeps its messages, so that data_ is never null.
+// NOLINTNEXTLINE(performance-move-constructor-init)
 Messages::Messages(Messages&& other) noexcept : data_(other.data_) {}
 Messages& Messages::operator=(const Messages&) = default;
 Messages& Messages::operator=(Messages&& other) noexcept {

@@ -110,6 +110,7 @@ void write_items(const void* from,
 const std::vector<std::string>& object_kinds() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
+        all.reserve(TurtleInfo::kRows.size());
         for (const TurtleInfo& row : TurtleInfo::kRows) {
             all.emplace_back(row.name);
         }

@@ -10,6 +10,8 @@
 #ifndef LSYS_H
 #define LSYS_H
 
+/* NOLINTBEGIN(readability-identifier-naming): names as in C */
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -236,5 +238,7 @@ LSYS_C_API void lsys_mesh_free(lsys_mesh* mesh); /* null is allowed */
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif
