@@ -49,6 +49,7 @@ bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& produc
 
 BracketCounter::BracketCounter(const Bytecode& bytecode) {
     changes_.reserve(bytecode.code_count());
+    branch_changes_.reserve(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
         const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
         Change change;
@@ -56,8 +57,10 @@ BracketCounter::BracketCounter(const Bytecode& bytecode) {
         change.polygons =
             static_cast<std::int8_t>(change_of(symbol.kind, SymbolKind::PolygonClose));
         change.cuts = symbol.turtle == TurtleOperation::Cut;
-        has_close_ = has_close_ || change.branches < 0 || change.polygons < 0;
+        has_branch_close_ = has_branch_close_ || change.branches < 0;
+        has_polygon_close_ = has_polygon_close_ || change.polygons < 0;
         changes_.push_back(change);
+        branch_changes_.push_back(change.branches);
     }
 }
 

@@ -27,8 +27,8 @@ public:
     /// The index in this piece of the first `]` without its `[` or `}` without its `{`, or nothing.
     template <typename C>
     [[nodiscard]] std::optional<std::uint64_t> feed(const C* codes, std::uint64_t count) {
-        if (!has_close_) {
-            return std::nullopt;
+        if (!has_polygon_close_) {
+            return has_branch_close_ ? feed_branches(codes, count) : std::nullopt;
         }
         for (std::uint64_t i = 0; i < count; ++i) {
             const Change change = changes_[codes[i]];
@@ -48,16 +48,30 @@ public:
     }
 
 private:
+    /// feed() for programs without `}`, where cuts do not matter: most of the time of a stream.
+    template <typename C>
+    [[nodiscard]] std::optional<std::uint64_t> feed_branches(const C* codes, std::uint64_t count) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            branches_ += branch_changes_[codes[i]];
+            if (branches_ < 0) {
+                return i;
+            }
+        }
+        return std::nullopt;
+    }
+
     struct Change {
         std::int8_t branches = 0; // added to the number of open branches
         std::int8_t polygons = 0; // added to the number of open polygons
         bool cuts = false;
     };
-    std::vector<Change> changes_; // by code
+    std::vector<Change> changes_;             // by code
+    std::vector<std::int8_t> branch_changes_; // by code, Change::branches
     std::int64_t branches_ = 0;
     std::int64_t polygons_ = 0;
     std::int64_t cut_ = 0; // number of open branches, counted from the cut one; 0: no cut
-    bool has_close_ = false;
+    bool has_branch_close_ = false;
+    bool has_polygon_close_ = false;
 };
 
 /// The production that must have written an unmatched module of the kind `close`, BranchClose or
