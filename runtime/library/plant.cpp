@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -83,14 +82,13 @@ Material public_material(const ::lsys::Material& material) {
     Material out;
     out.name = material.name;
     out.colour = {material.colour.r, material.colour.g, material.colour.b, material.colour.a};
-    out.roughness = material.roughness.value_or(material.kind == MaterialKind::Bark ? kBarkRoughness
-                                                                                    : kRoughness);
+    out.roughness = roughness_of(material);
     out.two_sided = material.two_sided;
     out.cut_out = material.cut_out;
     return out;
 }
 
-/// Writes items of `size` bytes from `first` on at a distance of `stride` bytes. `to` may be null.
+/// Writes the items `first` to `end`, of `size` bytes each, at a distance of `stride` bytes.
 void write_items(const void* from,
                  std::size_t size,
                  std::uint64_t first,

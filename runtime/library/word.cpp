@@ -3,7 +3,6 @@
 #include "runtime/library/impl/data.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace lsys::v0 {

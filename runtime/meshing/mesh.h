@@ -40,6 +40,12 @@ struct Material {
     std::optional<float> translucency = std::nullopt; // 0 to 1; not set: the viewer's by kind
 };
 
+/// The roughness of a material, or that of its kind.
+[[nodiscard]] inline float roughness_of(const Material& material) {
+    return material.roughness.value_or(material.kind == MaterialKind::Bark ? kBarkRoughness
+                                                                           : kRoughness);
+}
+
 /// Triangles of one material: indices[first_index, first_index + index_count).
 struct MeshPart {
     std::uint32_t material = 0; // in Mesh::materials

@@ -51,10 +51,7 @@ struct Pictures {
 }
 /// Roughness, 0 to 1, in formats that have one.
 [[nodiscard]] inline double roughness(const Material& material) {
-    if (material.roughness) {
-        return six_decimals(*material.roughness);
-    }
-    return material.kind == MaterialKind::Bark ? 0.95 : 0.7;
+    return six_decimals(roughness_of(material));
 }
 
 /// Encodes the pictures as PNG. Throws std::bad_alloc.

@@ -3,15 +3,14 @@
 #pragma once
 
 #include "grammar/base/outcome.h"
+#include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/project.h"
 
 #include <atomic>
 #include <exception>
 #include <lsys/outcome.h>
 #include <lsys/project.h>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,7 +30,7 @@ public:
     /// value of its value. Throws what a function of the host has thrown.
     template <typename T, typename Work, typename Make>
     [[nodiscard]] Outcome<T> run(const Work& work, const Make& make) {
-        try {
+        const auto make_outcome = [&]() -> Outcome<T> {
             if (refusal_) {
                 return {Status::Failed, error(*refusal_)};
             }
@@ -42,13 +41,11 @@ public:
                 return {public_status(outcome.stop()), std::move(messages)};
             }
             return {make(std::move(outcome.value())), std::move(messages)};
-        } catch (const std::bad_alloc&) {
+        };
+        return catch_out_of_memory(make_outcome, [&]() -> Outcome<T> {
             throw_caught();
             return {Status::OutOfMemory, error("there is not enough memory")};
-        } catch (const std::length_error&) {
-            throw_caught();
-            return {Status::OutOfMemory, error("there is not enough memory")};
-        }
+        });
     }
 
     /// `write` as a sink of an export, which keeps what it throws.

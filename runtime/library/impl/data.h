@@ -1,4 +1,4 @@
-// What the public values of the library hold.
+// The data behind Grammar, Word, Plant and Mesh of the public headers.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
