@@ -89,7 +89,7 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
     return find_line(lines, begins_with(word)) != nullptr;
 }
 
-/// What the statements of an L-Py model are here, in the author's words.
+/// The .lsys statements for those of an L-Py model, with the names of the model.
 std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
     std::string text = "lsc reads no L-Py; write the model anew: `" + std::string(axiom.text) +
                        "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";

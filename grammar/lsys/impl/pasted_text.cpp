@@ -29,11 +29,12 @@ void DraftText::mask() {
     };
     for (std::size_t at = 0; at < text.size(); ++at) {
         std::size_t end = at;
-        if (text.compare(at, 2, "/*") == 0) {
+        const bool is_slash = text[at] == '/';
+        if (is_slash && text.compare(at, 2, "/*") == 0) {
             end = text.find("*/", at + 2);
             end = end == std::string::npos ? text.size() : end + 2;
             hide(at, end, ' ');
-        } else if (!in_statement && text.compare(at, 2, "//") == 0) {
+        } else if (is_slash && !in_statement && text.compare(at, 2, "//") == 0) {
             end = std::min(text.find('\n', at), text.size());
             hide(at, end, ' ');
         } else if (in_statement && text[at] == '`') {
@@ -101,7 +102,7 @@ StatementText statement_at(std::string_view text, std::size_t at) {
             if (close != std::string_view::npos && text[close] == c) {
                 at = close;
             }
-        } else if (text.substr(at, 2) == "/*") {
+        } else if (c == '/' && text.substr(at, 2) == "/*") {
             const std::size_t close = text.find("*/", at + 2);
             at = close == std::string_view::npos ? text.size() - 1 : close + 1;
         } else if (is_line_start && c == '#' && is_statement_start(text, at)) {
@@ -724,7 +725,7 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
            without_typography(successor) + ";";
 }
 
-/// What a line in another notation is here.
+/// The .lsys text of a line in another notation, with the name of that notation.
 struct Meaning {
     std::string source;      // whose notation it is
     std::string replacement; // the statements; empty: leave the line out
