@@ -92,7 +92,9 @@ Stability stability_of(const Skeleton& rest, const PhysicsOptions& options) {
     const auto gravity = static_cast<double>(options.gravity);
     const bool own_load = options.load == LoadRule::Own;
     Stability out;
-    measure_trunk(rest, gravity, out);
+    if (!own_load) {
+        measure_trunk(rest, gravity, out);
+    }
     std::vector<Symmetric> work;
     const auto stands = [&](double factor) {
         return is_stable(plant, factor * gravity, own_load, work);

@@ -21,7 +21,7 @@ struct Stability {
     double load_factor = 0.0;
     /// Multiple of its weight at which the trunk alone buckles, as a column of constant width:
     /// 7.837 E I / (w l^3) with mean E I and weight per length w (Greenhill 1881). None for a trunk
-    /// without weight or length.
+    /// without weight or length, or with LoadRule::Own, where no joint carries the trunk above it.
     std::optional<double> trunk_factor;
     double trunk_length = 0.0; // m
     double trunk_width = 0.0;  // m, mean diameter

@@ -110,8 +110,10 @@ std::string weight_json(const WeightReport& report) {
     object["height_left"] = report.height_left;
     object["stands"] = report.stands();
     add("load_factor", stability.load_factor);
-    object["trunk_length"] = stability.trunk_length;
-    object["trunk_width"] = stability.trunk_width;
+    if (stability.trunk_length > 0.0) {
+        object["trunk_length"] = stability.trunk_length;
+        object["trunk_width"] = stability.trunk_width;
+    }
     add("trunk_factor", stability.trunk_factor);
     add("standing_width_factor", report.width_factor);
     add("standing_elasticity", report.elasticity);

@@ -88,6 +88,14 @@ TEST_CASE("the trunk is that of the first plant, however many segments further p
     CHECK(both.trunk_factor == alone.trunk_factor);
 }
 
+TEST_CASE("a trunk whose joints carry only their own segments is not measured as a column") {
+    PhysicsOptions options = in_calm();
+    options.load = LoadRule::Own;
+    const Stability found = stability_of(column(25, 20.0, 0.1, 9e9), options);
+    CHECK(!found.trunk_factor.has_value());
+    CHECK(found.load_factor > 1.0);
+}
+
 TEST_CASE("what hangs is stable under any weight") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(static_cast<float>(std::numbers::pi)),
