@@ -51,7 +51,7 @@ struct Edit {
 };
 
 /// A repair. It is machine applicable if no other repair is plausible; `lsc check --fix` applies it
-/// under the conditions of runtime/cli/fixes.h. Other repairs are offers: shown as help. The edits
+/// under the conditions of runtime/cli/fixes.h. Other repairs are offers, shown as help. The edits
 /// do not overlap and are applied together.
 struct Fix {
     std::string title;
@@ -130,9 +130,9 @@ public:
             }
         }
     }
-    /// Removes all fixes but those that write a name alone, and the help texts that contain
-    /// `language`, the name of a language in which the file is not written.
-    void drop_repairs(std::string_view language);
+    /// Removes help texts that contain `pattern`, a form that the file cannot use, and all fixes
+    /// except those that replace text by a single name. The remaining fixes become offers.
+    void drop_repairs(std::string_view pattern);
     /// Gives each diagnostic the severity that `judge` returns for it, or removes it.
     template <typename Judge>
     void rejudge(const Judge& judge) {

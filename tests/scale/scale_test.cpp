@@ -209,7 +209,7 @@ std::map<std::string, Case> cases() {
     all["format-condition-10mb"] = {
         repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
         not_formatted};
-    // Longer than the prefix in which recognise_no_text() looks for binary data, 4096 bytes.
+    // Longer than the prefix in which recognise_non_text() looks for binary data, 4096 bytes.
     const std::string text(5000, ' ');
     const std::vector<std::string> carey{"check", "--dialect", "carey", "%"};
     all["carey-line-10mb"] = {repeated("generations: 1\naxiom: F\nF=", "F+[&F]", 1'700'000, "\n"),

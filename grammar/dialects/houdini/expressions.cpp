@@ -43,7 +43,7 @@ ForeignId HoudiniExpressions::term(ForeignId root, const HoudiniScope& scope) {
     Terms terms;
     std::vector<ForeignId> wanted;
     std::vector<ForeignId> open{root};
-    while (!open.empty()) { // a seed is no part of what is written
+    while (!open.empty()) { // the seed of `rand` is not written
         const ForeignId id = open.back();
         open.pop_back();
         wanted.push_back(id);

@@ -146,7 +146,7 @@ std::optional<std::uint32_t> comment_before(const ParseSession& session) {
 
 } // namespace
 
-bool is_behind_comment(ParseSession& session) {
+bool is_after_likely_comment(ParseSession& session) {
     const std::optional<std::uint32_t> slashes = comment_before(session);
     if (slashes && session.wants_reports()) {
         const std::string_view all = session.scanned.text;
@@ -162,7 +162,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
     const char first = text[0];
     const ScanState& scan = session.scan;
     const bool has_modules = scan.part == Part::Successor || scan.part == Part::Axiom;
-    if (has_modules && is_behind_comment(session)) {
+    if (has_modules && is_after_likely_comment(session)) {
         return StrayHandling::Skip;
     }
     if (scan.part == Part::Head) {

@@ -20,8 +20,8 @@ constexpr std::string_view kSuperscript = "superscript";
 constexpr std::string_view kFraction = "fraction";
 constexpr std::string_view kDegreeSign = "degree sign";
 
-/// The decimals of a fraction character after a whole number: `.3333333` for one third, with the
-/// digits that binary32 keeps.
+/// The decimals of a fraction character after an integer: `.3333333` for one third, with the digits
+/// that binary32 keeps.
 std::string_view decimals_of(std::string_view fraction) {
     return fraction == "(1/3)"   ? ".3333333"
            : fraction == "(2/3)" ? ".6666667"
@@ -139,7 +139,7 @@ void Normalizer::report_group() {
     group_ = {};
 }
 
-/// Reports a superscript behind a module.
+/// Reports a superscript after a module.
 void Normalizer::report_power(std::uint32_t begin, const CodePoint& point) {
     report_group();
     if (diagnostics_ == nullptr || !diagnostics_->admits(DiagnosticCode::LookAlike)) {
@@ -162,7 +162,7 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-/// Whether a Greek letter is a word of its own; reports its first occurrence.
+/// Whether a Greek letter is a whole word; reports its first occurrence.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
         "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",

@@ -80,7 +80,7 @@ std::uint32_t colons_of_statement(ParseSession& session) {
     return *scan.colons;
 }
 
-/// The text from behind the `;` at `at` to the `;` or the statement after it.
+/// The text after the `;` at `at`, up to the next `;` or statement.
 std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     const std::size_t begin = at + 1;
     constexpr std::size_t kMaxLength = 4096;
@@ -88,8 +88,8 @@ std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     return rest.substr(0, rest.find_first_of(";#"));
 }
 
-/// Whether the `;` at `at` stands where a `:` is meant: the text behind it has the `missing` other
-/// `:` of the production and no statement of its own.
+/// Whether the `;` at `at` is a mistyped `:`: the text after it has the `missing` other `:` of the
+/// production and begins no statement.
 bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
     const std::string_view rest = text_after_semicolon(text, at);
     const std::size_t first = rest.find_first_not_of(" \t\r\n");
@@ -117,7 +117,7 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
     return keyword_token(session, word, span);
 }
 
-/// `#angle 30;`: reports the missing `set` and reads on after the `#`.
+/// `#angle 30;`: reports the missing `set` and continues after the `#`.
 Token setting_without_set(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     const std::uint32_t key_begin = scan.end - static_cast<std::uint32_t>(word.size());
@@ -175,7 +175,8 @@ void explain_section(const ParseSession& session, Keyword meant, Diagnostic& dia
                               name + " " + std::string(next) + ";`");
 }
 
-/// Reports `#word`, which is no statement; returns the keyword that is meant, if that is sure.
+/// Reports `#word`, which is not a statement; returns the keyword that is meant, if that is
+/// certain.
 std::optional<Keyword> report_unknown_statement(ParseSession& session, std::string_view word) {
     const Synonym* const synonym = find_synonym(SynonymKind::Statement, word);
     const std::string_view setting = meant_setting(synonym);
@@ -304,7 +305,7 @@ bool is_hash_comment(ParseSession& session, std::string_view text) {
 
 Token start_statement(ParseSession& session, std::string_view text) {
     session.scan.first_diagnostic = session.context.diagnostics.all().size();
-    normalize_behind_word(session);
+    normalize_after_word(session);
     const std::size_t name_begin = text.find_first_not_of(" \t", 1);
     if (name_begin > 1) {
         const ScanState& scan = session.scan;
@@ -507,7 +508,7 @@ bool is_doubled_colon(ParseSession& session) {
 
 namespace {
 
-/// Reports `A : * : B : 0.6`, the probability at the end as in Houdini; returns whether it did.
+/// Reports `A : * : B : 0.6`, a probability at the end as in Houdini; returns whether it did.
 bool report_probability_at_end(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -564,7 +565,7 @@ Token colon_after_modules(ParseSession& session) {
     const bool ends_line = rest.find_first_not_of(" \t\r") == std::string_view::npos;
     // At the end of a line the `:` may be a mistyped `;`.
     if ((scan.part == Part::Successor || scan.part == Part::Axiom) && !ends_line &&
-        is_behind_comment(session)) {
+        is_after_likely_comment(session)) {
         return discard_statement(session);
     }
     if (session.wants(DiagnosticCode::ExtraColon) &&
@@ -594,7 +595,7 @@ namespace {
 Part part_after_colon(const ParseSession& session) {
     const ScanState& scan = session.scan;
     switch (scan.part) {
-    case Part::Chance:
+    case Part::Probability:
         return Part::Axiom;
     case Part::Head:
         return Part::Condition;
@@ -609,7 +610,7 @@ Part part_after_colon(const ParseSession& session) {
 
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
-    const bool in_production = scan.part == Part::Chance || scan.part == Part::Head ||
+    const bool in_production = scan.part == Part::Probability || scan.part == Part::Head ||
                                scan.part == Part::Condition || scan.part == Part::Locals;
     if (!scan.open.empty() && in_production) {
         return begin_insertion(session, Insertion::Colon, session.match());
@@ -675,7 +676,7 @@ std::optional<std::ptrdiff_t> colons_after_semicolon(const ScanState& scan) {
     }
 }
 
-/// Whether the text before the current `;` is surely a condition, so that only a successor can
+/// Whether the text before the current `;` is certainly a condition, so that only a successor can
 /// follow.
 bool has_condition_before(const ParseSession& session) {
     const ScanState& scan = session.scan;
@@ -918,9 +919,9 @@ Token discard_statement(ParseSession& session) {
 
 namespace {
 
-/// Whether `text`, which stands in the place of a condition and before the character `stray` that
-/// no condition has, begins a successor: `text` is empty, or it begins with a symbol or a capital
-/// letter and compares nothing.
+/// Whether `text` begins a successor. It stands in the place of a condition, and the character
+/// `stray` after it cannot occur in one. True if `text` is empty, or if it begins with a symbol or
+/// a capital letter and compares nothing.
 bool begins_successor(std::string_view text, char stray) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
@@ -932,8 +933,8 @@ bool begins_successor(std::string_view text, char stray) {
 }
 
 /// Whether the text from `first` to the current character can only be a successor: none of its
-/// words is a parameter of the predecessor, and the current character is a symbol that no condition
-/// has, without a blank before it.
+/// words is a parameter of the predecessor, and the current character is a symbol that cannot occur
+/// in a condition, without a blank before it.
 bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -958,8 +959,8 @@ bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
            has_plain_head(session);
 }
 
-/// Reports a production of three parts, whose condition is missing. The current character is the
-/// first that cannot stand in a condition.
+/// Reports a production of three parts whose condition is missing. The current character is the
+/// first that cannot occur in a condition.
 bool report_missing_condition(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

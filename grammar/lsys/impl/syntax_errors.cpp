@@ -119,7 +119,7 @@ void explain_attribute(const ParseSession& session, Diagnostic& diagnostic) {
                                   : "functions stand without a `.`: `" + shown(word) + "(x)`");
 }
 
-/// Reports `math.sqrt`, a function of a library that is not needed; returns whether it did.
+/// Reports `math.sqrt`, a function of a library; returns whether it did.
 bool report_library(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const ScanState& scan = session.scan;
@@ -143,7 +143,7 @@ bool report_library(ParseSession& session) {
     return true;
 }
 
-/// Offers quotes around the name of a file that the current `.` is part of.
+/// Offers quotes around the file name that contains the current `.`.
 void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
     const std::string_view text = session.scanned.text;
     constexpr std::string_view kEnds = " \t\r\n;\"";
@@ -235,7 +235,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     }
 }
 
-/// Whether a `)` closes each open bracket behind the current character.
+/// Whether a `)` after the current character closes each open bracket.
 bool are_brackets_closed(const ParseSession& session) {
     const ScanState& scan = session.scan;
     std::uint32_t at = scan.end;
