@@ -40,7 +40,7 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     InstancedSystem system;
     system.bytecode = std::move(*bytecode);
     system.kind_count = branches->kinds.size();
-    system.depends_on_vertical.push_back(false); // id 0, the axiom, which no other branch replaces
+    system.depends_on_vertical.push_back(false); // id 0, the axiom, is never replaced
     for (const BranchKind& kind : branches->kinds) {
         system.depends_on_vertical.push_back(kind.depends_on_vertical);
     }

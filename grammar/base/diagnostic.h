@@ -133,12 +133,12 @@ public:
     /// Removes help texts that contain `pattern`, a form that the file cannot use, and all fixes
     /// except those that replace text by a single name. The remaining fixes become offers.
     void drop_repairs(std::string_view pattern);
-    /// Gives each diagnostic the severity that `judge` returns for it, or removes it.
-    template <typename Judge>
-    void rejudge(const Judge& judge) {
+    /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
+    template <typename SeverityOf>
+    void reassign_severities(const SeverityOf& severity_of) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < all_.size(); ++i) {
-            const std::optional<Severity> severity = judge(std::as_const(all_[i]));
+            const std::optional<Severity> severity = severity_of(std::as_const(all_[i]));
             --counts_[static_cast<std::size_t>(all_[i].severity)];
             if (!severity) {
                 continue;

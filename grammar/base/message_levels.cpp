@@ -62,7 +62,7 @@ std::optional<MessageLevel> MessageLevels::of(const Diagnostic& diagnostic) cons
 }
 
 void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics) {
-    diagnostics.rejudge([&](const Diagnostic& diagnostic) -> std::optional<Severity> {
+    diagnostics.reassign_severities([&](const Diagnostic& diagnostic) -> std::optional<Severity> {
         if (diagnostic.severity == Severity::Error) {
             return diagnostic.severity;
         }

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether a predecessor is words of two letters and more with `-` between them: `shoot-apex`.
+/// Whether a predecessor is a hyphenated name, words of two or more letters: `shoot-apex`.
 bool is_hyphenated(std::string_view text) {
     std::size_t word = 0;
     bool has_hyphen = false;

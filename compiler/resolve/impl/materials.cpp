@@ -87,9 +87,9 @@ std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value)
 
 void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& material) {
     std::vector<Entry> entries;
-    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile: not met
+    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile until the key is read
     bool ok = true;
-    bool is_skipping = false; // values of a key in error
+    bool is_skipping = false; // within the values of an invalid key
     for (std::uint32_t i = 1; i < node.values.count; ++i) {
         const SetValue value = resolution_.ast.set_values[node.values.first + i];
         if (!value.is_word) {
@@ -115,7 +115,7 @@ void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& m
             report_unknown_key(value, entries.empty() ? Entry{} : entries.back());
             ok = false;
             if (!entries.empty() && entries.back().values.count < entries.back().key->count) {
-                entries.pop_back(); // the word stands for its value
+                entries.pop_back(); // the word takes the place of the key's value
             }
             continue;
         }
@@ -211,7 +211,7 @@ void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material)
     }
 }
 
-/// A number from 0 to 1; of `two_sided` one of the two.
+/// A number from 0 to 1; for `two_sided` exactly 0 or 1.
 std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetValue& value) {
     const MaterialKey& key = *entry.key;
     if (value.is_file) {
@@ -252,7 +252,8 @@ void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& pic
     picture = {path_of(file), file.span};
 }
 
-/// The path of the file relative to the root file, as written in another one.
+/// The path of the file relative to the root file; paths are written relative to the including
+/// file.
 std::string MaterialResolver::path_of(const SetValue& file) const {
     const std::string name(resolution_.text(file.word));
     const FileId root = resolution_.ast.files[0].file;
