@@ -19,7 +19,7 @@ float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// The next view of a trace, around.
+/// The scope of the next trace; the last scope is followed by the first.
 TraceScope scope_after(TraceScope scope) {
     switch (scope) {
     case TraceScope::Written:

@@ -83,7 +83,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     constexpr float kMinAir = 0.01F;
     constexpr float kMaxAir = 1e6F;
     add_parsed(
-        app, "--air", options.air,
+        app, "--air", options.visibility,
         [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
         "Visibility in a forest, km: haze leaves 2 % of the contrast there (default: 12 times the "
         "diagonal of the ground, at least 10)")
@@ -256,7 +256,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
         return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
     }
-    if (!options.is_forest && options.air) {
+    if (!options.is_forest && options.visibility) {
         return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
     }
     if (options.is_forest && options.plant_height) {
@@ -329,7 +329,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.seed.reset();
     options.plant_height.reset();
     options.camera.clear();
-    options.air.reset();
+    options.visibility.reset();
 }
 
 } // namespace lsys::view

@@ -75,8 +75,8 @@ struct PickRequest {
     std::function<Outcome<Description>(const Project&)> describe;
     TraceFunction trace; // of the module described; empty in forests
     RunOptions run;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// Returns the description, or the messages of its failure.
@@ -90,8 +90,8 @@ struct TraceRequest {
     PickedModule module;
     TraceScope scope = TraceScope::Written;
     RunOptions run;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// Returns the text of the trace, and messages of errors that end it.

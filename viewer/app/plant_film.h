@@ -14,8 +14,8 @@ namespace lsys::view {
 struct FilmRequest {
     ViewOptions options; // of the plant; the growth ends at its generations
     GrowthMoment moment;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// The plant at a moment.

@@ -210,8 +210,8 @@ private:
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
-    /// Max error in m of the heights at which the picture of a cluster shows trees at the edges of
-    /// its cell. The error arises because the picture is taken from one of few elevations.
+    /// Max error, m, of the height at which a cluster shows trees at the edges of its cell: its
+    /// picture is taken from one of few elevations.
     [[nodiscard]] float cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,
