@@ -114,7 +114,7 @@ private:
             const bool saves_branch = symbol.turtle == TurtleOperation::SaveBranch;
             if (saves_branch && (symbol.kind != SymbolKind::BranchOpen ||
                                  symbol.parameter_count < kBranchArguments)) {
-                return fail("symbol {} is no branch", i);
+                return fail("symbol {} is not a branch", i);
             }
             const bool plain = symbol.kind == SymbolKind::Plain;
             if (symbol.parameter_count > (plain || saves_branch ? kMaxOperand : 0)) {
@@ -538,7 +538,7 @@ private:
                 break;
             }
             if (!fits || !allowed(place, opcode)) {
-                return fail("instruction {} ({}) may not stand there", at, row.mnemonic);
+                return fail("instruction {} ({}) is not allowed there", at, row.mnemonic);
             }
             if (row.pops > depth) {
                 return fail("instruction {} ({}) lacks values", at, row.mnemonic);

@@ -89,7 +89,7 @@ void report_bad_range(Diagnostics& diagnostics,
     if (const auto bounds = bounds_with_minus(sources.text(span)); bounds && count == 1) {
         const std::string range = "{" + bounds->first + ", " + bounds->second + "}";
         add_fix(diagnostic,
-                "the bounds of a range stand beside a comma, and `-` is a difference: write `" +
+                "a comma separates the bounds of a range, and `-` is a difference: write `" +
                     range + "`",
                 span, range, false);
         return;
@@ -114,7 +114,7 @@ void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c) {
     }
     Diagnostic& diagnostic = diagnostics.add(
         DiagnosticCode::LetterName, span,
-        std::string("`") + c + "` cannot stand in a module name with `#set names letters`");
+        std::string("`") + c + "` cannot be in a module name with `#set names letters`");
     diagnostic.help.emplace_back("there every letter is a module of its own; for names of several "
                                  "characters leave out `#set names letters`");
 }

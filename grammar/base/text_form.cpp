@@ -77,7 +77,7 @@ std::optional<NonText> recognise_non_text(std::string_view bytes) {
     constexpr std::ptrdiff_t kFewControls = 16;
     const std::ptrdiff_t controls = std::count_if(sample.begin(), sample.end(), is_control);
     if (controls > kFewControls && controls * 20 > static_cast<std::ptrdiff_t>(sample.size())) {
-        return NonText{"no text", "a grammar is UTF-8 text"};
+        return NonText{"binary data", "a grammar is UTF-8 text"};
     }
     return std::nullopt;
 }

@@ -91,7 +91,7 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
 
 /// The .lsys equivalents of the statements of an L-Py model, with the names of the model.
 std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
-    std::string text = "lsc reads no L-Py; write the model anew: `" + std::string(axiom.text) +
+    std::string text = "lsc does not read L-Py; rewrite the model: `" + std::string(axiom.text) +
                        "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";
     if (const Line* const length = find_line(lines, begins_with("derivation length:"))) {
         text += ", `" + std::string(length->text) +
@@ -121,7 +121,7 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
              return line.find("produce ") != std::string_view::npos && line.ends_with(';');
          }) != nullptr)) {
         return made(axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
-                    "lsc reads no lpfg; its productions are C++, and have to be written anew");
+                    "lsc does not read lpfg; its productions are C++ and have to be rewritten");
     }
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||

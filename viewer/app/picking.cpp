@@ -192,12 +192,13 @@ Outcome<Description> describe(const Picked& picked,
         return step.end(Stop::Cancelled);
     }
     Description description;
-    description.hint = "a branch stands for many, so there is no trace: open its grammar alone";
+    description.hint =
+        "a branch is shared by many places, so there is no trace: open its grammar alone";
     std::vector<std::string>& lines = description.lines;
     lines.push_back(fmt::format("branch {} of {}: id {}, age {}, hero {}", picked.instance,
                                 grouped(cache.instances.size()), slot.id, slot.age, instance.hero));
     lines.push_back(origins[picked.instance]);
-    lines.push_back(fmt::format("it stands {} in the forest, in {}",
+    lines.push_back(fmt::format("it occurs {} in the forest, in {}",
                                 counted(count->branches, grouped(count->branches), "time"),
                                 counted(count->trees, grouped(count->trees), "tree")));
     lines.push_back(tree_text(picked, document));

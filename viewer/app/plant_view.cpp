@@ -321,7 +321,7 @@ Result<std::string> PlantView::text_with_values(const StatementValues& values) c
         return Error{fmt::format("`{}` is compiled; write to its grammar", file)};
     }
     if (!grammar.translation.empty()) {
-        return Error{fmt::format("`{}` is no .lsys file; `lsc import --set` makes one", file)};
+        return Error{fmt::format("`{}` is not a .lsys file; `lsc import --set` makes one", file)};
     }
     Result<std::string> bytes = read_file(file, {kMaxSourceBytes}, console_);
     if (!bytes) {

@@ -43,7 +43,7 @@ void check_constant(const CheckInput& input,
             const std::string replacement =
                 fmt::format("* ~ {}", input.sources.text(production.condition_span));
             add_fix(diagnostic,
-                    fmt::format("a probability stands behind a `~`: write `{}`", replacement),
+                    fmt::format("a probability comes after a `~`: write `{}`", replacement),
                     production.condition_span, replacement, false);
             return;
         }

@@ -42,9 +42,10 @@ void check_quotes(const CheckInput& input, const ProgramWord& word, Diagnostics&
         inside.back() == ' ') {
         return;
     }
-    Diagnostic& diagnostic = diagnostics.add(
-        DiagnosticCode::QuotedModules, {word.file, begin, begin + 1},
-        "modules stand without quotation marks: each `\"` is a module that multiplies the step");
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::QuotedModules, {word.file, begin, begin + 1},
+                        "modules are written without quotation marks: each `\"` is a module that "
+                        "multiplies the step");
     diagnostic.labels.push_back({{word.file, end, end + 1}, "and so is this"});
     diagnostic.fixes.push_back(
         {fmt::format("write `{}`", inside),

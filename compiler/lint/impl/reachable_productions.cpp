@@ -218,7 +218,7 @@ private:
             return;
         }
         diagnostic.fixes.push_back(
-            {"with a probability behind `~`",
+            {"with a probability after `~`",
              {{early.condition_span, "* ~ 0.5"}, {late.condition_span, "* ~ 0.5"}},
              false});
     }

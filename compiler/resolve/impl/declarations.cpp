@@ -181,7 +181,7 @@ void DeclarationResolver::ignore(const IgnoreNode& node, NameSplitter& splitter)
     if (first_ignore_.file != kNoFile && first_consider_.file != kNoFile) {
         Diagnostic& error =
             resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, node.keyword_span,
-                                        "`#ignore` and `#consider` cannot stand in one grammar");
+                                        "a grammar cannot have both `#ignore` and `#consider`");
         error.labels.push_back(
             {node.considers ? first_ignore_ : first_consider_,
              node.considers ? "modules are ignored here" : "all but these are ignored already"});

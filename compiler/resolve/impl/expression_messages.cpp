@@ -476,11 +476,11 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
     }
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::RangeNotAllowed, expression.span(),
-        is_range ? fmt::format("a {} cannot stand {}",
+        is_range ? fmt::format("a {} is not allowed {}",
                                expression.kind == ExpressionKind::Range ? "random range"
                                                                         : "random number",
                                where)
-                 : fmt::format("`{}` is drawn at random, so it cannot stand {}",
+                 : fmt::format("`{}` is random, so it is not allowed {}",
                                resolution_.text(expression.name), where));
     if (!is_range) {
         error.labels.push_back({constants_.definition_span(expression.name), "it is drawn here"});

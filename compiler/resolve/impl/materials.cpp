@@ -96,7 +96,7 @@ void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& m
             if (entries.empty() && !is_skipping) {
                 resolution_.diagnostics
                     .add(DiagnosticCode::BadMaterial, value.span,
-                         "a key stands behind the index, not a value")
+                         "a key comes after the index, not a value")
                     .help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
                 return;
             }
@@ -145,7 +145,7 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
     if (lacks_value && expressions_.is_constant(word.word)) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, word.span,
-            fmt::format("a constant stands in parentheses here: `({})`", name));
+            fmt::format("a constant is in parentheses here: `({})`", name));
         add_fix(error, fmt::format("write `({})`", name), word.span, fmt::format("({})", name),
                 true);
         return;
@@ -168,12 +168,11 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
 void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material) {
     const MaterialKey& key = *entry.key;
     if (entry.values.count != key.count) {
-        resolution_.diagnostics.add(
-            DiagnosticCode::BadMaterial, entry.span,
-            entry.values.count == 0 ? fmt::format("`{}` takes {}", key.name, key.wanted)
-                                    : fmt::format("`{}` takes {}; {} stand{} here", key.name,
-                                                  key.wanted, counted(entry.values.count, "value"),
-                                                  entry.values.count == 1 ? "s" : ""));
+        resolution_.diagnostics.add(DiagnosticCode::BadMaterial, entry.span,
+                                    entry.values.count == 0
+                                        ? fmt::format("`{}` takes {}", key.name, key.wanted)
+                                        : fmt::format("`{}` takes {}, not {}", key.name, key.wanted,
+                                                      counted(entry.values.count, "value")));
         return;
     }
     const SetValue first = resolution_.ast.set_values[entry.values.first];

@@ -37,7 +37,7 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
     for (int number = 2; number < 1000; ++number) {
         const std::string candidate = fmt::format("{}{}", free, number);
         if (resolution_.names.find(candidate) == kNoName) {
-            error.help.emplace_back("what stands behind the `#` is a name of your choice, another "
+            error.help.emplace_back("the word after the `#` is a name of your choice, a different "
                                     "one for each production");
             add_fix(error, fmt::format("write `#{}`", candidate), node.name_span, candidate, false);
             break;

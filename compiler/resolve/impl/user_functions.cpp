@@ -133,13 +133,13 @@ std::optional<std::vector<CurveKnot>> ExpressionResolver::read_points(const Curv
         (i % 2 == 0 ? point.x : point.y) = *number;
         if (!std::isfinite(*number)) {
             resolution_.diagnostics.add(DiagnosticCode::BadFunction, span,
-                                        fmt::format("{} is no coordinate", *number));
+                                        fmt::format("{} is not a coordinate", *number));
             return std::nullopt;
         }
         if (i % 2 == 0 && i > 0 && !(points[i / 2 - 1].x < point.x)) {
             resolution_.diagnostics
                 .add(DiagnosticCode::BadFunction, span,
-                     fmt::format("{} does not lie behind {}, the point before it", point.x,
+                     fmt::format("x is {}, but the point before it is at {}", point.x,
                                  points[i / 2 - 1].x))
                 .help.emplace_back("the points of a curve ascend from left to right");
             return std::nullopt;
@@ -224,7 +224,7 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
         if (first_report_of(expression.name)) {
             resolution_.diagnostics.add(
                 DiagnosticCode::ProgramTooLarge, span,
-                fmt::format("the functions of this statement stand for more than {} operations",
+                fmt::format("the functions of this statement expand to more than {} operations",
                             kMaxExpanded));
         }
         return kPoison;

@@ -26,7 +26,7 @@ void write_settings(const CareyFile& file, const ParseContext& context, Translat
         const std::string_view value = context.sources.text(setting.value);
         if (!is_number(value, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignValue, setting.value,
-                                    "`" + shown(value) + "` is no number");
+                                    "`" + shown(value) + "` is not a number");
             continue;
         }
         const std::string name(setting.key->lsys);
@@ -126,7 +126,7 @@ void write_rules(const CareyFile& file,
         if (rule.ratio && !is_number(context.sources.text(*rule.ratio), "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignValue, *rule.ratio,
                                     "`" + shown(context.sources.text(*rule.ratio)) +
-                                        "` is no ratio");
+                                        "` is not a ratio");
         }
         RuleSelection selection{i + 1, alternatives[left_sides[i]] > 1, {}};
         if (parameters.any && turns.size() > 1) {

@@ -128,7 +128,7 @@ private:
                                : "`" + shown(context_.sources.text(rule.right.back().span)) + "`";
         Diagnostic& error = context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
                                                      "the rule `" + text_of(rule) +
-                                                         "` leaves this parameter behind " +
+                                                         "` leaves this parameter after " +
                                                          problem + ", which cannot take it");
         error.labels.push_back({rule.rule->right, "replaces text, and the parameter stays"});
         error.help.emplace_back("give the symbol with the parameter a name that no rule rewrites");

@@ -84,7 +84,7 @@ ForeignId CpfgExpressions::read(ForeignId value, SourceSpan span) {
 ForeignId CpfgExpressions::element(const ForeignNode& node) {
     const auto found = arrays_.find(node.text);
     if (found == arrays_.end()) {
-        return unsupported(node.span, "`" + shown(node.text) + "` is no array");
+        return unsupported(node.span, "`" + shown(node.text) + "` is not an array");
     }
     Array& array = found->second;
     if (array.sizes.size() != node.parts.size()) {
@@ -274,7 +274,7 @@ ForeignId CpfgExpressions::term(ForeignId expression) {
         return name(node);
     case ForeignKind::Text:
     case ForeignKind::Address:
-        return unsupported(node.span, "a value that is no number");
+        return unsupported(node.span, "a value that is not a number");
     case ForeignKind::Unary:
         return tree_.unary(node.text, term(node.parts[0]), node.token);
     case ForeignKind::Binary:

@@ -384,7 +384,7 @@ void CpfgExpressions::define_array(const CpfgStatement& statement) {
         std::from_chars(size.data(), size.data() + size.size(), value);
         if (value <= 0 || value > kMaxElements / count) {
             static_cast<void>(
-                unsupported(target.span, "an array whose size is no number from 1 to 256"));
+                unsupported(target.span, "an array whose size is not a number from 1 to 256"));
             return;
         }
         array.sizes.push_back(value);

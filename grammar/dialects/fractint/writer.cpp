@@ -117,7 +117,7 @@ void FractintWriter::write_angle(const FractintLine& line) {
     }
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
         warn_quirk(place, "Fractint takes " + std::to_string(parts) +
-                              " for the angle and what stands behind it for a mistake");
+                              " for the angle and the text after it for a mistake");
     }
     if (parts < kMinAngle || parts > kMaxAngle) {
         warn_quirk(place, "Fractint takes angles from " + std::to_string(kMinAngle) + " to " +
@@ -146,7 +146,7 @@ bool FractintWriter::check_key(const FractintLine& line) {
     }
     const char symbol = folded(key[0]);
     if (static_cast<unsigned char>(symbol) < 0x20 || static_cast<unsigned char>(symbol) >= 0x7F) {
-        report_syntax(line.key, "this is no symbol");
+        report_syntax(line.key, "this is not a symbol");
         return false;
     }
     if (symbol == '[' || symbol == ']') {
@@ -233,7 +233,7 @@ void FractintWriter::write_word(SourceSpan word) {
             const CodePoint point = decode_utf8(text.substr(at - 1));
             at += point.length - 1;
             report_syntax({symbol.file, symbol.begin, symbol.begin + point.length},
-                          "this is no symbol of a system");
+                          "this is not a symbol of a system");
             continue;
         }
         write_symbol(symbol);

@@ -124,9 +124,9 @@ HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
             }
             constexpr std::size_t kMax = 64;
             if (extended.size() > kMax) {
-                report_unsupported(
-                    rule.span, "symbols of the turtle stand here with too many different numbers "
-                               "of parameters");
+                report_unsupported(rule.span,
+                                   "turtle symbols occur here with too many different numbers "
+                                   "of parameters");
                 return {};
             }
             variants = std::move(extended);

@@ -39,9 +39,9 @@ void HoudiniWriter::read_settings() {
             continue;
         }
         if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
-            report_syntax(value, "`" + shown(text(value)) + "` is no number");
+            report_syntax(value, "`" + shown(text(value)) + "` is not a number");
         } else if (!settings_.emplace(row->name, value).second) {
-            report_syntax(setting.key, "this setting stands twice");
+            report_syntax(setting.key, "this setting occurs twice");
         }
     }
 }
@@ -160,14 +160,14 @@ void HoudiniWriter::write_symbol(const HoudiniModule& module) {
     const std::string_view symbol = text(module.symbol);
     if (symbol[0] == '`') {
         report_unsupported(module.symbol,
-                           "what stands in back quotes is of Houdini's expressions, which lsc does "
+                           "text in back quotes is an expression of Houdini, which lsc does "
                            "not have");
         return;
     }
     const CodePoint point = decode_utf8(symbol);
     const std::string spelled = spelled_letter(point.value);
     if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
-        report_syntax(module.symbol, "this is no character of a module");
+        report_syntax(module.symbol, "this is not a character of a module");
     } else if (spelled == symbol) {
         translation_.copy(module.symbol, session_.context.sources);
     } else {

@@ -178,8 +178,8 @@ void report_rule_order(const std::vector<L3dRule>& rules,
     Diagnostic& note = context.diagnostics.add(
         DiagnosticCode::RuleOrder, early.span,
         "`" + shown(early.text) + "` is replaced before `" + shown(late.text) +
-            "`, whose line stands above; in the order of the lines, generation " +
-            std::to_string(*generation) + " would be another word");
+            "`, whose line comes first; in the order of the lines, generation " +
+            std::to_string(*generation) + " would be a different word");
     note.labels.push_back({late.span, "replaced later, as L3D sorts its rules by these texts"});
     note.help.emplace_back("for the order of the lines, `lsc import` the file and put the "
                            "productions into that order");

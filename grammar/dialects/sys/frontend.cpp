@@ -229,7 +229,7 @@ void write_rule(const SysRule& rule,
     const std::string_view probability = context.sources.text(rule.probability);
     if (literal_length(probability) != probability.size()) {
         context.diagnostics.add(DiagnosticCode::ForeignValue, rule.probability,
-                                "`" + shown(probability) + "` is no probability");
+                                "`" + shown(probability) + "` is not a probability");
     }
     if (certain) {
         translation.put("*", rule.probability);

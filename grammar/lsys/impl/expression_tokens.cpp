@@ -245,7 +245,7 @@ void report_quoted_expression(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     Diagnostic& diagnostic =
-        session.report(DiagnosticCode::SyntaxError, "expressions stand without back quotes");
+        session.report(DiagnosticCode::SyntaxError, "expressions have no back quotes");
     const std::size_t close = text.find_first_of("`\n", scan.end);
     if (close != std::string_view::npos && text[close] == '`') {
         const auto end = static_cast<std::uint32_t>(close);
@@ -292,7 +292,7 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
         std::string digits(text);
         std::erase(digits, '_');
         if (literal_length(digits) == digits.size()) {
-            add_fix(diagnostic, "digits stand without `_`", span, digits,
+            add_fix(diagnostic, "numbers are written without `_`", span, digits,
                     has_groups_of_three(text));
         }
     } else if (text.starts_with("0x") || text.starts_with("0X")) {
@@ -399,7 +399,7 @@ bool report_exchanged_parts(ParseSession& session) {
         const SourceSpan successor = trimmed(scan.part_begin, colon);
         const SourceSpan condition = trimmed(colon + 1, stop);
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, successor,
-                                                "the successor stands before the condition");
+                                                "the successor is before the condition");
         diagnostic.labels.push_back({condition, "this is the condition"});
         if (successor.begin < successor.end && condition.begin < condition.end) {
             diagnostic.fixes.push_back(
@@ -769,7 +769,7 @@ void report_assignment(ParseSession& session) {
     if (session.wants(DiagnosticCode::AssignmentInExpression)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::AssignmentInExpression,
-                           "`=` compares nothing: it only stands in `#n = ...;`");
+                           "`=` does not compare: it is used only in `#n = ...;`");
         add_fix(diagnostic, "compare with `==`", diagnostic.span, "==", true);
     }
 }
@@ -805,9 +805,8 @@ void report_named_argument(ParseSession& session) {
         return;
     }
     const SourceSpan name = session.scanned.span(*argument_name(session), session.scan.end);
-    Diagnostic& diagnostic =
-        session.report(DiagnosticCode::AssignmentInExpression, name,
-                       "arguments have no names: they are told apart by their order");
+    Diagnostic& diagnostic = session.report(DiagnosticCode::AssignmentInExpression, name,
+                                            "arguments have no names, only an order");
     add_fix(diagnostic, "leave the name out", name, "", false);
 }
 

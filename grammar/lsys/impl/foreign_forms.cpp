@@ -283,7 +283,7 @@ private:
                 const Piece value = trimmed(text(), rest.begin + 1, rest.end);
                 Diagnostic& diagnostic = report(rest, "parameters have no default values");
                 const std::string use = first_use(open, copy_of(draft_.text, value), number);
-                diagnostic.help.push_back("a module has all its parameters wherever it stands" +
+                diagnostic.help.push_back("a module has all its parameters at every place" +
                                           (use.empty() ? "" : ": write `" + use + "`"));
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
@@ -403,9 +403,9 @@ private:
         for (const std::string& number : numbers) {
             plain += (plain.empty() ? "" : " ") + number;
         }
-        Diagnostic& diagnostic =
-            report(all, "the numbers of a setting stand side by side, without parentheses and "
-                        "commas");
+        Diagnostic& diagnostic = report(
+            all, "the numbers of a setting are written side by side, without parentheses and "
+                 "commas");
         add_fix(diagnostic, "write `#set tropism " + plain + ";`", draft_.span(all.begin, all.end),
                 plain, false);
         static_cast<void>(draft_.replace(all.begin, all.end, plain));
@@ -460,8 +460,8 @@ private:
         }
         const std::string quoted = '"' + std::string(written.substr(1, written.size() - 2)) + '"';
         Diagnostic& diagnostic =
-            report(all, is_angled ? "the name of a file stands in quotes, not between `<` and `>`"
-                                  : "the name of a file stands in double quotes");
+            report(all, is_angled ? "the name of a file is in quotes, not between `<` and `>`"
+                                  : "the name of a file is in double quotes");
         add_fix(diagnostic, "write `#include " + quoted + ";`", draft_.span(all.begin, all.end),
                 quoted, false);
         static_cast<void>(draft_.replace(all.begin, all.end, quoted));
@@ -583,8 +583,8 @@ private:
             }
             Diagnostic& diagnostic =
                 report({statement_.end, statement_.end + 1},
-                       is_end ? "no `;` stands behind local values"
-                              : "a `,` stands between local values, not a `;`, which ends the "
+                       is_end ? "there is no `;` after local values"
+                              : "local values are separated by `,`, not by `;`, which ends the "
                                 "statement");
             add_fix(diagnostic, is_end ? "remove it" : "write `,`",
                     draft_.span(statement_.end, statement_.end + 1), is_end ? "" : ",", false);
@@ -731,7 +731,7 @@ private:
             const std::string module = inside.empty() ? word : word + "(" + inside + ")";
             if (diagnostic == nullptr) {
                 diagnostic =
-                    &report({at, close + 1}, "the name of a module stands before its parentheses");
+                    &report({at, close + 1}, "the name of a module comes before its parentheses");
             }
             const bool is_head = is_production && colons == 1;
             const bool is_value = is_head && is_number_text(inside);

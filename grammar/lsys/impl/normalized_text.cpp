@@ -286,7 +286,7 @@ void report_foreign_confusable(ParseSession& session,
         DiagnosticCode::ForeignFeature, place,
         ascii.empty() ? "an invisible character, " + what + ", cannot be a module"
         : ascii == " "
-            ? "a blank that is no plain one but " + what + " cannot be a module"
+            ? "a blank that is not a plain one but " + what + " cannot be a module"
             : "this looks like `" + ascii + "` but is " + what + ", which cannot be a module");
     add_fix(diagnostic,
             ascii.empty()  ? std::string("remove it")

@@ -267,14 +267,14 @@ void repair_fences(DraftText& draft) {
     }
     Diagnostic& diagnostic = draft.report(
         DiagnosticCode::PastedText, draft.span(fences.front()->begin, fences.front()->end),
-        "this is the fence of a code block in Markdown, no part of a grammar");
+        "this is the fence of a code block in Markdown, not part of a grammar");
     for (std::size_t i = 1; i < fences.size(); ++i) {
         diagnostic.labels.push_back(
             {draft.span(fences[i]->begin, fences[i]->end), "and so is this"});
     }
     if (!prose.empty()) {
         diagnostic.labels.push_back({draft.span(prose.front()->begin, prose.front()->end),
-                                     "this text is no part of it either"});
+                                     "this text is not part of it either"});
     }
     std::vector<const FreeLine*> all = prose;
     all.insert(all.end(), fences.begin(), fences.end());
@@ -285,7 +285,7 @@ void repair_fences(DraftText& draft) {
         fix.edits.push_back({draft.span(line->begin, after), ""});
     }
     diagnostic.help.emplace_back(all.size() == 1 ? "remove the line"
-                                                 : "remove these lines, and keep what stands "
+                                                 : "remove these lines, and keep the text "
                                                    "between the fences");
     diagnostic.fixes.push_back(std::move(fix));
     for (const FreeLine* line : all) {
@@ -355,7 +355,7 @@ void repair_line_numbers(DraftText& draft) {
     }
     Diagnostic& diagnostic =
         draft.report(DiagnosticCode::PastedText, place,
-                     "the lines begin with their numbers, which are no part of the grammar");
+                     "the lines begin with their numbers, which are not part of the grammar");
     diagnostic.fixes.push_back(std::move(fix));
 }
 
@@ -503,7 +503,7 @@ void repair_second_copy(DraftText& draft) {
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
     Diagnostic& diagnostic =
         draft.report(DiagnosticCode::PastedText, draft.span(second, second + line.size()),
-                     "from here on the text of the file stands a second time");
+                     "from here on the text of the file is repeated");
     diagnostic.labels.push_back({draft.span(first, first + line.size()), "the first time"});
     diagnostic.fixes.push_back({"remove the second copy", {{draft.span(second, end), ""}}, false});
     draft.blank(second, end);
@@ -523,7 +523,7 @@ void repair_comment_ends(DraftText& draft) {
         if (before != std::string::npos && before < line.begin) {
             diagnostic.labels.push_back(
                 {draft.span(before, before + 2), "the comment ended here already"});
-            diagnostic.help.emplace_back("comments do not stand inside each other: remove this "
+            diagnostic.help.emplace_back("comments cannot be nested: remove this "
                                          "`*/`, or the inner comment");
         } else {
             diagnostic.help.emplace_back("remove it, or write the `/*` that it ends");
@@ -886,7 +886,7 @@ void repair_foreign_lines(DraftText& draft) {
     if (diagnostic != nullptr) {
         if (names.count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
             diagnostic->help.emplace_back("if each letter is a module, `#set names letters;` reads "
-                                          "them so; otherwise blanks stand between names");
+                                          "them so; otherwise put blanks between names");
         }
         fix.title = fix.edits.size() == 1 ? "write the line in this language"
                                           : "write these lines in this language";

@@ -258,8 +258,9 @@ void report_comment_in_statement(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const SourceSpan slashes = session.match();
-    Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, slashes,
-                                            "a comment with `//` stands between statements only");
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::SyntaxError, slashes,
+                       "a comment with `//` is allowed only between statements");
     const std::size_t end = line_end(text, scan.begin);
     const std::string_view comment = text.substr(scan.begin, end - scan.begin);
     if (comment.find("*/") != std::string_view::npos) {

@@ -171,7 +171,7 @@ void explain_section(const ParseSession& session, Keyword meant, Diagnostic& dia
     const std::string_view next =
         begin < end ? text.substr(begin, end - begin) : std::string_view("p : A : * : B");
     diagnostic.help.push_back("a file has no parts: remove this line, and write the productions "
-                              "behind it `" +
+                              "after it `" +
                               name + " " + std::string(next) + ";`");
 }
 
@@ -311,7 +311,7 @@ Token start_statement(ParseSession& session, std::string_view text) {
         const ScanState& scan = session.scan;
         if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::SplitOperator)) {
             Diagnostic& diagnostic = session.report(DiagnosticCode::SplitOperator,
-                                                    "a blank stands between `#` and its word");
+                                                    "there is a blank between `#` and its word");
             add_fix(diagnostic, "remove the blank",
                     session.scanned.span(scan.begin + 1,
                                          scan.begin + static_cast<std::uint32_t>(name_begin)),
@@ -382,8 +382,8 @@ Token opening_colon(ParseSession& session) {
         if (is_digit(next) || next == '.' || next == '(') { // cannot begin a predecessor
             if (session.wants(DiagnosticCode::SyntaxError)) {
                 const SourceSpan span = session.match();
-                Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
-                                                        "a `=` stands here, not a `:`");
+                Diagnostic& diagnostic =
+                    session.report(DiagnosticCode::SyntaxError, span, "expected `=` here, not `:`");
                 add_fix(diagnostic, "write `=`", span, "=", true);
             }
             const SourceSpan span = session.token();
@@ -428,7 +428,7 @@ Token opening_sign(ParseSession& session) {
             const SourceSpan span = session.match();
             Diagnostic& diagnostic =
                 session.report(DiagnosticCode::MissingColon, span,
-                               std::string("a `:` stands here, not a `") + sign + "`");
+                               std::string("expected `:` here, not `") + sign + "`");
             add_fix(diagnostic, "write `:`", span, ":", true);
         }
         const SourceSpan span = session.token();
@@ -500,7 +500,7 @@ bool is_doubled_colon(ParseSession& session) {
     if (session.wants(DiagnosticCode::ExtraColon)) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::ExtraColon, span, "a `:` stands twice");
+            session.report(DiagnosticCode::ExtraColon, span, "a `:` is doubled");
         add_fix(diagnostic, "remove it", span, "", true);
     }
     return true;
@@ -536,7 +536,7 @@ bool report_probability_at_end(ParseSession& session) {
         DiagnosticCode::ExtraColon,
         session.scanned.span(scan.begin, static_cast<std::uint32_t>(end)),
         "`: " + shown(probability) +
-            "` at the end is a probability of Houdini; here it stands behind the condition");
+            "` at the end is a probability of Houdini; in .lsys it comes after the condition");
     Fix fix;
     fix.title = "write `" +
                 shown(std::string(part.substr(part.find_first_not_of(kBlanks),
@@ -580,7 +580,7 @@ Token colon_after_modules(ParseSession& session) {
             const char next = next_character(session.scanned.text, scan.end);
             if (is_digit(next) || next == '.') {
                 diagnostic.help.emplace_back(
-                    "a probability stands behind the condition: `#name : A : * ~ 0.5 : B;`");
+                    "a probability comes after the condition: `#name : A : * ~ 0.5 : B;`");
             }
         } else if (scan.part == Part::Axiom) {
             diagnostic.help.emplace_back("the axiom is `#w : modules;`");
@@ -699,7 +699,7 @@ std::optional<Token> semicolon_for_colon(ParseSession& session) {
     if (session.wants(DiagnosticCode::MissingColon)) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::MissingColon, span, "a `:` stands here, not a `;`");
+            session.report(DiagnosticCode::MissingColon, span, "expected `:` here, not `;`");
         add_fix(diagnostic, "write `:`", span, ":", true);
     }
     const SourceSpan span = session.token();
@@ -815,7 +815,7 @@ void report_missing_parts(ParseSession& session) {
     if (scan.part == Part::Locals) {
         Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::MissingColon, place,
                                                  "the production ends before its successor");
-        diagnostic.help.emplace_back("local values stand between two `:`, as in `#grow : A(x) : * "
+        diagnostic.help.emplace_back("local values are between two `:`, as in `#grow : A(x) : * "
                                      ": let l = x / 2 : F(l) A(l);`");
         return;
     }

@@ -25,9 +25,10 @@ TEST_CASE("files that are no text are told from texts") {
     CHECK(recognise_non_text(std::string("\xFF\xFE\0\0#\0\0\0", 8))->what == "UTF-32 text");
     CHECK(recognise_non_text("%PDF-1.7\n")->what == "a PDF document");
     CHECK(recognise_non_text("\x89PNG\r\n")->what == "a PNG picture");
-    CHECK(recognise_non_text(std::string(100, '\x02'))->what == "no text");
+    CHECK(recognise_non_text(std::string(100, '\x02'))->what == "binary data");
     // Big-endian UTF-16 begins with a NUL byte; this text does not, though it has UTF-16 in it.
-    CHECK(recognise_non_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what == "no text");
+    CHECK(recognise_non_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what ==
+          "binary data");
 }
 
 TEST_CASE("texts with a few odd bytes are texts") {
