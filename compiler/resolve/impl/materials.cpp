@@ -171,7 +171,7 @@ void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material)
         resolution_.diagnostics.add(DiagnosticCode::BadMaterial, entry.span,
                                     entry.values.count == 0
                                         ? fmt::format("`{}` takes {}", key.name, key.wanted)
-                                        : fmt::format("`{}` takes {}, not {}", key.name, key.wanted,
+                                        : fmt::format("`{}` takes {}; found {}", key.name, key.wanted,
                                                       counted(entry.values.count, "value")));
         return;
     }
@@ -228,7 +228,7 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
         (is_switch && *number != 0.0F && *number != 1.0F)) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, value.span,
-            fmt::format("`{}` takes {}, not {}", key.name, key.wanted, number_text(*number)));
+            fmt::format("`{}` takes {}; found {}", key.name, key.wanted, number_text(*number)));
         error.labels.push_back({entry.span, "the key"});
         if (key.kind == KeyKind::Colour && *number >= 2.0F && *number <= 255.0F) {
             error.help.push_back(
