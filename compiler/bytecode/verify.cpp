@@ -534,7 +534,7 @@ private:
                 fits = operand < bytecode_.curves.size();
                 break;
             case OperandKind::Skip:
-                fits = true; // choice() checks it
+                fits = true; // choice() checks the operand
                 break;
             }
             if (!fits || !allowed(place, opcode)) {

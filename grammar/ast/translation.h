@@ -54,7 +54,7 @@ public:
 
 private:
     struct Part {
-        std::uint32_t end = 0; // in text_
+        std::uint32_t end = 0; // index in text_
         bool verbatim = false; // corresponds to span byte by byte
         SourceSpan span;
     };

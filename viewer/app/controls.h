@@ -16,7 +16,7 @@ struct PanelState {
     bool help = false;
     bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
-    // The user was warned of unsaved changes; the next request to quit quits.
+    // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
 };
 

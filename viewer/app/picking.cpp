@@ -45,7 +45,7 @@ std::uint32_t generations_of(const ViewOptions& options, const PlantDocument& do
 /// Counts of a branch in a forest.
 struct BranchCount {
     std::uint64_t branches = 0;
-    std::uint64_t trees = 0; // with at least one
+    std::uint64_t trees = 0; // trees with at least one such branch
 };
 
 std::optional<BranchCount> count_branch(const InstanceCache& cache,

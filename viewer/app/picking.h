@@ -22,7 +22,7 @@ namespace lsys::view {
 
 /// A triangle of a plant as it is shown.
 struct PickedTriangle {
-    std::uint64_t triangle = 0; // in Mesh::indices
+    std::uint64_t triangle = 0; // index in Mesh::indices
     glm::vec3 place{};          // m
     const Skeleton* pose = nullptr;
     MeshOptions mesh;                   // options with which the pose was meshed

@@ -266,7 +266,7 @@ void PlantView::take_moment() {
     }
 }
 
-/// Asks for the next moment of growth. Slow plants grow in slow motion.
+/// Requests the next moment of growth. Slow plants grow in slow motion.
 void PlantView::grow() {
     if (!settings.plays || document_ == nullptr) {
         if (film_ != nullptr) {

@@ -1,7 +1,7 @@
 // Expressions and statements of cpfg in .lsys. An assignment of a production becomes a local value,
-// one of the header a constant, and `if` chooses among the values of the variables that its blocks
-// assign. Global variables are known if each step adds the same amount to them or assigns them
-// before reading them.
+// an assignment of the header a constant, and `if` chooses among the values of the variables that
+// its blocks assign. Global variables are known if each step adds the same amount to them or
+// assigns them before reading them.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -107,7 +107,8 @@ private:
     std::map<std::string, ForeignId> increments_; // by global: what each step adds to it
     std::set<std::string> reset_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
-    std::map<std::size_t, std::string> curve_names_; // of functions that are read
+    std::map<std::size_t, std::string>
+        curve_names_; // by curve: name of its function in .lsys, if read
     std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign

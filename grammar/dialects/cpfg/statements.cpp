@@ -188,7 +188,7 @@ void CpfgExpressions::enter_step() {
     for (const auto& [variable, added] : increments_) {
         const SourceSpan span = tree_[added].span;
         const ForeignId first = first_value(variable, span);
-        const std::string start = known_literal(first); // inline, not a `#define`
+        const std::string start = known_literal(first); // makes `first` inline
         ForeignId done = tree_.call("step", {}, span);  // count of finished steps
         if (stage_ != Stage::Rewrite) {
             done = tree_.binary("-", done, tree_.number("1", span), span);

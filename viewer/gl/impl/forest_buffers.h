@@ -119,7 +119,7 @@ private:
         Buffer trees;
         Buffer branches;
         Buffer lists;
-        std::vector<Commands> commands; // of each class unblended, then blended
+        std::vector<Commands> commands; // by class: unblended ones, then blended ones
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
     /// Makes textures of the pictures of all materials. Equal pictures share a texture; textures of
