@@ -370,7 +370,7 @@ void ExpressionResolver::explain_argument_count(const Expression& call,
 
 /// The function whose name became `text` when all `x` of a file were replaced by `len`: `max` for
 /// `malen`. Empty if there is none.
-std::string_view ExpressionResolver::before_renaming(std::string_view text) const {
+std::string_view ExpressionResolver::name_before_replacement(std::string_view text) const {
     for (const NameId formal : formals_) {
         const std::string_view name = resolution_.text(formal);
         const std::size_t at = name.size() < 2 ? std::string_view::npos : text.find(name);
@@ -436,7 +436,7 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
     const std::string nearest = suggestions_.nearest(text, known);
     if (!nearest.empty()) {
         suggest(error, name, nearest);
-    } else if (const std::string_view before = before_renaming(text); !before.empty()) {
+    } else if (const std::string_view before = name_before_replacement(text); !before.empty()) {
         suggest(error, name, std::string(before));
     }
 }

@@ -158,7 +158,7 @@ private:
     [[nodiscard]] bool is_only_choice(std::string_view text, const Expression& unknown) const;
     void
     explain_argument_count(const Expression& call, ExpressionPlace place, Diagnostic& error) const;
-    [[nodiscard]] std::string_view before_renaming(std::string_view text) const;
+    [[nodiscard]] std::string_view name_before_replacement(std::string_view text) const;
     void report_unknown_function(const Expression& expression, NameId function);
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
     void check_finite(ValueId value, ExpressionId root, ExpressionPlace place);

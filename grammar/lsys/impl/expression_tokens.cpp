@@ -546,7 +546,7 @@ Token between_values(ParseSession& session) {
                     lacks_comma(text, scan.last_end, scan.begin, scan.end));
         }
         if (begins_local) {
-            scan.local_place = LocalPlace::Name;
+            scan.next_in_locals = NextInLocals::Name;
         }
         return Token(Parser::token::TOK_COMMA, place).as_inserted();
     }

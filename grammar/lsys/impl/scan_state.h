@@ -52,8 +52,8 @@ enum class Part : std::uint8_t {
     Successor,
 };
 
-/// The place among local values, `let a = 1, b = 2`.
-enum class LocalPlace : std::uint8_t {
+/// The next token among local values, `let a = 1, b = 2`.
+enum class NextInLocals : std::uint8_t {
     Let,
     Name,
     Sign,
@@ -91,9 +91,9 @@ struct ScanState {
     bool skipping = false;           // to the `;` of the statement
     bool sign_explained = false;     // another message explains the `=` after the key
     bool semicolon_inserted = false;
-    bool value_before = false;                  // the last token ends a value
-    bool name_before = false;                   // the last token is a name in an expression
-    LocalPlace local_place = LocalPlace::Value; // what is next in Part::Locals
+    bool value_before = false;                         // the last token ends a value
+    bool name_before = false;                          // the last token is a name in an expression
+    NextInLocals next_in_locals = NextInLocals::Value; // what is next in Part::Locals
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted
     std::size_t first_diagnostic = 0;    // index of the statement's first diagnostic
@@ -122,7 +122,7 @@ struct ScanState {
         value_before = false;
         name_before = false;
         has_locals = has_locals || next == Part::Locals;
-        local_place = next == Part::Locals ? LocalPlace::Let : LocalPlace::Value;
+        next_in_locals = next == Part::Locals ? NextInLocals::Let : NextInLocals::Value;
     }
     void end_chain() {
         depth -= chain;

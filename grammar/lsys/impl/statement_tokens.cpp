@@ -624,27 +624,28 @@ Token colon_in_expression(ParseSession& session) {
 
 std::optional<Token> local_value_token(ParseSession& session, std::string_view text) {
     ScanState& scan = session.scan;
-    const LocalPlace place = scan.local_place;
-    const bool fits =
-        place == LocalPlace::Let || (place == LocalPlace::Name && is_letter(text[0])) ||
-        (place == LocalPlace::Sign && text == "=") || (place == LocalPlace::Value && text == ",");
+    const NextInLocals place = scan.next_in_locals;
+    const bool fits = place == NextInLocals::Let ||
+                      (place == NextInLocals::Name && is_letter(text[0])) ||
+                      (place == NextInLocals::Sign && text == "=") ||
+                      (place == NextInLocals::Value && text == ",");
     if (scan.part != Part::Locals || !scan.open.empty() || !fits) {
         return std::nullopt;
     }
     const SourceSpan span = session.token();
     switch (place) {
-    case LocalPlace::Let:
-        scan.local_place = LocalPlace::Name;
+    case NextInLocals::Let:
+        scan.next_in_locals = NextInLocals::Name;
         return Token(Parser::token::TOK_LET, span);
-    case LocalPlace::Name:
-        scan.local_place = LocalPlace::Sign;
+    case NextInLocals::Name:
+        scan.next_in_locals = NextInLocals::Sign;
         return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(text), span);
-    case LocalPlace::Sign:
-        scan.local_place = LocalPlace::Value;
+    case NextInLocals::Sign:
+        scan.next_in_locals = NextInLocals::Value;
         return Token(Parser::token::TOK_ASSIGN, span);
-    case LocalPlace::Value:
+    case NextInLocals::Value:
         scan.after_operator();
-        scan.local_place = LocalPlace::Name;
+        scan.next_in_locals = NextInLocals::Name;
         return Token(Parser::token::TOK_COMMA, span);
     }
     return std::nullopt;
