@@ -103,7 +103,7 @@ void Controls::apply(const WindowInput& input,
         if (!panels.quits) {
             panels.asked_to_quit = true;
             switcher.current().set_note(
-                "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
+                "painted trees are not saved: Ctrl+S saves them, Ctrl+Q quits without saving");
         }
     } else if (!input.presses.empty()) {
         panels.asked_to_quit = false;

@@ -427,7 +427,7 @@ void ForestView::grow_by_years() {
 
 void ForestView::play_or_pause() {
     if (default_years_ == 0) {
-        set_note("only a forest placed by domination, or of trees with stages, grows");
+        set_note("only a forest placed by domination, or with stages of trees, can grow");
         return;
     }
     settings.plays = !settings.plays;

@@ -257,7 +257,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
     }
     if (!options.is_forest && options.visibility) {
-        return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
+        return UsageError{"--air sets the haze of a forest, and this is a plant", "leave it out"};
     }
     if (options.is_forest && options.plant_height) {
         options.overrides.height = {*options.plant_height, *options.plant_height};
@@ -295,21 +295,21 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
                           "name a file instead of `-`"};
     }
     if (options.turntable && options.frames == 0) {
-        return UsageError{"--turntable is a series of pictures", "add `--frames N`"};
+        return UsageError{"--turntable needs a series of pictures", "add `--frames N`"};
     }
     if (options.grow && !options.screenshot.empty() && options.frames == 0) {
-        return UsageError{"--grow is a series of pictures", "add `--frames N`"};
+        return UsageError{"--grow needs a series of pictures", "add `--frames N`"};
     }
     if (options.grow && !options.is_forest && (options.gravity || options.wind)) {
         return UsageError{"--grow shows a plant at rest, without --gravity and --wind",
                           "leave them out, or --grow"};
     }
     if (options.frames != 0 && options.screenshot == "-") {
-        return UsageError{"a series of pictures does not go to standard output",
+        return UsageError{"a series of pictures cannot be written to standard output",
                           "write `--screenshot FILE`"};
     }
     if (is_standard_input(options.file) && options.screenshot.empty()) {
-        return UsageError{"a window reads its file again and again, so it cannot show "
+        return UsageError{"a window reloads its file, so it cannot show "
                           "standard input",
                           "add `--screenshot FILE`, or write the grammar to a file"};
     }

@@ -92,7 +92,7 @@ Outcome<Description> describe(const PickedTriangle& picked,
     const std::optional<SkeletonItem> item =
         item_of_triangle(*picked.pose, document.plant.user_meshes, mesh, picked.triangle);
     if (!item) {
-        return step.fail("there is no memory to name what was picked");
+        return step.fail("not enough memory to describe the picked part");
     }
     // Copies only the parts of the grammar that a derivation needs: a program cannot be copied.
     Grammar grammar;

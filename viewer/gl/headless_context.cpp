@@ -165,7 +165,7 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
         context->state_->clear();
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", method.name, reason);
     }
-    return Error{fmt::format("there is no OpenGL 4.5 to draw with ({})", reasons)};
+    return Error{fmt::format("OpenGL 4.5 is not available ({})", reasons)};
 }
 
 } // namespace lsys::view
