@@ -1,4 +1,4 @@
-// The entry of the compiler: Ast to Program to Bytecode.
+// The entry point of the compiler: Ast to Program to Bytecode.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -19,10 +19,10 @@ namespace lsys {
 struct CompileOutcome {
     std::optional<Program> program;   // unset after errors, or for CompileOptions::part
     std::optional<Bytecode> bytecode; // as `program`; unset without CompileOptions::lower
-    std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
+    std::vector<std::string> unknown_definitions; // -D names without a #define or #param
 };
 
-/// Checks and compiles; appends diagnostics. Frees the Ast on the way to keep peak memory low.
+/// Checks and compiles; appends diagnostics. Frees parts of the Ast early to keep peak memory low.
 [[nodiscard]] CompileOutcome compile(Ast ast,
                                      Names& names,
                                      const SourceMap& sources,

@@ -21,10 +21,10 @@ constexpr std::array<OpcodeInfo, kOpcodeCount> kOpcodes{{
 }};
 static_assert(kOpcodeCount <= 256, "an opcode is eight bits of an instruction");
 
-/// Initial value of the hash, to which fields are added before finish().
+/// Initial value of the hash, before any field is combined.
 constexpr std::uint64_t kStart = 0x6C73797374656D73; // "lsystems"
 
-/// Combines all fields that the derived word may depend on.
+/// Combines all fields that can affect the derived word.
 class Digest {
 public:
     [[nodiscard]] std::uint64_t result() const { return finish(state_); }

@@ -3,12 +3,12 @@
 // immutable and passes verify().
 //
 // A word is a sequence of codes. Code c < symbols.size() is a module of symbol c whose parameters
-// are stored beside the word as binary32. A higher code is a folded module: a symbol with constant
-// arguments that are known here (`&(22.5)`), so its word stores none. The number of codes decides
-// the width of a stored code: 1 byte up to 256, 2 up to 65,536, else 4. Modules are folded in order
-// of first appearance while the width does not grow.
+// are stored beside the word as binary32. A higher code is a folded module, `&(22.5)`: a symbol
+// whose arguments are constants and are stored in the bytecode, so the word stores none. The code
+// count decides the width of a stored code: 1 byte up to 256, 2 up to 65,536, else 4. Modules are
+// folded in order of first appearance while the width does not grow.
 //
-// Each table is filled in one order without gaps, so that nothing is shared and a walk over the
+// Each table is filled in one order without gaps and without shared rows, so a walk over the
 // productions is a walk over the tables:
 //   constants       of folded[0], folded[1], ...
 //   patterns        per production: left context, predecessor, right context
@@ -78,8 +78,8 @@ inline constexpr std::uint32_t kMaxSequentialDraws = 4095;
     return static_cast<std::uint32_t>(opcode) | (operand << 8);
 }
 
-/// Number of parameters of a SaveBranch module that precede the formals and local values used in
-/// its branch: whether to take a recorded instance, the age of the word with this module, the id of
+/// Number of parameters of a SaveBranch module before the formals and local values that its branch
+/// uses: whether to take a recorded instance, the age of the word with this module, and the id of
 /// the branch.
 inline constexpr std::uint32_t kBranchArguments = 3;
 
@@ -123,9 +123,9 @@ struct SiteRange {
     std::uint32_t site = 0; // index in sites
 };
 
-/// Places of consecutive modules of template_codes that stand at equal distances in one line of
-/// ASCII text, so that a long axiom takes few rows. The file is that of the axiom's site or of the
-/// production's name_site. The first module of each word begins a run.
+/// Places of consecutive modules of template_codes at equal distances in one line of ASCII text, so
+/// that a long axiom takes few rows. The file is that of the axiom's site or of the production's
+/// name_site. The first module of each word begins a run.
 struct PlaceRun {
     std::uint32_t first = 0;  // index in template_codes; the run ends where the next begins
     std::uint32_t begin = 0;  // byte offset of the first module in its file
@@ -177,12 +177,12 @@ struct BytecodeProduction {
     bool stochastic = false;
     float weight = 0.0F; // the number after `~`; 0 if there is none or it is not constant
     /// First instruction of a weight that is not constant, else kNone. The code ends with Test, as
-    /// that of a condition does.
+    /// the code of a condition does.
     std::uint32_t weight_code = kNone;
     WordTemplate successor;
 };
 
-/// An axiom. A derivation begins with one of them, by chance if there are several.
+/// An axiom. If there are several, a derivation begins with a randomly chosen one.
 struct BytecodeAxiom {
     WordTemplate word;
     std::uint32_t site = kNone;
@@ -209,7 +209,7 @@ struct BytecodeCurve {
     std::vector<CurveKnot> points;
 };
 
-/// The file of a picture, relative to the grammar; empty: none.
+/// The file of a picture, relative to the grammar; empty if there is none.
 struct BytecodePicture {
     std::string path;
     std::uint32_t site = kNone;
@@ -217,7 +217,7 @@ struct BytecodePicture {
 
 /// `#material`: the appearance of a colour index.
 struct BytecodeMaterial {
-    std::uint32_t index = 0; // up to kMaxColourIndex
+    std::uint32_t index = 0; // colour index, up to kMaxColourIndex
     bool has_colour = false;
     std::array<float, 3> colour{}; // sRGB, 0 to 1
     BytecodePicture picture;
@@ -239,7 +239,7 @@ struct Bytecode {
     std::vector<BytecodeSymbol> symbols;
     std::vector<FoldedModule> folded;
     std::vector<float> constants;
-    std::vector<BytecodeGlobal> globals; // in source order; a global uses earlier ones only
+    std::vector<BytecodeGlobal> globals; // in source order; a global uses only earlier ones
     std::vector<PatternItem> patterns;
     std::vector<Code> template_codes;
     std::vector<std::uint32_t> instructions;
@@ -252,16 +252,16 @@ struct Bytecode {
     std::vector<BytecodeAxiom> axioms;     // in file order, at least one
     bool uses_steps = false;               // some expression calls steps()
     std::vector<BytecodeCurve> curves;
-    std::vector<BytecodeMaterial> materials; // by rising index
-    std::uint32_t stack_depth = 0;           // the deepest stack of any code
-    std::uint32_t local_count = 0;           // the most slots of any code
+    std::vector<BytecodeMaterial> materials; // by ascending index
+    std::uint32_t stack_depth = 0;           // max stack depth of any code
+    std::uint32_t local_count = 0;           // max number of slots of any code
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;
     [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
     /// Number of rules of Stage::Rewrite. Rules of later stages have higher numbers.
     [[nodiscard]] std::uint32_t rewriting_rules() const;
-    /// Whether some symbol cuts off the rest of its branch.
+    /// Whether a symbol can cut off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
 
     [[nodiscard]] Code code_count() const {

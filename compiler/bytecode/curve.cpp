@@ -23,10 +23,10 @@ void set_slopes(std::span<CurveKnot> points) {
     points[last].slope = slope_between(points[last - 1], points[last]);
     for (std::size_t i = 1; i < last; ++i) {
         const double slope_before = slope_between(points[i - 1], points[i]);
-        const double slope_behind = slope_between(points[i], points[i + 1]);
-        const bool same_sign = (slope_before > 0.0 && slope_behind > 0.0) ||
-                               (slope_before < 0.0 && slope_behind < 0.0);
-        points[i].slope = same_sign ? (slope_before + slope_behind) / 2.0 : 0.0;
+        const double slope_after = slope_between(points[i], points[i + 1]);
+        const bool same_sign =
+            (slope_before > 0.0 && slope_after > 0.0) || (slope_before < 0.0 && slope_after < 0.0);
+        points[i].slope = same_sign ? (slope_before + slope_after) / 2.0 : 0.0;
     }
     for (std::size_t i = 0; i < last; ++i) {
         const double secant_slope = slope_between(points[i], points[i + 1]);

@@ -19,7 +19,7 @@ double polynomial(const std::array<double, Count>& coefficients, double x) {
     return value;
 }
 
-// Coefficients of algorithm AS 241 (normal_quantile()), numerator (Above) and denominator (Below).
+// Coefficients of algorithm AS 241 (normal_quantile()): numerators and denominators.
 // Middle: |p - 0.5| <= 0.425.
 constexpr std::array kCentralNumerator{3.3871328727963666080e0,  1.3314166789178437745e+2,
                                        1.9715909503065514427e+3, 1.3731693765509461125e+4,
@@ -34,31 +34,31 @@ constexpr std::array kCentralDenominator{1.0,
                                          2.8729085735721942674e+4,
                                          5.2264952788528545610e+3};
 // Tail: other p with r <= 5, where r = sqrt(-log(min(p, 1 - p))).
-constexpr std::array kTailAbove{1.42343711074968357734e0,  4.63033784615654529590e0,
-                                5.76949722146069140550e0,  3.64784832476320460504e0,
-                                1.27045825245236838258e0,  2.41780725177450611770e-1,
-                                2.27238449892691845833e-2, 7.74545014278341407640e-4};
-constexpr std::array kTailBelow{1.0,
-                                2.05319162663775882187e0,
-                                1.67638483018380384940e0,
-                                6.89767334985100004550e-1,
-                                1.48103976427480074590e-1,
-                                1.51986665636164571966e-2,
-                                5.47593808499534494600e-4,
-                                1.05075007164441684324e-9};
+constexpr std::array kTailNumerator{1.42343711074968357734e0,  4.63033784615654529590e0,
+                                    5.76949722146069140550e0,  3.64784832476320460504e0,
+                                    1.27045825245236838258e0,  2.41780725177450611770e-1,
+                                    2.27238449892691845833e-2, 7.74545014278341407640e-4};
+constexpr std::array kTailDenominator{1.0,
+                                      2.05319162663775882187e0,
+                                      1.67638483018380384940e0,
+                                      6.89767334985100004550e-1,
+                                      1.48103976427480074590e-1,
+                                      1.51986665636164571966e-2,
+                                      5.47593808499534494600e-4,
+                                      1.05075007164441684324e-9};
 // Far: r > 5.
-constexpr std::array kFarAbove{6.65790464350110377720e0,  5.46378491116411436990e0,
-                               1.78482653991729133580e0,  2.96560571828504891230e-1,
-                               2.65321895265761230930e-2, 1.24266094738807843860e-3,
-                               2.71155556874348757815e-5, 2.01033439929228813265e-7};
-constexpr std::array kFarBelow{1.0,
-                               5.99832206555887937690e-1,
-                               1.36929880922735805310e-1,
-                               1.48753612908506148525e-2,
-                               7.86869131145613259100e-4,
-                               1.84631831751005468180e-5,
-                               1.42151175831644588870e-7,
-                               2.04426310338993978564e-15};
+constexpr std::array kFarNumerator{6.65790464350110377720e0,  5.46378491116411436990e0,
+                                   1.78482653991729133580e0,  2.96560571828504891230e-1,
+                                   2.65321895265761230930e-2, 1.24266094738807843860e-3,
+                                   2.71155556874348757815e-5, 2.01033439929228813265e-7};
+constexpr std::array kFarDenominator{1.0,
+                                     5.99832206555887937690e-1,
+                                     1.36929880922735805310e-1,
+                                     1.48753612908506148525e-2,
+                                     7.86869131145613259100e-4,
+                                     1.84631831751005468180e-5,
+                                     1.42151175831644588870e-7,
+                                     2.04426310338993978564e-15};
 
 /// A non-negative number `fraction` * 2^`exponent`, since the first terms of a sum may be far below
 /// the smallest binary64.
@@ -72,8 +72,8 @@ struct Term {
         exponent += shift;
     }
     [[nodiscard]] double value() const {
-        constexpr std::int64_t kLeast = -2000; // any lower exponent also gives 0 in binary64
-        return std::ldexp(fraction, static_cast<int>(std::max(exponent, kLeast)));
+        constexpr std::int64_t kMinExponent = -2000; // any lower exponent also gives 0 in binary64
+        return std::ldexp(fraction, static_cast<int>(std::max(exponent, kMinExponent)));
     }
 };
 
@@ -135,9 +135,9 @@ double normal_quantile(double p) {
         return offset * polynomial(kCentralNumerator, r) / polynomial(kCentralDenominator, r);
     }
     const double r = std::sqrt(-std::log(offset < 0.0 ? p : 1.0 - p));
-    const double distance = r <= 5.0
-                                ? polynomial(kTailAbove, r - 1.6) / polynomial(kTailBelow, r - 1.6)
-                                : polynomial(kFarAbove, r - 5.0) / polynomial(kFarBelow, r - 5.0);
+    const double distance =
+        r <= 5.0 ? polynomial(kTailNumerator, r - 1.6) / polynomial(kTailDenominator, r - 1.6)
+                 : polynomial(kFarNumerator, r - 5.0) / polynomial(kFarDenominator, r - 5.0);
     return offset < 0.0 ? -distance : distance;
 }
 

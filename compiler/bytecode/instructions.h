@@ -1,4 +1,4 @@
-// Reading instructions one by one; opcodes.def says how they are encoded.
+// Reads instructions one by one; opcodes.def defines their encoding.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -88,10 +88,10 @@ struct UnknownDomain {
     return slots;
 }
 
-/// Runs the verified instructions at `at` up to End. Returns false if the domain stopped it.
+/// Runs the verified instructions at `at` up to End. Returns false if the domain stopped the run.
 /// `stack` has room for Bytecode::stack_depth or stack_room() values, `slots` for
-/// Bytecode::local_count or slot_count(). The caller sets the slots that this code reads before
-/// it sets them.
+/// Bytecode::local_count or slot_count(). Slots that this code reads without setting them must be
+/// set by the caller.
 template <typename Domain>
 [[gnu::always_inline]] inline bool interpret(const std::uint32_t* at,
                                              Domain& domain,

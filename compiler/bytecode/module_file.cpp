@@ -2,7 +2,7 @@
 //
 //   offset  size
 //        0     8  magic: 89 4C 53 42 0D 0A 1A 0A. The bytes show whether a transfer changed line
-//                 ends or dropped the eighth bit of bytes.
+//                 ends or cleared the eighth bit of bytes.
 //        8     4  version
 //       12     4  0
 //       16     8  size of the whole file

@@ -71,8 +71,8 @@ static_assert(kFieldCount<Bytecode> == 22, LSYS_VERSION_MATTERS);
 [[nodiscard]] Result<Bytecode> read_module_file(std::string_view bytes);
 /// Whether the bytes begin with the magic of a .lsb file.
 [[nodiscard]] bool is_module_file(std::string_view bytes);
-/// Writes head, size and checksum for the contents that follow them, so that contents changed by a
-/// test pass these checks.
+/// Writes magic, version, size and checksum before the contents, so that contents changed by a test
+/// pass these checks.
 void seal_module_file(std::string& bytes);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// Attributes of a whole system, as `#set` decides them: the table settings.def as a struct. Shared
-// by Program and Bytecode; after the front end no character and no keyword carries a meaning.
+// Attributes of a whole system, set by `#set`: the table settings.def as a struct. Shared by
+// Program and Bytecode. Stages after the resolver read these fields and no characters or keywords.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -24,7 +24,7 @@ LSYS_COUNTED_ENUM(WeightRule, One, Any);
 /// Treatment of a module that `#decompose` or `#interpret` still matches at the max depth: the run
 /// ends with an error, or the module stays unchanged.
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
-/// Weight that bends a joint: of everything beyond the joint, or of its own segment only.
+/// Weight that bends a joint: of everything beyond the joint, or only of its own segment.
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
 /// The set of turtle commands by module name (docs/language.md section 7). The resolver applies it;
 /// later stages may only print its name.
@@ -52,7 +52,7 @@ struct TurtleTraits {
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     bool box_segments = false;           // segments are rectangular boxes as wide as their width
     float taper = 1.0F;                  // initial tip radius / base radius
-    float first_turn = 0.0F;             // initial heading, degrees to the left of +Y
+    float first_turn = 0.0F;             // initial heading, in degrees to the left of +Y
     std::uint16_t first_colour = 0;      // initial colour, an index of the palette
     float leaf_droop = 0.0F;             // default bending of leaves by gravity, 0 to 1
 
@@ -63,9 +63,9 @@ struct TurtleTraits {
 /// Tropism: a direction x, y, z and the susceptibility e (docs/language.md section 7).
 using Tropism = std::array<float, 4>;
 
-/// The pipe model: widths that follow from the tips (docs/language.md section 7.5).
+/// The pipe model: branch widths computed from the tips (docs/language.md section 7.5).
 struct Pipe {
-    float exponent = 0.0F;  // 1 to kMaxPipeExponent; 0: widths are those of the turtle
+    float exponent = 0.0F;  // 1 to kMaxPipeExponent; 0: the turtle sets the widths
     float tip_width = 0.0F; // m, diameter
 
     [[nodiscard]] bool is_set() const { return exponent != 0.0F; }

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>
 /// Element that a module with the operation adds to the skeleton, if it can be drawn.
 enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
 
-/// Frequent actions that the turtle's loop over a word does inline, without calling execute(). Yaw,
+/// Frequent actions that the turtle's loop over a word runs inline, without calling execute(). Yaw,
 /// Pitch and Roll turn by an angle and are inline if the angle is constant.
 enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
 
@@ -38,9 +38,9 @@ struct TurtleInfo {
         SecondHeading = 4,     // moves along the second heading of Fractint, with its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
-        AddsCorners = 32,      // its ends are corners of a polygon that has no `.`
+        AddsCorners = 32,      // its start and end are corners of a polygon without `.`
         PreparesDrawing = 64,  // has an effect only together with modules that draw
-        OneIsDefault = 128,    // the program L3D reads a parameter of 1 as no parameter
+        OneIsDefault = 128,    // the program L3D treats a parameter of 1 as omitted
         HasNoLength = 256,     // an object that does not move the turtle
     };
 

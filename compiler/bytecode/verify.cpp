@@ -36,7 +36,7 @@ std::uint32_t number(SymbolId id) {
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
 /// Verifies bytecode in one walk over the tables in the order that bytecode.h describes. Every
-/// function returns false after it has stored a message in problem_.
+/// function that returns false has stored a message in problem_.
 class Verifier {
 public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
@@ -114,7 +114,7 @@ private:
             const bool saves_branch = symbol.turtle == TurtleOperation::SaveBranch;
             if (saves_branch && (symbol.kind != SymbolKind::BranchOpen ||
                                  symbol.parameter_count < kBranchArguments)) {
-                return fail("symbol {} is no branch", i);
+                return fail("symbol {} is not a branch", i);
             }
             const bool plain = symbol.kind == SymbolKind::Plain;
             if (symbol.parameter_count > (plain || saves_branch ? kMaxOperand : 0)) {
@@ -475,7 +475,7 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// Limits of the operands of a piece of code, and the values it has to produce.
+    /// Limits of the operands of a piece of code, and the number of values that it must produce.
     struct CodeBounds {
         std::uint32_t formals = 0;
         std::uint32_t globals = kNone; // kNone: no limit
@@ -534,11 +534,11 @@ private:
                 fits = operand < bytecode_.curves.size();
                 break;
             case OperandKind::Skip:
-                fits = true; // choice() checks it
+                fits = true; // choice() checks the operand
                 break;
             }
             if (!fits || !allowed(place, opcode)) {
-                return fail("instruction {} ({}) may not stand there", at, row.mnemonic);
+                return fail("instruction {} ({}) is not allowed there", at, row.mnemonic);
             }
             if (row.pops > depth) {
                 return fail("instruction {} ({}) lacks values", at, row.mnemonic);
@@ -592,8 +592,8 @@ private:
     }
 
     /// Whether If, Else and EndIf are in order, skip to each other, and leave one value on each
-    /// side; other instructions must be allowed in a choice. `depth`: stack depth behind the
-    /// instruction.
+    /// side, and whether other instructions are allowed within a choice. `depth`: stack depth after
+    /// the instruction.
     bool choice(Opcode opcode, std::uint64_t at, std::uint32_t operand, std::uint32_t depth) {
         if (opcode == Opcode::If) {
             choices_.push_back({at + operand + 1, depth, set_slots_.size(), false});
@@ -655,7 +655,7 @@ private:
     std::string problem_;
     /// A choice whose EndIf has not been read yet.
     struct Choice {
-        std::uint64_t next = 0;  // instruction that the skip of its If or Else leads to
+        std::uint64_t next = 0;  // target of the skip of its If or Else
         std::uint32_t depth = 0; // of the stack, condition included
         std::size_t slots = 0;   // number of slots set before the choice
         bool has_else = false;

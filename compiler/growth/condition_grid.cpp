@@ -270,7 +270,7 @@ bool GridBuilder::add(const ConditionView& condition) {
     return has_grid_;
 }
 
-/// An easily read number of the cell number_at(first) to number_at(last): whole and near zero if
+/// A readable number of the cell number_at(first) to number_at(last): whole and near zero if
 /// possible.
 float readable_number(std::int32_t first, std::int32_t last) {
     if (first <= 0 && last >= 0) {
@@ -294,7 +294,7 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
         return std::nullopt;
     }
-    // Compared parameters get the same cuts, so that samples in equal cells can have every order.
+    // Compared parameters get the same cuts, so that samples in equal cells can have any order.
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {
@@ -369,7 +369,7 @@ std::size_t ConditionGrid::sample_of(std::uint64_t point, std::size_t axis) cons
     return point % axes[axis].samples.size();
 }
 
-void ConditionGrid::place(std::uint64_t point, std::span<KnownValue> parameters) const {
+void ConditionGrid::set_parameters(std::uint64_t point, std::span<KnownValue> parameters) const {
     for (std::size_t i = axes.size(); i-- > 0;) {
         const std::size_t count = axes[i].samples.size();
         parameters[axes[i].parameter] = {axes[i].samples[point % count].value, true};

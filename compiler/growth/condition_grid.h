@@ -46,7 +46,7 @@ struct ConditionGrid {
 
     [[nodiscard]] std::uint64_t point_count() const;
     /// Sets the parameters that have an axis to their values at a point.
-    void place(std::uint64_t point, std::span<KnownValue> parameters) const;
+    void set_parameters(std::uint64_t point, std::span<KnownValue> parameters) const;
     /// The index of the sample of axis `axis` at a point.
     [[nodiscard]] std::size_t sample_of(std::uint64_t point, std::size_t axis) const;
 };

@@ -19,7 +19,7 @@ using analysis::same;
 
 constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, plus the classes of each generation
 
-/// The sizes of generations 0, 1, ... up to the one at which `walk` stands.
+/// The sizes of generations 0, 1, ... up to the current generation of `walk`.
 struct Listing {
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
@@ -27,7 +27,7 @@ struct Listing {
     std::optional<std::uint32_t> unchanged_from;
 };
 
-/// Follows the walk to generation `generations`, or until a lower bound exceeds `max_modules`.
+/// Advances the walk to generation `generations`, or until a lower bound exceeds `max_modules`.
 Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_modules) {
     Listing listing;
     std::uint64_t work = 0;
@@ -116,7 +116,7 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
     for (std::size_t g = 0; g < prediction.low.size(); ++g) {
         prediction.exact = prediction.exact && same(prediction.low[g], prediction.high[g]);
     }
-    if (walk.decided() && !prediction.exact) {
+    if (walk.probabilities_known() && !prediction.exact) {
         prediction.has_expected = true;
         prediction.expected_modules = std::move(listing.expected);
     }
@@ -178,15 +178,15 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
     } else {
         return std::nullopt;
     }
-    // The size of the requested word, if it is found quickly.
+    // The size of the requested word, if it can be computed quickly.
     if (powers) {
         powers->advance_to(walk, generations);
     } else if (walk.age() < listed) {
         follow(walk, listed, kNoLimit);
     }
     if (walk.age() == generations) {
-        limit.has_wanted = true;
-        limit.at_wanted = walk.low();
+        limit.has_requested = true;
+        limit.at_requested = walk.low();
     }
     return limit;
 }

@@ -20,7 +20,7 @@
 
 namespace lsys {
 
-/// An unsigned count: exact up to 2^128 - 1, a binary64 logarithm beyond.
+/// An unsigned count: exact up to 2^128 - 1, above that a binary64 logarithm.
 struct Count {
     Uint128 value;
     bool exceeds = false; // the count exceeds 2^128 - 1: use log2, not value
@@ -55,11 +55,11 @@ struct GrowthPrediction {
     /// whose conditions have a truth known before the derivation.
     bool has_expected = false;
     std::vector<double> expected_modules;
-    /// The last requested generation, listed or not.
+    /// The last requested generation, even if it is not listed.
     bool has_last = false;
     GenerationSize last_low;
     GenerationSize last_high;
-    /// The generation from which on the word never changes, for any seed; unset if unknown.
+    /// The first generation from which the word never changes, for any seed; unset if unknown.
     std::optional<std::uint32_t> unchanged_from;
 };
 
@@ -75,12 +75,12 @@ struct GrowthPrediction {
 /// counts or lower bounds.
 struct GrowthLimit {
     std::uint32_t largest_fitting = 0;
-    GenerationSize at_largest; // lower bounds
-    GenerationSize at_next;    // the first generation that does not fit
-    GenerationSize at_wanted;  // the last requested generation, if has_wanted
-    bool has_wanted = false;
+    GenerationSize at_largest;   // lower bounds
+    GenerationSize at_next;      // the first generation that does not fit
+    GenerationSize at_requested; // the last requested generation; see has_requested
+    bool has_requested = false;
     ProductionId dominant =
-        kNoProduction; // production that writes most modules of the first unfitting generation
+        kNoProduction; // writes the most modules of the first generation that does not fit
     bool exact = false;
 };
 /// Returns nothing if all requested generations fit or growth is not known. If the axiom is too

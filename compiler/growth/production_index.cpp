@@ -82,7 +82,7 @@ void ProductionIndex::find_relevant() {
     }
     struct Edge {
         std::uint32_t to;
-        std::uint32_t from; // parameter in an argument that computes parameter `to`
+        std::uint32_t from; // parameter read by the argument that computes parameter `to`
     };
     std::vector<Edge> edges;
     for (const std::uint32_t p : by_symbol_.all()) {

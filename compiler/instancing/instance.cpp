@@ -23,9 +23,9 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     if (program.settings.pipe.is_set() && rho > 0.0F && !branches->sites.empty()) {
         Diagnostic& refusal =
             diagnostics.add(DiagnosticCode::NotInstanceable, program.pipe_span,
-                            "the pipe model does not go with branches that stand for one another");
-        refusal.notes.emplace_back("the width of a segment follows from all tips that hang on it, "
-                                   "which differ where its branches are others");
+                            "the pipe model cannot be used with instanced branches");
+        refusal.notes.emplace_back("the width of a segment depends on all tips above it, "
+                                   "which differ if its branches are replaced");
         refusal.help.emplace_back("let every tree be a whole hero: `rho = 0` for the species of a "
                                   "scene, `--rho 0` for all");
         return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<InstancedSystem> compile_instanced(Program program,
     InstancedSystem system;
     system.bytecode = std::move(*bytecode);
     system.kind_count = branches->kinds.size();
-    system.depends_on_vertical.push_back(false); // id 0, the axiom, which no other branch replaces
+    system.depends_on_vertical.push_back(false); // id 0, the axiom, is never replaced
     for (const BranchKind& kind : branches->kinds) {
         system.depends_on_vertical.push_back(kind.depends_on_vertical);
     }

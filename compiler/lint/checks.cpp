@@ -8,7 +8,7 @@ namespace {
 
 struct ListedCheck {
     Check check;
-    bool needs_complete; // true: skipped for a program with errors
+    bool needs_complete; // true: skip the check for a program with errors
 };
 
 // Diagnostics at the same place appear in the order of this list.

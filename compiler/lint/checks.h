@@ -32,7 +32,7 @@ struct CheckInput {
 
 using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 
-/// Runs all checks. An incomplete program (Program::complete) only gets the checks of single
+/// Runs all checks. For an incomplete program (Program::complete) runs only the checks of single
 /// productions, words and statements.
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 

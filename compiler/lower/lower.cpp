@@ -104,7 +104,7 @@ private:
         }
     }
 
-    /// Whether code for local values is needed: one is used and not a leaf, or draws a random
+    /// Whether the local values need code: one of them is used and is not a leaf, or draws a random
     /// number, which may be a run-time error.
     bool has_needed(std::span<const LocalValue> locals) {
         return std::any_of(locals.begin(), locals.end(), [&](const LocalValue& local) {

@@ -31,11 +31,11 @@ struct CompileOptions {
     /// Ast whose `#set` statements replace those of the grammar with the same keys. They may use
     /// the constants of the grammar; both share one Names. Null: no replacements.
     Ast* settings = nullptr;
-    std::optional<std::uint32_t> generations; // -n; a missing #n then gets no warning
+    std::optional<std::uint32_t> generations; // -n; suppresses the warning about a missing #n
     std::uint64_t max_modules = std::uint64_t{1}
-                                << 32; // modules per word; a larger word gets a warning
-    /// The text is a file for `#include`: axiom and names may be defined elsewhere. The text is
-    /// only checked.
+                                << 32; // modules per word; a warning reports larger words
+    /// The text is a file for `#include`: axiom and names may be defined elsewhere. Such a text is
+    /// only checked, not compiled.
     bool part = false;
     bool lower = true; // false: stop after the Program
 };

@@ -9,7 +9,7 @@ namespace lsys {
 /// Offset of the first byte at or after `at` that is neither a blank nor in a comment.
 [[nodiscard]] std::size_t skip_blanks(std::string_view text, std::size_t at);
 
-/// Offset behind the `)` of the arguments of a module whose name ends at offset `name_end`;
+/// Offset after the `)` of the arguments of a module whose name ends at offset `name_end`;
 /// `name_end` if the module has no arguments.
 [[nodiscard]] std::size_t end_of_arguments(std::string_view text, std::size_t name_end);
 

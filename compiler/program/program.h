@@ -46,7 +46,7 @@ struct Value {
     ValueId right = kNoValue;
 
     [[nodiscard]] bool has_third() const { return opcode == Opcode::If || opcode == Opcode::Mix; }
-    /// The operands, for If the condition first; kNoValue in place of missing ones.
+    /// The operands; If has its condition first. kNoValue replaces missing operands.
     [[nodiscard]] std::array<ValueId, 3> operands() const {
         return {has_third() ? third : kNoValue, left, right};
     }
@@ -62,7 +62,7 @@ struct Symbol {
 };
 
 /// A module of an axiom or successor. Its arguments are the next Symbol::parameter_count entries of
-/// Program::arguments, which follow those of the module before it.
+/// Program::arguments after those of the module before it.
 struct ProgramModule {
     SymbolId symbol = kNoSymbol;
     std::uint32_t begin = 0; // byte offset in ProgramWord::file
@@ -94,7 +94,7 @@ struct ProgramPattern {
 };
 
 /// `let name = value`. A literal or another leaf is substituted for each use of the name. Any other
-/// value number i of a production is stored in slot i, which uses read by Opcode::Local.
+/// value is stored in a slot, numbered by its index among the local values; Opcode::Local reads it.
 struct LocalValue {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -127,7 +127,7 @@ struct Production {
     ProgramWord successor;
 };
 
-/// An axiom: the only one, or one of several among which a derivation chooses at random.
+/// An axiom. If there are several, a derivation begins with a randomly chosen one.
 struct Axiom {
     ProgramWord word;
     std::uint32_t draw_position = 0; // as Global::draw_position
@@ -156,7 +156,7 @@ struct Curve {
     std::vector<CurveKnot> points; // set_slopes() has set their slopes
 };
 
-/// The file of a picture, relative to the root file; empty: none.
+/// The file of a picture, relative to the root file; empty if there is none.
 struct MaterialPictureName {
     std::string path;
     SourceSpan span; // with the quotes
@@ -164,7 +164,7 @@ struct MaterialPictureName {
 
 /// `#material`: the appearance of a colour index. Keys that are not set keep the built-in look.
 struct ProgramMaterial {
-    std::uint32_t index = 0;                    // of a colour, up to 65,535
+    std::uint32_t index = 0;                    // a colour index, up to 65,535
     SourceSpan span;                            // of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
     MaterialPictureName picture;
@@ -211,10 +211,10 @@ struct IgnoredName {
 
 struct Program {
     /// No error was found while the program was made. Checks that need the whole program require
-    /// it.
+    /// `complete`.
     bool complete = false;
-    /// No statement was dropped after an error. Then a statement missing here is missing in the
-    /// grammar too.
+    /// No statement was dropped after an error. A statement that is missing here is then missing in
+    /// the grammar, too.
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
@@ -232,8 +232,8 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
-    std::vector<ProgramMaterial> materials; // in source order, each of another index
-    std::vector<Production> productions;    // those of Stage::Rewrite first, of Interpret last
+    std::vector<ProgramMaterial> materials; // in source order, one per colour index
+    std::vector<Production> productions;    // stage Rewrite first, Interpret last
     std::uint32_t rule_count = 0;           // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0;  // groups: productions of a rule with equal contexts
     std::vector<Axiom> axioms;              // at least one if `complete`
@@ -280,7 +280,7 @@ void for_each_module(const Program& program, const ProgramWord& word, Visit&& vi
 }
 
 /// Calls visit(id, value) for each node of the expressions with these roots. Iterative, since an
-/// expression may be as deep as its file is long.
+/// expression may be nested as deep as its file is long.
 template <typename Visit>
 void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& visit) {
     while (!roots.empty()) {
@@ -294,7 +294,7 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
         }
     }
 }
-/// All expressions of a production: the condition, the weight (each kNoValue if it has none), the
+/// All expressions of a production: the condition and the weight (kNoValue for a missing one), the
 /// local values and the arguments of the successor.
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);

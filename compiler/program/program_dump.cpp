@@ -196,7 +196,8 @@ private:
         }
     }
 
-    /// A name as a grammar writes it: identifiers and one-character symbols plain, others quoted.
+    /// A name as a grammar writes it: identifiers and one-character symbols bare, others in back
+    /// quotes.
     void name(NameId id) {
         const std::string_view text = names_.text(id);
         const bool plain =
@@ -283,8 +284,8 @@ private:
         }
     }
 
-    /// Operations are written as functions of their operands, so that readers need no precedence.
-    /// Iterative, since an expression may be as deep as its file is long.
+    /// Writes operations as functions of their operands, so that readers need no precedence.
+    /// Iterative, since an expression may be nested as deep as its file is long.
     void value(ValueId root, const Production* production) {
         struct Step {
             ValueId value;

@@ -28,7 +28,7 @@ constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
     return rows;
 }
 
-/// Rows whose parameters differ from those that turtle_operations.def gives their operation.
+/// Rows with parameters other than those of their operation in turtle_operations.def.
 constexpr TurtleCommand bare(std::string_view name, TurtleOperation operation) {
     return {name, operation, 0, ""};
 }
@@ -42,7 +42,7 @@ constexpr TurtleCommand leaf(std::string_view name) {
     return {name, Leaf, 5, "size, nothing, three values"};
 }
 
-/// With three parameters, or more, it is SetRgb: operation_of().
+/// With three or more parameters it is SetRgb: operation_of().
 constexpr TurtleCommand kColour{"'", SetColour, 3, "index of a colour, or red, green and blue"};
 
 /// A row for each character of `names`.
@@ -80,8 +80,8 @@ constexpr auto kThesis = joined(kPaths,
                                 commands({{"!", SetWidth}}),
                                 kPolygonsAndCut);
 
-// Carey 2019. kCarey: the symbols of Houdini that his forest generator reads. kHoudini: also those
-// of his appendix, and similar symbols of Houdini.
+// Carey 2019. kCarey has the symbols of Houdini that Carey's forest generator reads. kHoudini also
+// has those of his appendix, and similar symbols of Houdini.
 constexpr auto kCarey =
     joined(commands({length("F", Forward), length("f", Move)}),
            turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
@@ -99,7 +99,7 @@ constexpr auto kHoudini = joined(kCarey,
                                            {"M", Leaf},
                                            {"%", Cut}}));
 
-// A word of L3D is a text: a parenthesis behind a command holds its parameter, character by
+// A word of L3D is a text: a parenthesis after a command holds its parameter, character by
 // character.
 constexpr std::array<TurtleOperation, 12> kTexts{Text, Text, Text, Text, Text, Text,
                                                  Text, Text, Text, Text, Text, Text};
@@ -186,8 +186,8 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CUBE", Cube},
     {"DISK", Disk},
 }};
-/// Whether #object has a name for the operation, if the operation places an object. Mesh files need
-/// no name.
+/// Whether #object can name the operation, if the operation places an object. Mesh files need no
+/// name.
 constexpr bool is_bound(TurtleOperation operation) {
     return info(operation).drawn != Drawn::Object || operation == MeshFile ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();

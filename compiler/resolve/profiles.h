@@ -17,13 +17,16 @@ namespace lsys {
 struct TurtleCommand {
     constexpr TurtleCommand() = default;
     /// Takes the parameters from the row of the operation in turtle_operations.def.
-    constexpr TurtleCommand(std::string_view own_name, TurtleOperation does)
-        : TurtleCommand(own_name, does, info(does).parameter_count, info(does).parameters) {}
+    constexpr TurtleCommand(std::string_view own_name, TurtleOperation own_operation)
+        : TurtleCommand(own_name,
+                        own_operation,
+                        info(own_operation).parameter_count,
+                        info(own_operation).parameters) {}
     constexpr TurtleCommand(std::string_view own_name,
-                            TurtleOperation does,
+                            TurtleOperation own_operation,
                             std::uint8_t parameter_count,
                             std::string_view meanings)
-        : name(own_name), operation(does), max_parameters(parameter_count), parameters(meanings) {}
+        : name(own_name), operation(own_operation), max_parameters(parameter_count), parameters(meanings) {}
 
     std::string_view name;
     TurtleOperation operation = TurtleOperation::Nothing;
@@ -31,7 +34,7 @@ struct TurtleCommand {
     std::string_view parameters; // their meaning: "length, spring constant, mass"
 };
 
-/// The commands of a profile. The first row with a name counts.
+/// The commands of a profile. If several rows have one name, the first row applies.
 [[nodiscard]] std::span<const TurtleCommand> turtle_commands(TurtleProfile profile);
 /// The command of that name, or null.
 [[nodiscard]] const TurtleCommand* find_turtle_command(TurtleProfile profile,

@@ -16,7 +16,7 @@ namespace lsys {
 
 struct ResolveOutcome {
     Program program;
-    std::vector<std::string> unknown_definitions; // -D names that no #define or #param has
+    std::vector<std::string> unknown_definitions; // -D names without a #define or #param
 };
 
 /// Resolves the Ast. Releases parts of the Ast as soon as they are resolved, to save memory.

@@ -55,7 +55,7 @@ enum class BinaryOperation : std::uint8_t {
 [[nodiscard]] const char* spelling(UnaryOperation operation);
 [[nodiscard]] const char* spelling(BinaryOperation operation);
 
-/// A range of indices of a list vector of the Ast.
+/// A range of indices into a list vector of the Ast.
 struct ListRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -86,7 +86,7 @@ struct Expression {
 
 // --- modules
 
-/// A module of a list, in eight bytes: an axiom may have a hundred million.
+/// A module of a list, in eight bytes because an axiom may have a hundred million modules.
 class ModuleNode {
 public:
     ModuleNode() = default;
@@ -130,7 +130,7 @@ struct ModuleView {
     NameId name = kNoName;
     SourceSpan name_span; // with the back quotes, if any
     SourceSpan span;      // with the arguments
-    // In back quotes or spelt differently in its file: never split into letters.
+    // True for a name in back quotes or spelt differently in its file: never split into letters.
     bool is_indivisible = false;
     bool has_parentheses = false;
     ListRange arguments;
@@ -195,7 +195,7 @@ struct CurveNode {
 };
 
 struct ModuleDeclarationNode {
-    ModuleList modules; // as written; the resolver requires one
+    ModuleList modules; // as written; the resolver requires exactly one module
 };
 
 struct ObjectNode {
@@ -214,11 +214,11 @@ struct IncludeNode {
 
 /// A word, number or file name after the key of a #set or in a #material.
 struct SetValue {
-    SourceSpan span;      // of a file with the quotes
+    SourceSpan span;      // includes the quotes of a file name
     bool is_word = false; // a mode, a profile or a constant; a key of a #material
     NameId word = kNoName;
-    ExpressionId value = kNoExpression; // if neither a word nor a file
-    bool is_file = false;               // named by `word`; in a #material only
+    ExpressionId value = kNoExpression; // unless it is a word or a file
+    bool is_file = false;               // `word` is a file name; in a #material only
 };
 
 struct SetNode {
@@ -292,8 +292,8 @@ struct WrittenName {
     friend auto operator<=>(const WrittenName&, const WrittenName&) = default;
 };
 
-/// The span of the name, with its back quotes, of the module at `begin` of a file: an entry of
-/// `written_names` (ascending), else the length of `name` and its quotes in the text of the file.
+/// Span of the name of the module at `begin` of a file, with its back quotes. Its end comes from
+/// the entry of `written_names` (ascending) if there is one, else from the length of `name`.
 [[nodiscard]] SourceSpan module_name_span(const SourceMap& sources,
                                           FileId file,
                                           std::uint32_t begin,

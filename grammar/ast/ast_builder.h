@@ -26,7 +26,7 @@ struct TextRange {
     std::uint32_t end = 0;
 };
 
-/// The form of module names, by `#set names`.
+/// The form of module names, as set by `#set names`.
 enum class ModuleNames : std::uint8_t {
     Words,
     Letters,    // each letter is a module
@@ -104,7 +104,7 @@ public:
     void set_number(ExpressionId value, SourceSpan span);
     void set_file(NameId path, SourceSpan span);
     void set(NameId key, SourceSpan key_span);
-    /// A #material of the values set since the last statement.
+    /// Adds a #material with the values set since the last statement.
     void material(SourceSpan keyword);
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules, ExpressionId probability);
@@ -118,7 +118,7 @@ public:
                           SourceSpan label,
                           SourceSpan condition,
                           Stage stage = Stage::Rewrite);
-    /// The next local value of the current production.
+    /// Adds the next local value of the current production.
     void local(NameId name, SourceSpan name_span, ExpressionId value);
     void production(ModuleList successor);
 
@@ -138,7 +138,7 @@ public:
 private:
     /// State of the last name of the current module list, for parentheses after it.
     enum class LastName : std::uint8_t {
-        None,  // the last character is no module and has been reported
+        None,  // the last character is not a module and has been reported
         Empty, // an empty text in back quotes
         Bare,
         Called, // with parameters

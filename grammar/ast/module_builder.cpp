@@ -268,7 +268,7 @@ bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
 }
 
 /// Reads `(1, 2.5, -3)` at `open` for the last module; returns its end. Precondition: the scanner
-/// has matched it.
+/// has matched the parentheses.
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
     CallNode call;

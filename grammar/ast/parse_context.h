@@ -17,7 +17,7 @@ namespace lsys {
 /// Returns the bytes of the file at a path; its Error is reported at the #include.
 using FileLoader = std::function<Result<std::string>(const std::string& path)>;
 
-/// Inputs and outputs of one parse; all outlive it.
+/// Inputs and outputs of one parse. All references must outlive the parse.
 struct ParseContext {
     SourceMap& sources;
     Names& names;
@@ -25,7 +25,7 @@ struct ParseContext {
     const FileLoader& load;
     /// Reproduce the bugs of the dialect's original program.
     bool bug_compatible = false;
-    std::string_view system{}; // name of the system to read from a file with several
+    std::string_view system{}; // name of the system to read if a file has several
     /// Receives the spans of all statements, also of those with errors; may be null.
     std::vector<SourceSpan>* statements = nullptr;
 };

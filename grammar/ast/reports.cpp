@@ -42,7 +42,7 @@ void report_chained_comparison(Diagnostics& diagnostics,
         diagnostics.add(DiagnosticCode::ChainedComparison, span, "comparisons do not chain");
     const SourceSpan middle = ast.expression(inner.right).span();
     const std::string shared(sources.text(middle));
-    // A value that is drawn would be drawn twice.
+    // A random value would be drawn twice.
     if (shared.empty() || shared.find_first_of("{\n") != std::string::npos) {
         diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`");
         return;
@@ -55,7 +55,7 @@ void report_chained_comparison(Diagnostics& diagnostics,
 
 namespace {
 
-/// The bounds of `35-50`, in braces, which is meant as a range; nullopt for other texts.
+/// The bounds of `{35-50}`, written with a `-` in place of the comma; nullopt for other texts.
 std::optional<std::pair<std::string, std::string>> bounds_with_minus(std::string_view text) {
     constexpr std::string_view kDigits = "0123456789.";
     text = text.substr(0, text.find_last_not_of(" \t}") + 1);
@@ -89,7 +89,7 @@ void report_bad_range(Diagnostics& diagnostics,
     if (const auto bounds = bounds_with_minus(sources.text(span)); bounds && count == 1) {
         const std::string range = "{" + bounds->first + ", " + bounds->second + "}";
         add_fix(diagnostic,
-                "the bounds of a range stand beside a comma, and `-` is a difference: write `" +
+                "a comma separates the bounds of a range, and `-` is a difference: write `" +
                     range + "`",
                 span, range, false);
         return;
@@ -114,7 +114,7 @@ void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c) {
     }
     Diagnostic& diagnostic = diagnostics.add(
         DiagnosticCode::LetterName, span,
-        std::string("`") + c + "` cannot stand in a module name with `#set names letters`");
+        std::string("`") + c + "` cannot be in a module name with `#set names letters`");
     diagnostic.help.emplace_back("there every letter is a module of its own; for names of several "
                                  "characters leave out `#set names letters`");
 }
@@ -154,8 +154,8 @@ void report_stray_comment(Diagnostics& diagnostics,
         diagnostic.help.emplace_back("write `/* ... */` here, or put the comment after the `;`");
         return;
     }
-    // Brackets of the statement and rows of rolls stand in no comment, as far as one can tell. A `;`
-    // at the end may end the statement.
+    // Text with brackets or with several rolls, `////`, is probably modules and not a comment. A
+    // `;` at the end may end the statement.
     const bool has_modules =
         line.starts_with("////") || line.find_first_of("[]{}") != std::string_view::npos;
     const std::size_t semicolon = line.find(';');
@@ -170,14 +170,14 @@ void report_stray_comment(Diagnostics& diagnostics,
 }
 
 bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
-    const std::optional<NoText> no_text = recognise_no_text(sources.file(file).text());
-    if (no_text) {
+    const std::optional<NonText> non_text = recognise_non_text(sources.file(file).text());
+    if (non_text) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::OtherLanguage, {file, 0, 0},
-                            "this file is " + no_text->what + ", not a grammar");
-        diagnostic.help.push_back(no_text->help);
+                            "this file is " + non_text->what + ", not a grammar");
+        diagnostic.help.push_back(non_text->help);
     }
-    return !no_text;
+    return !non_text;
 }
 
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what) {

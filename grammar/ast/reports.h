@@ -36,7 +36,7 @@ void report_stray_comment(Diagnostics& diagnostics,
                           std::string_view line,
                           SourceSpan slashes,
                           bool may_be_rolls);
-/// Reports a file that is no UTF-8 text; returns whether it is text.
+/// Reports a file that is not UTF-8 text; returns whether it is text.
 [[nodiscard]] bool check_is_text(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 
 /// `text` for a message: at most 40 characters, control characters as `\x07`.

@@ -18,7 +18,7 @@ void TextMap::finish() {
 /// The number of edits whose replacement ends at or before `offset`.
 std::size_t TextMap::edits_ending_by(std::uint32_t offset) const {
     const auto ends_by = [&](std::size_t index) { return edits_[index].text_end <= offset; };
-    // A few steps from the last result, else a bisection.
+    // Tries a few steps from the last result, then bisects.
     for (int step = 0; step < 4; ++step) {
         if (hint_ > 0 && !ends_by(hint_ - 1)) {
             --hint_;

@@ -43,7 +43,7 @@ private:
     std::string text_;
     std::uint32_t consumed_ = 0; // bytes of source_
     ChunkedVector<Edit> edits_;
-    // Last result of edits_ending_by(): the offsets of queries nearly ascend.
+    // Last result of edits_ending_by(), a start for the next search: offsets mostly ascend.
     mutable std::size_t hint_ = 0;
 };
 

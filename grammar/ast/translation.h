@@ -54,7 +54,7 @@ public:
 
 private:
     struct Part {
-        std::uint32_t end = 0; // in text_
+        std::uint32_t end = 0; // index in text_
         bool verbatim = false; // corresponds to span byte by byte
         SourceSpan span;
     };
@@ -67,7 +67,7 @@ private:
     std::string text_; // at most max_bytes_
     std::vector<Part> parts_;
     std::map<std::string, std::string> replaced_names_;
-    mutable std::size_t hint_ = 0; // last result of part_at(): the offsets of queries nearly ascend
+    mutable std::size_t hint_ = 0; // last part_at(), a start for the next search
 };
 
 } // namespace lsys

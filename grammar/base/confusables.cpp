@@ -237,7 +237,7 @@ constexpr auto kListed = [] {
     return listed;
 }();
 
-/// The row of a character in a table that ascends; null: none.
+/// The row of a character in an ascending table; null if there is none.
 template <typename Table>
 const Confusable* find_row(const Table& table, char32_t character) {
     const auto found = std::lower_bound(

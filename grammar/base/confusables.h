@@ -1,5 +1,5 @@
-// Confusables (Unicode TS 39): characters of PDF files and word processors that stand where an
-// ASCII character is meant.
+// Confusables (Unicode TS 39): characters that look like an ASCII character and stand in its place
+// in text copied from PDF files and word processors.
 #pragma once
 
 #include <string>

@@ -165,7 +165,7 @@ void Diagnostics::offer_fixes_from(std::size_t first) {
     }
 }
 
-void Diagnostics::drop_repairs(std::string_view language) {
+void Diagnostics::drop_repairs(std::string_view pattern) {
     for (Diagnostic& diagnostic : all_) {
         std::erase_if(diagnostic.fixes, [](const Fix& fix) {
             return !std::all_of(fix.edits.begin(), fix.edits.end(), [](const Edit& edit) {
@@ -174,8 +174,8 @@ void Diagnostics::drop_repairs(std::string_view language) {
             });
         });
         offer_fixes(diagnostic);
-        std::erase_if(diagnostic.help, [language](const std::string& help) {
-            return help.find(language) != std::string::npos;
+        std::erase_if(diagnostic.help, [pattern](const std::string& help) {
+            return help.find(pattern) != std::string::npos;
         });
     }
 }

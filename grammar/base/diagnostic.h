@@ -51,7 +51,7 @@ struct Edit {
 };
 
 /// A repair. It is machine applicable if no other repair is plausible; `lsc check --fix` applies it
-/// under the conditions of runtime/cli/fixes.h. Other repairs are offers: shown as help. The edits
+/// under the conditions of runtime/cli/fixes.h. Other repairs are offers, shown as help. The edits
 /// do not overlap and are applied together.
 struct Fix {
     std::string title;
@@ -130,15 +130,15 @@ public:
             }
         }
     }
-    /// Removes all fixes but those that write a name alone, and the help texts that contain
-    /// `language`, the name of a language in which the file is not written.
-    void drop_repairs(std::string_view language);
-    /// Gives each diagnostic the severity that `judge` returns for it, or removes it.
-    template <typename Judge>
-    void rejudge(const Judge& judge) {
+    /// Removes help texts that contain `pattern`, a form that the file cannot use, and all fixes
+    /// except those that replace text by a single name. The remaining fixes become offers.
+    void drop_repairs(std::string_view pattern);
+    /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
+    template <typename SeverityOf>
+    void reassign_severities(const SeverityOf& severity_of) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < all_.size(); ++i) {
-            const std::optional<Severity> severity = judge(std::as_const(all_[i]));
+            const std::optional<Severity> severity = severity_of(std::as_const(all_[i]));
             --counts_[static_cast<std::size_t>(all_[i].severity)];
             if (!severity) {
                 continue;

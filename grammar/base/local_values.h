@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-/// Whether the part of a production at `at`, behind its third `:`, begins with local values: `let`,
+/// Whether the part of a production at `at`, after its third `:`, begins with local values: `let`,
 /// an identifier and a single `=`, with blanks and comments between them.
 [[nodiscard]] bool begins_local_values(std::string_view text, std::size_t at);
 

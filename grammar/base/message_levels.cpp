@@ -24,7 +24,7 @@ std::optional<std::string> reason_against_level(std::string_view code) {
         names.push_back(info(static_cast<DiagnosticCode>(i)).name);
     }
     const std::optional<std::string_view> nearest = nearest_name(code, names);
-    return quoted + " is no code of a message" +
+    return quoted + " is not the code of a message" +
            (nearest ? "; did you mean `" + std::string(*nearest) + "`?" : std::string());
 }
 
@@ -62,7 +62,7 @@ std::optional<MessageLevel> MessageLevels::of(const Diagnostic& diagnostic) cons
 }
 
 void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics) {
-    diagnostics.rejudge([&](const Diagnostic& diagnostic) -> std::optional<Severity> {
+    diagnostics.reassign_severities([&](const Diagnostic& diagnostic) -> std::optional<Severity> {
         if (diagnostic.severity == Severity::Error) {
             return diagnostic.severity;
         }

@@ -19,8 +19,8 @@ enum class MessageLevel : std::uint8_t {
     Deny, // an error
 };
 
-/// Levels by code, and of all warnings and all notes. The level of a code wins over that of its
-/// group.
+/// Levels of single codes, of all warnings and of all notes. The level of a code overrides the
+/// level of its group.
 class MessageLevels {
 public:
     /// Sets the level of `what`: a code, `warnings` or `notes`. Returns a message if the code does
@@ -41,7 +41,8 @@ private:
 /// the comments of `sources`.
 void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics);
 
-/// Why the level of `code` cannot be set, as a sentence about it (`x` is ...); nullopt if it can.
+/// Why the level of `code` cannot be set, as a clause about the code: "`x` is ..."; nullopt if it
+/// can.
 [[nodiscard]] std::optional<std::string> reason_against_level(std::string_view code);
 
 } // namespace lsys

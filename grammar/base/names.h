@@ -31,7 +31,7 @@ public:
 private:
     std::deque<std::string> texts_;
     std::unordered_map<std::string_view, NameId> ids_;
-    std::map<NameId, std::string> written_; // of replaced names
+    std::map<NameId, std::string> written_; // originals of replaced names
 };
 
 /// Whether `text` matches [A-Za-z_][A-Za-z0-9_]*.

@@ -36,7 +36,7 @@ struct Message {
         Detail,      // about the work, for verbose output
     };
     Kind kind = Kind::Diagnostics;
-    std::string text; // of all kinds but Diagnostics
+    std::string text; // for all kinds except Diagnostics
     Diagnostics diagnostics;
     std::shared_ptr<const SourceMap> sources; // of Diagnostics; null if none has a place
 };

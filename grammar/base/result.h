@@ -14,7 +14,7 @@ namespace lsys {
 
 enum class ErrorKind : std::uint8_t {
     Environment,
-    Limit, // of memory
+    Limit, // a memory limit
 };
 
 /// A failure in words for the user: lower case, no final stop, with the name of the file if there

@@ -14,7 +14,7 @@ enum class SynonymKind : std::uint8_t { Operator, Name, Function, Statement, Set
 /// A row of synonyms.def.
 struct Synonym {
     SynonymKind kind{};
-    std::string_view word;     // of a function perhaps with its parameters
+    std::string_view word;     // a function may include its parameters
     std::string_view source;   // where the word is from; may be empty
     std::string_view spelling; // in .lsys; empty: .lsys has no equivalent
     std::string_view advice;   // what to do instead, or more about it; may be empty

@@ -34,7 +34,7 @@ bool is_control(char c) {
     return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v';
 }
 
-NoText utf16(std::string_view form) {
+NonText utf16(std::string_view form) {
     return {std::string(form) + " text", "a grammar is UTF-8 text; save the file in that encoding"};
 }
 
@@ -57,7 +57,7 @@ bool has_alternate_nuls(std::string_view sample, std::size_t first) {
 
 } // namespace
 
-std::optional<NoText> recognise_no_text(std::string_view bytes) {
+std::optional<NonText> recognise_non_text(std::string_view bytes) {
     if (bytes.starts_with(std::string_view("\xFF\xFE\0\0", 4)) ||
         bytes.starts_with(std::string_view("\0\0\xFE\xFF", 4))) {
         return utf16("UTF-32");
@@ -67,7 +67,7 @@ std::optional<NoText> recognise_no_text(std::string_view bytes) {
     }
     for (const Signature& signature : kSignatures) {
         if (bytes.starts_with(signature.bytes)) {
-            return NoText{std::string(signature.what), "a grammar is UTF-8 text"};
+            return NonText{std::string(signature.what), "a grammar is UTF-8 text"};
         }
     }
     const std::string_view sample = bytes.substr(0, kSampled);
@@ -77,7 +77,7 @@ std::optional<NoText> recognise_no_text(std::string_view bytes) {
     constexpr std::ptrdiff_t kFewControls = 16;
     const std::ptrdiff_t controls = std::count_if(sample.begin(), sample.end(), is_control);
     if (controls > kFewControls && controls * 20 > static_cast<std::ptrdiff_t>(sample.size())) {
-        return NoText{"no text", "a grammar is UTF-8 text"};
+        return NonText{"binary data", "a grammar is UTF-8 text"};
     }
     return std::nullopt;
 }

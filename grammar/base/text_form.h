@@ -8,14 +8,14 @@
 
 namespace lsys {
 
-/// Bytes that are no text: their format, and what to do about it.
-struct NoText {
+/// The format of bytes that are not text, and advice for the author.
+struct NonText {
     std::string what; // "UTF-16 text", "a PNG picture"
     std::string help;
 };
 
-/// The format of `bytes` if they are no UTF-8 text, else nullopt. A few control characters or bytes
-/// of another encoding still pass as text.
-[[nodiscard]] std::optional<NoText> recognise_no_text(std::string_view bytes);
+/// The format of `bytes` if they are not UTF-8 text, else nullopt. A few control characters or
+/// bytes of another encoding still pass as text.
+[[nodiscard]] std::optional<NonText> recognise_non_text(std::string_view bytes);
 
 } // namespace lsys

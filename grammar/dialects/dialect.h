@@ -30,7 +30,7 @@ struct DialectRow {
     std::string_view turtle;     // default profile: the `#set turtle` of a translation
     std::string_view page;       // of the manual, from the root of the sources
 
-    /// The evidence in a text that it is of this dialect; empty: none. Null for .lsys.
+    /// Returns the evidence that a text is of this dialect; empty if there is none. Null for .lsys.
     std::string_view (*recognise)(std::string_view text) = nullptr;
     /// Writes the .lsys text of the file `out.file()`. Reports mistakes where they stand; after
     /// errors the text is incomplete. Null for .lsys.
@@ -47,8 +47,8 @@ struct DialectRow {
 [[nodiscard]] std::optional<Dialect> find_dialect(std::string_view name);
 
 struct DetectedDialect {
-    std::optional<Dialect> dialect; // none: not recognised by text or path
-    std::string_view by;            // evidence: "its first line is `LSYSTEM`"
+    std::optional<Dialect> dialect; // nullopt if neither text nor path shows it
+    std::string_view evidence;      // evidence: "its first line is `LSYSTEM`"
 };
 /// Detects the dialect from the content of `text`, else from the extension of `path`.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
@@ -62,7 +62,7 @@ struct DetectedDialect {
 /// text is incomplete and not to be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
-/// Reports a .lsys file that is no text or looks like another language; returns whether it may be
+/// Reports a .lsys file that is not text or looks like another language; returns whether it may be
 /// parsed.
 [[nodiscard]] bool check_is_lsys(FileId root, const ParseContext& context);
 

@@ -65,11 +65,11 @@ bool is_lsys_statement(std::string_view line) {
            line.ends_with(';');
 }
 
-/// The first line for which `tells` is true; null if there is none.
-template <typename Tells>
-const Line* find_line(const std::vector<Line>& lines, const Tells& tells) {
+/// The first line for which `matches` is true; null if there is none.
+template <typename Matches>
+const Line* find_line(const std::vector<Line>& lines, const Matches& matches) {
     const auto found = std::find_if(lines.begin(), lines.end(),
-                                    [&](const Line& line) { return tells(line.text); });
+                                    [&](const Line& line) { return matches(line.text); });
     return found == lines.end() ? nullptr : &*found;
 }
 
@@ -89,9 +89,9 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
     return find_line(lines, begins_with(word)) != nullptr;
 }
 
-/// The .lsys statements for those of an L-Py model, with the names of the model.
+/// The .lsys equivalents of the statements of an L-Py model, with the names of the model.
 std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
-    std::string text = "lsc reads no L-Py; write the model anew: `" + std::string(axiom.text) +
+    std::string text = "lsc does not read L-Py; rewrite the model: `" + std::string(axiom.text) +
                        "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";
     if (const Line* const length = find_line(lines, begins_with("derivation length:"))) {
         text += ", `" + std::string(length->text) +
@@ -121,7 +121,7 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
              return line.find("produce ") != std::string_view::npos && line.ends_with(';');
          }) != nullptr)) {
         return made(axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
-                    "lsc reads no lpfg; its productions are C++, and have to be written anew");
+                    "lsc does not read lpfg; its productions are C++ and have to be rewritten");
     }
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||

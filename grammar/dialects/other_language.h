@@ -1,6 +1,6 @@
-// Recognition of texts that are no grammar in the language of their file: a cpfg model, JSON or
-// Markdown named `.lsys`. They get one message, which names the language, instead of one for each
-// line.
+// Recognition of files whose text is in another language than their name says: a cpfg model, JSON
+// or Markdown named `.lsys`. They get one message, which names the language, instead of one for
+// each line.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct OtherLanguage {
 
 /// The language of a text without any statement of .lsys; nullopt if no line shows it.
 [[nodiscard]] std::optional<OtherLanguage> recognise_other_language(std::string_view text);
-/// Whether a text without a telling name is in the notation of papers or of L-Py, which no dialect
-/// reads, but messages explain.
+/// Whether a text whose name does not show its language is in the notation of papers or of L-Py. No
+/// dialect reads these, but messages explain them.
 [[nodiscard]] bool is_foreign_notation(std::string_view text);
 
 } // namespace lsys

@@ -146,7 +146,7 @@ private:
 
     void write_commented() {
         std::string statements;
-        std::vector<std::size_t> offsets; // of the ends, in `statements`
+        std::vector<std::size_t> offsets; // ends of the rows in `statements`
         std::vector<StatementEnd> ends;
         for (const LayoutRow& row : rows_) {
             ends.push_back(write_statement(row, statements));

@@ -1,4 +1,4 @@
-/* The tokens of .lsys files. Positions are byte offsets of the scanned text, of which Flex has a copy. A run of
+/* The tokens of .lsys files. Positions are byte offsets of the scanned text; Flex holds a copy of it. A run of
    module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an axiom may have a hundred
    million modules. No long pattern contains NUL, at which Flex rescans the token from its start. Mistakes are
    handled in impl/statement_tokens, module_tokens, expression_tokens and statement_ends. */
@@ -46,7 +46,7 @@
         scan.comment_return = YY_START;                                                            \
         BEGIN(condition);                                                                          \
     } while (false)
-/* Inserts an operator or comma between two adjacent values. */
+/* Inserts an operator or a comma if the current value follows another one. */
 #define BEGIN_VALUE()                                                                              \
     do {                                                                                           \
         if (scan.value_before) {                                                                   \
@@ -97,7 +97,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
             return OPENING;
         case Part::FunctionHead:
         case Part::Value:
-        case Part::Chance:
+        case Part::Probability:
         case Part::Condition:
         case Part::Locals:
             return EXPRESSION;
@@ -217,7 +217,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   "~"                   {
                           if (scan.keyword == Keyword::Axiom) {
                               const SourceSpan span = session.token();
-                              scan.enter(Part::Chance);
+                              scan.enter(Part::Probability);
                               return Token(Parser::token::TOK_TILDE, span);
                           }
                           if (const auto missing = missing_opening(session)) {

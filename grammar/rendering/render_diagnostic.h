@@ -37,8 +37,9 @@ void render_frame(const std::vector<Label>& labels,
                   bool colour,
                   std::string& out);
 
-/// Appends at most max_shown diagnostics, in JSON all, in their order, which should be sorted, and
-/// the number of the others. Errors are chosen before warnings, and warnings before notes.
+/// Appends at most max_shown diagnostics (in JSON all) in the order of the list, which should be
+/// sorted, and the number of the others. Errors are chosen before warnings, and warnings before
+/// notes.
 void render_all(const Diagnostics& diagnostics,
                 const SourceMap& sources,
                 const RenderOptions& options,

@@ -71,7 +71,7 @@ Result<Dialect> dialect_of(const std::string& path,
     }
     if (*detected.dialect != Dialect::Lsys) {
         messages.add_detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),
-                                        row_of(*detected.dialect).title, detected.by));
+                                        row_of(*detected.dialect).title, detected.evidence));
     }
     return *detected.dialect;
 }

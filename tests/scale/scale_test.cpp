@@ -149,7 +149,7 @@ std::map<std::string, Case> cases() {
     all["invalid-utf8"] = {repeated(head + "#w : F", "\xFF\xC0 F", 100'000, ";"), check, 1,
                            "invalid-utf8"};
     all["strays-10mb"] = {repeated(head + "#w : F;\n#p : ", "1 = ", 2'500'000, ": * : F : ;"),
-                          check, 1, "a number cannot stand among modules"};
+                          check, 1, "a number is not a module"};
     all["typographic-3mb"] = {repeated(head + "#w : F", "\xE2\x88\x92 \xC3\xA9", 500'000, ";"),
                               check, 1, "look-alike"};
     all["unclosed-comment"] = {repeated(head + "#w : F; /*", "x", 10'000'000, ""), check, 1,
@@ -209,7 +209,7 @@ std::map<std::string, Case> cases() {
     all["format-condition-10mb"] = {
         repeated(head + "#w : F;\n#p : F(x) : x > 1", "&& x > 2 ", 1'100'000, ": F(x);"), format, 1,
         not_formatted};
-    // Longer than the prefix in which recognise_no_text() looks for binary data, 4096 bytes.
+    // Longer than the prefix in which recognise_non_text() looks for binary data, 4096 bytes.
     const std::string text(5000, ' ');
     const std::vector<std::string> carey{"check", "--dialect", "carey", "%"};
     all["carey-line-10mb"] = {repeated("generations: 1\naxiom: F\nF=", "F+[&F]", 1'700'000, "\n"),

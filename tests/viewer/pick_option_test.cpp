@@ -234,7 +234,7 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
                 REQUIRE(std::regex_match(pick.lines[1], found, place));
                 CHECK(found[2] == std::to_string(slot.age));
             }
-            CHECK(pick.lines[2] == fmt::format("it stands {} time{} in the forest, in {} tree{}",
+            CHECK(pick.lines[2] == fmt::format("it occurs {} time{} in the forest, in {} tree{}",
                                                counts[number], counts[number] == 1 ? "" : "s",
                                                trees[number], trees[number] == 1 ? "" : "s"));
             CHECK(pick.lines[3].find("of `bush`: 4 generations") != std::string::npos);

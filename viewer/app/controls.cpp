@@ -19,7 +19,7 @@ float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// The next view of a trace, around.
+/// The scope of the next trace; the last scope is followed by the first.
 TraceScope scope_after(TraceScope scope) {
     switch (scope) {
     case TraceScope::Written:
@@ -103,7 +103,7 @@ void Controls::apply(const WindowInput& input,
         if (!panels.quits) {
             panels.asked_to_quit = true;
             switcher.current().set_note(
-                "what was painted is not saved: Ctrl+S saves it, Ctrl+Q leaves it");
+                "painted trees are not saved: Ctrl+S saves them, Ctrl+Q quits without saving");
         }
     } else if (!input.presses.empty()) {
         panels.asked_to_quit = false;

@@ -16,7 +16,7 @@ struct PanelState {
     bool help = false;
     bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
-    // The user was warned of unsaved changes; the next request to quit is obeyed.
+    // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
 };
 
@@ -27,7 +27,7 @@ struct KeyHelp {
 };
 inline constexpr std::array<KeyHelp, 27> kPlantKeys = {{
     {"Left drag", "Orbit"},
-    {"Click", "Tell the module, and why its production wrote it"},
+    {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
     {"Right drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
@@ -57,7 +57,7 @@ inline constexpr std::array<KeyHelp, 27> kPlantKeys = {{
 
 inline constexpr std::array<KeyHelp, 28> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
-    {"Click", "Without a tool: tell the branch and its production"},
+    {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
     {"Middle drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},

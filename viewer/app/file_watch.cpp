@@ -49,7 +49,7 @@ Stamp stamp_of(const std::string& path) {
     return {true, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_size, facts.st_ino};
 }
 
-/// Names whose events concern `path`: its own and that of its link target.
+/// Names whose events are changes of `path`: its own name and that of its link target.
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;

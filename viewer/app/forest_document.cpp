@@ -145,8 +145,8 @@ Bounds bounds_of(const ForestDocument& document) {
     return bounds;
 }
 
-/// Mean height of trees, m, weighted by their area in a picture: a few trees above grass count, and
-/// a few seedlings below trees do not.
+/// Mean height of trees, m, weighted by their area in a picture. A few trees above grass therefore
+/// raise it, and a few seedlings below trees do not lower it.
 float typical_height(const ForestDocument& document) {
     double squares = 0.0;
     double cubes = 0.0;

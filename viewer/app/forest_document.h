@@ -40,9 +40,9 @@ make_unpainted_forest(const ViewOptions& options,
                       const ForestDocument* known,
                       const Project& project);
 
-/// Default camera. A small forest is in view as a whole, from the side and above. A forest in which
-/// trees would then be lower than a quarter of the picture is seen from its edge, above the crowns.
-/// `aspect`: width / height.
+/// Default camera. It shows the whole forest from the side and above. If trees would then be lower
+/// than a quarter of the picture, it shows the forest from its edge, above the crowns. `aspect`:
+/// width / height.
 [[nodiscard]] Camera first_view(const ForestDocument& document, float aspect);
 
 /// Lifts a camera below the ground to the height of a person.

@@ -17,8 +17,8 @@ struct ForestFilmRequest {
     std::uint32_t years = 0; // years of the last moment of the growth
     RunOptions run;
     GrowthMoment moment;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// The trees at a moment, without painting.

@@ -13,7 +13,7 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     ForestOutcome outcome;
     outcome.request = request;
     outcome.files = request.options.files;
-    const ForestDocument* const known = request.again ? nullptr : request.known.get();
+    const ForestDocument* const known = request.is_repeat ? nullptr : request.known.get();
     // Grammars of reused heroes are not read again, so take their files from the known forest.
     if (known != nullptr) {
         outcome.files = known->files;

@@ -1,4 +1,4 @@
-// ForestLoader: makes forests on a thread of its own: LatestRequestWorker.
+// ForestLoader: makes forests on a thread of its own, a LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/forest_document.h"
@@ -16,8 +16,8 @@ struct ForestRequest {
     SceneOverrides edits; // applied after options.overrides
     /// Forest whose heroes may be reused; null: read all files.
     std::shared_ptr<const ForestDocument> known;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 struct ForestOutcome {

@@ -72,7 +72,7 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// Maps species to those of document_; drops trees of species that are gone.
+/// Maps species by name to those of document_; drops trees of species that no longer exist.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};

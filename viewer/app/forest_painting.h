@@ -1,5 +1,5 @@
 // ForestPainting: painting of the forest in the window. Finds the ground under the mouse, keeps
-// unsaved changes over reloads, and writes them to the scene file.
+// unsaved changes across reloads, and writes them to the scene file.
 #pragma once
 
 #include "runtime/program/console.h"

@@ -277,7 +277,7 @@ void draw_cache(ForestView& view) {
     edit_integer("Max per key", document->scene.species.front().cache.cap,
                  view.settings.edits.cache_cap, 0U, kMaxKept,
                  document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
-    for (const CacheNumbers& each : view.stats().caches) {
+    for (const CacheStats& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));
         line(fmt::format("  {} heroes, {} branches", each.heroes, grouped(each.branches)));
         line(fmt::format("  {} keys, {} kB", grouped(each.keys), grouped(each.bytes / 1000)));
@@ -299,7 +299,7 @@ void draw_legend(const ForestView& view) {
             ImGui::SameLine(static_cast<float>(i % kInRow) * 0.19F *
                             ImGui::GetContentRegionAvail().x);
         }
-        const glm::vec3 root = glm::sqrt(legend[i].colour); // the display's gamma, taken as 2
+        const glm::vec3 root = glm::sqrt(legend[i].colour); // approximates the display's gamma by 2
         ImGui::PushID(static_cast<int>(i));
         ImGui::ColorButton("##colour", {root.x, root.y, root.z, 1.0F},
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,
@@ -350,8 +350,8 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
-        edit_length("Visibility", default_visibility(*view.document()), settings.air, 0.01, 1e6,
-                    "%.3g km");
+        edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
+                    1e6, "%.3g km");
     }
     constexpr std::uint64_t kMin = 0;
     constexpr std::uint64_t kMax = 20'000'000;

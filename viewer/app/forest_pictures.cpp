@@ -48,8 +48,8 @@ std::string stats_text(const ViewOptions& options,
     stats["height"] = options.height;
     stats["samples"] = options.samples;
     stats["camera"] = to_text(camera);
-    stats["air_km"] =
-        options.air ? static_cast<double>(*options.air) : default_visibility(document);
+    stats["air_km"] = options.visibility ? static_cast<double>(*options.visibility)
+                                         : default_visibility(document);
     stats["trees"] = sizes.trees;
     nlohmann::ordered_json& drawn = stats["trees_drawn"];
     for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
@@ -163,7 +163,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         });
     };
     Frame frame = frame_of(options, camera);
-    frame.light = forest_light(document, options.air);
+    frame.light = forest_light(document, options.visibility);
     const ExitStatus status =
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()

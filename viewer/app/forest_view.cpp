@@ -33,17 +33,17 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.windy = options.wind.has_value();
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
-    settings.air = options.air;
+    settings.visibility = options.visibility;
     return settings;
 }
 
 } // namespace
 
-std::vector<CacheNumbers> cache_numbers(const Forest& forest) {
-    std::vector<CacheNumbers> numbers;
+std::vector<CacheStats> cache_stats(const Forest& forest) {
+    std::vector<CacheStats> numbers;
     for (const ForestSpecies& species : forest.species) {
         for (const ForestStage& stage : species.stages) {
-            CacheNumbers& each = numbers.emplace_back();
+            CacheStats& each = numbers.emplace_back();
             each.species = species.name;
             each.generations = stage.generations;
             each.heroes = stage.cache.heroes;
@@ -67,8 +67,8 @@ ForestView::ForestView(const ViewOptions& options,
     : View(options, console, renderer, std::move(wake)), settings(first_forest_settings(options)),
       painting_(renderer), plays_next_(options.grow), loader_(make_forest, wake_),
       watch_(FileWatch::Options{},
-             [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
-                 files_changed(files, since);
+             [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
+                 files_changed(files, changed_at);
              }) {
     files_ = options_.files;
     watch_files();
@@ -82,7 +82,7 @@ ForestView::~ForestView() {
 
 /// Called on the file watch's thread.
 void ForestView::files_changed(const std::vector<std::string>& files,
-                               SteadyClock::time_point since) {
+                               SteadyClock::time_point changed_at) {
     const auto shaders = std::count_if(files.begin(), files.end(),
                                        [this](const std::string& each) { return is_shader(each); });
     if (shaders != 0) {
@@ -100,7 +100,7 @@ void ForestView::files_changed(const std::vector<std::string>& files,
         }
         saved_text_.clear();
     }
-    loader_.repeat(since);
+    loader_.repeat(changed_at);
 }
 
 void ForestView::watch_files() {
@@ -190,9 +190,9 @@ void ForestView::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.files != options_.files) {
         return; // the outcome of a newer request follows
     }
-    const bool fine = outcome.document != nullptr;
-    take_messages(outcome.messages, fine);
-    if (fine) {
+    const bool succeeded = outcome.document != nullptr;
+    take_messages(outcome.messages, succeeded);
+    if (succeeded) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
@@ -251,11 +251,11 @@ void ForestView::swap(ForestOutcome outcome) {
         settings.brush.min_scale = first.min_scale;
         settings.brush.max_scale = first.max_scale;
     }
-    stats_.caches = cache_numbers(document_->grown.forest);
+    stats_.caches = cache_stats(document_->grown.forest);
     stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
-    since_ = outcome.request.since;
-    stats_.swap_seconds = seconds_since(since_);
+    changed_at_ = outcome.request.changed_at;
+    stats_.swap_seconds = seconds_since(changed_at_);
     ++stats_.swaps;
     logs_next_frame_ = true;
     changed_ = true;
@@ -276,7 +276,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
-        frame.light = forest_light(*document_, settings.air);
+        frame.light = forest_light(*document_, settings.visibility);
     }
     const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));
@@ -311,7 +311,7 @@ void ForestView::picture_shown(double draw_seconds) {
     if (!std::exchange(logs_next_frame_, false)) {
         return;
     }
-    stats_.shown_seconds = seconds_since(since_);
+    stats_.shown_seconds = seconds_since(changed_at_);
     console_.detail(fmt::format(
         "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
         "after the change",
@@ -427,7 +427,7 @@ void ForestView::grow_by_years() {
 
 void ForestView::play_or_pause() {
     if (default_years_ == 0) {
-        set_note("only a forest placed by domination, or of trees with stages, grows");
+        set_note("only a forest placed by domination, or with stages of trees, can grow");
         return;
     }
     settings.plays = !settings.plays;
@@ -439,7 +439,7 @@ void ForestView::play_or_pause() {
 void ForestView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.edits = {};
-    settings.air.reset();
+    settings.visibility.reset();
     settings.plays = false;
     grown_.reset();
     frame_next_ = true;

@@ -33,7 +33,7 @@ struct ForestViewSettings {
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on
     Wind wind;
-    std::optional<double> air; // visibility, km; empty: default_visibility()
+    std::optional<double> visibility; // km; empty: default_visibility()
     std::uint64_t max_triangles = 1'500'000;
 
     bool plays = false;
@@ -43,8 +43,8 @@ struct ForestViewSettings {
     Brush brush;
 };
 
-/// Statistics of the instance cache of a species and number of generations.
-struct CacheNumbers {
+/// Statistics of one instance cache: a species with one number of generations.
+struct CacheStats {
     std::string species;
     std::uint32_t generations = 0;
     std::uint32_t heroes = 0;
@@ -66,7 +66,7 @@ struct ForestViewStats {
     FrameStats drawn;
     std::uint64_t swaps = 0;
     std::uint64_t moments = 0; // count of moments of growth shown
-    std::vector<CacheNumbers> caches;
+    std::vector<CacheStats> caches;
 };
 
 class ForestView final : public View {
@@ -144,7 +144,7 @@ private:
     void take_moment();
     void end_growth(std::uint32_t years);
     void request_load();
-    void files_changed(const std::vector<std::string>& files, SteadyClock::time_point since);
+    void files_changed(const std::vector<std::string>& files, SteadyClock::time_point changed_at);
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
     std::shared_ptr<ForestDocument> document_;
@@ -158,9 +158,9 @@ private:
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
-    std::uint32_t unedited_years_ = 0; // years of the forest if the user edits none
-    bool is_other_placement_ = false;  // edits or options change the placement of the scene file
-    SteadyClock::time_point since_;    // time of the change that led to the forest shown
+    std::uint32_t unedited_years_ = 0;   // years of the forest if the user edits none
+    bool is_other_placement_ = false;    // edits or options change the placement of the scene file
+    SteadyClock::time_point changed_at_; // time of the change that led to the forest shown
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // years
     std::optional<GrowthMoment> grown_;
@@ -184,6 +184,6 @@ private:
 };
 
 /// Cache statistics by species and stage.
-[[nodiscard]] std::vector<CacheNumbers> cache_numbers(const Forest& forest);
+[[nodiscard]] std::vector<CacheStats> cache_stats(const Forest& forest);
 
 } // namespace lsys::view

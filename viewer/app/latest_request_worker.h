@@ -15,8 +15,8 @@ namespace lsys::view {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// `Request` has the fields `since`, the time of the change that caused it, and `again`, whether it
-/// is a repetition because files changed.
+/// `Request` has the fields `changed_at`, the time of the change that caused it, and `is_repeat`,
+/// whether it is a repetition because files changed.
 template <typename Request, typename Outcome>
 class LatestRequestWorker {
 public:
@@ -46,13 +46,13 @@ public:
     }
     /// Repeats the last request, if any, after a change of files; cancels the running one. Callable
     /// from any thread.
-    void repeat(SteadyClock::time_point since) {
+    void repeat(SteadyClock::time_point changed_at) {
         const std::lock_guard lock(mutex_);
         if (last_) {
             cancelled_ = is_running_;
             Request request = *last_;
-            request.since = since;
-            request.again = true;
+            request.changed_at = changed_at;
+            request.is_repeat = true;
             enqueue(std::move(request));
         }
     }
@@ -73,9 +73,9 @@ public:
 
 private:
     void enqueue(Request request) {
-        // `again` stays set until an outcome that was made with it is taken.
-        request.again = request.again || (pending_ && pending_->again) ||
-                        (running_again_ && (is_running_ || outcome_));
+        // `is_repeat` stays set until an outcome that was made with it is taken.
+        request.is_repeat = request.is_repeat || (pending_ && pending_->is_repeat) ||
+                            (is_running_repeat_ && (is_running_ || outcome_));
         last_ = request;
         pending_ = std::move(request);
         changed_.notify_one();
@@ -93,7 +93,7 @@ private:
                 }
                 request = std::exchange(pending_, std::nullopt);
                 is_running_ = true;
-                running_again_ = request->again;
+                is_running_repeat_ = request->is_repeat;
                 began_ = SteadyClock::now();
                 cancelled_ = false;
             }
@@ -118,7 +118,7 @@ private:
     std::optional<Request> last_;
     std::optional<Outcome> outcome_;
     bool is_running_ = false;
-    bool running_again_ = false; // Request::again of the running or last request
+    bool is_running_repeat_ = false; // Request::is_repeat of the running or last request
     bool stops_ = false;
     SteadyClock::time_point began_;
     std::atomic<bool> cancelled_{false};

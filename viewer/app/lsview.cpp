@@ -66,8 +66,8 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
         return status;
     }
     hidden_renderer.renderer->colour_branches(options.colours);
-    // The model is kept for a growing forest, which is shown anew for each picture, and for --pick,
-    // which reads forms.
+    // Keep the model of a growing forest, which is shown again for each picture, and the model for
+    // --pick, which reads its forms.
     const bool keeps_model = options.grow || options.pick;
     if (const Result<void> shown = hidden_renderer.renderer->show_forest(
             keeps_model ? document.model : std::move(document.model));

@@ -33,8 +33,9 @@ Result<Size> parse_picture_size(const std::string& text) {
             ? Result<std::uint64_t>(Error{})
             : parse_integer(std::string_view(text).substr(cross + 1), 1, kMaxPixels);
     if (!width || !height) {
-        return Error{fmt::format("`{}` is no size of a picture; write WIDTHxHEIGHT, each 1 to {}",
-                                 text, kMaxPixels)};
+        return Error{
+            fmt::format("`{}` is not the size of a picture; write WIDTHxHEIGHT, each 1 to {}", text,
+                        kMaxPixels)};
     }
     return Size{static_cast<std::uint32_t>(width.value()),
                 static_cast<std::uint32_t>(height.value())};
@@ -49,7 +50,7 @@ Result<PicturePixel> parse_pixel(const std::string& text) {
             ? Result<std::uint64_t>(Error{})
             : parse_integer(std::string_view(text).substr(comma + 1), 0, kMaxPixels - 1);
     if (!x || !y) {
-        return Error{fmt::format("`{}` is no pixel of a picture; write X,Y from its upper left "
+        return Error{fmt::format("`{}` is not a pixel of a picture; write X,Y from its upper left "
                                  "corner, as 640,360",
                                  text)};
     }
@@ -76,14 +77,14 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->type_name("WxH")
         ->group("Picture");
     app.add_option("--camera", options.camera,
-                   "Where from: `eye X,Y,Z target X,Y,Z fov DEGREES`, or parts of it (default: a "
+                   "Viewpoint: `eye X,Y,Z target X,Y,Z fov DEGREES`, or parts of it (default: a "
                    "plant or small forest as a whole, a large forest from its edge)")
         ->type_name("LINE")
         ->group("Picture");
     constexpr float kMinAir = 0.01F;
     constexpr float kMaxAir = 1e6F;
     add_parsed(
-        app, "--air", options.air,
+        app, "--air", options.visibility,
         [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
         "Visibility in a forest, km: haze leaves 2 % of the contrast there (default: 12 times the "
         "diagonal of the ground, at least 10)")
@@ -105,7 +106,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     add_parsed(
         app, "--fps", options.frames_per_second,
         [](const std::string& text) { return parse_number(text, kSlowest, kFastest); },
-        "Pictures a second of a series (default 24)")
+        "Pictures per second of a series (default 24)")
         ->type_name("F")
         ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
@@ -117,8 +118,8 @@ void add_picture(CLI::App& app, ViewOptions& options) {
            "trees with stages; in a window growth plays at once")
         ->group("Picture");
     add_parsed(app, "--pick", options.pick, parse_pixel,
-               "Tell what the pixel of the picture shows: of a plant the module, of a forest the "
-               "branch, each with the production that wrote it, its place and generation")
+               "Describe what the pixel of the picture shows: the module of a plant or the "
+               "branch of a forest, with the production that wrote it, its place and generation")
         ->type_name("X,Y")
         ->group("Picture");
     add_choice<std::optional<TraceScope>>(
@@ -154,7 +155,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         {{"none", LineKind::None},
          {"skeleton", LineKind::Skeleton},
          {"path", LineKind::TurtlePath}},
-        "Lines over all: segments by order of branching, or the turtle's path by time "
+        "Lines over the picture: segments by branching order, or the turtle's path by time "
         "(default none)")
         ->group("Picture");
     add_choice<BranchColours>(app, "--colours", options.colours,
@@ -173,18 +174,17 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                        ? samples
                        : Result<std::uint64_t>(Error{fmt::format("`{}` is neither 1 nor 4", text)});
         },
-        "Samples of a pixel, 1 or 4 (default 4)")
+        "Samples per pixel, 1 or 4 (default 4)")
         ->type_name("N")
         ->group("Picture");
     constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
-    add_parsed(
-        app, "--triangles", options.max_triangles, integer(0, kMaxTriangles),
-        "The most triangles of branches in a picture of a forest; with more, trees are drawn "
-        "coarser (default 1500000)")
+    add_parsed(app, "--triangles", options.max_triangles, integer(0, kMaxTriangles),
+               "Max triangles of branches in a picture of a forest; with more, trees are drawn "
+               "coarser (default 1500000)")
         ->type_name("N")
         ->group("Picture");
     app.add_option("--shaders", options.shaders,
-                   "Read shaders from this folder instead of those built in")
+                   "Read shaders from this folder instead of the built-in ones")
         ->type_name("FOLDER")
         ->group("Picture");
 }
@@ -256,8 +256,8 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
         return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
     }
-    if (!options.is_forest && options.air) {
-        return UsageError{"--air is the haze of a forest, and this is a plant", "leave it out"};
+    if (!options.is_forest && options.visibility) {
+        return UsageError{"--air sets the haze of a forest, and this is a plant", "leave it out"};
     }
     if (options.is_forest && options.plant_height) {
         options.overrides.height = {*options.plant_height, *options.plant_height};
@@ -267,17 +267,18 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return UsageError{"--frames and --stats belong to pictures", "add `--screenshot FILE`"};
     }
     if (!options.is_forest && options.colours != BranchColours::Natural) {
-        return UsageError{"--colours tells the branches of a forest apart, and this is a plant",
+        return UsageError{"--colours is for the branches of a forest, and this is a plant",
                           "add `--count 1` for a forest of one plant"};
     }
     if (options.pick && options.screenshot.empty()) {
-        return UsageError{"--pick tells of a pixel of a picture",
+        return UsageError{"--pick describes a pixel of a picture",
                           "add `--screenshot FILE`, or click in the window"};
     }
     if (options.why && options.is_forest) {
-        return UsageError{"--why explains a module of a plant, and a branch of a forest stands for "
-                          "many",
-                          "show its grammar alone"};
+        return UsageError{
+            "--why explains a module of a plant, and a branch of a forest is shared by "
+            "many places",
+            "show its grammar alone"};
     }
     if (options.why && !options.pick) {
         return UsageError{"--why explains the module that a pixel shows", "add `--pick X,Y`"};
@@ -294,21 +295,21 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
                           "name a file instead of `-`"};
     }
     if (options.turntable && options.frames == 0) {
-        return UsageError{"--turntable is a series of pictures", "add `--frames N`"};
+        return UsageError{"--turntable needs a series of pictures", "add `--frames N`"};
     }
     if (options.grow && !options.screenshot.empty() && options.frames == 0) {
-        return UsageError{"--grow is a series of pictures", "add `--frames N`"};
+        return UsageError{"--grow needs a series of pictures", "add `--frames N`"};
     }
     if (options.grow && !options.is_forest && (options.gravity || options.wind)) {
         return UsageError{"--grow shows a plant at rest, without --gravity and --wind",
                           "leave them out, or --grow"};
     }
     if (options.frames != 0 && options.screenshot == "-") {
-        return UsageError{"a series of pictures does not go to standard output",
+        return UsageError{"a series of pictures cannot be written to standard output",
                           "write `--screenshot FILE`"};
     }
     if (is_standard_input(options.file) && options.screenshot.empty()) {
-        return UsageError{"a window reads its file again and again, so it cannot show "
+        return UsageError{"a window reloads its file, so it cannot show "
                           "standard input",
                           "add `--screenshot FILE`, or write the grammar to a file"};
     }
@@ -329,7 +330,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.seed.reset();
     options.plant_height.reset();
     options.camera.clear();
-    options.air.reset();
+    options.visibility.reset();
 }
 
 } // namespace lsys::view

@@ -46,8 +46,8 @@ struct ViewOptions {
     std::uint32_t height = 720;
     std::optional<float> gravity; // m/s^2
     std::optional<Wind> wind;
-    float time = 0.0F;        // s, of the wind
-    std::optional<float> air; // visibility in a forest, km
+    float time = 0.0F;               // s, of the wind
+    std::optional<float> visibility; // in a forest, km
     bool shadows = true;
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
@@ -68,8 +68,8 @@ struct ViewOptions {
     std::string stats;                // JSON file; `-`: standard output
 };
 
-/// Sets the file to open. Options about the grammars and the view of the former files are dropped:
-/// they belong to the files that the command line names.
+/// Sets the file to open. Drops the options for grammars and views, which belong to the files that
+/// the command line names.
 void use_other_file(ViewOptions& options, const std::string& file);
 
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;

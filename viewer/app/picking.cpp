@@ -45,7 +45,7 @@ std::uint32_t generations_of(const ViewOptions& options, const PlantDocument& do
 /// Counts of a branch in a forest.
 struct BranchCount {
     std::uint64_t branches = 0;
-    std::uint64_t trees = 0; // with at least one
+    std::uint64_t trees = 0; // trees with at least one such branch
 };
 
 std::optional<BranchCount> count_branch(const InstanceCache& cache,
@@ -92,7 +92,7 @@ Outcome<Description> describe(const PickedTriangle& picked,
     const std::optional<SkeletonItem> item =
         item_of_triangle(*picked.pose, document.plant.user_meshes, mesh, picked.triangle);
     if (!item) {
-        return step.fail("there is no memory to name what was picked");
+        return step.fail("not enough memory to describe the picked part");
     }
     // Copies only the parts of the grammar that a derivation needs: a program cannot be copied.
     Grammar grammar;
@@ -192,12 +192,13 @@ Outcome<Description> describe(const Picked& picked,
         return step.end(Stop::Cancelled);
     }
     Description description;
-    description.hint = "a branch stands for many, so there is no trace: open its grammar alone";
+    description.hint =
+        "a branch is shared by many places, so there is no trace: open its grammar alone";
     std::vector<std::string>& lines = description.lines;
     lines.push_back(fmt::format("branch {} of {}: id {}, age {}, hero {}", picked.instance,
                                 grouped(cache.instances.size()), slot.id, slot.age, instance.hero));
     lines.push_back(origins[picked.instance]);
-    lines.push_back(fmt::format("it stands {} in the forest, in {}",
+    lines.push_back(fmt::format("it occurs {} in the forest, in {}",
                                 counted(count->branches, grouped(count->branches), "time"),
                                 counted(count->trees, grouped(count->trees), "tree")));
     lines.push_back(tree_text(picked, document));

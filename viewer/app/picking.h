@@ -22,7 +22,7 @@ namespace lsys::view {
 
 /// A triangle of a plant as it is shown.
 struct PickedTriangle {
-    std::uint64_t triangle = 0; // in Mesh::indices
+    std::uint64_t triangle = 0; // index in Mesh::indices
     glm::vec3 place{};          // m
     const Skeleton* pose = nullptr;
     MeshOptions mesh;                   // options with which the pose was meshed
@@ -75,8 +75,8 @@ struct PickRequest {
     std::function<Outcome<Description>(const Project&)> describe;
     TraceFunction trace; // of the module described; empty in forests
     RunOptions run;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// Returns the description, or the messages of its failure.
@@ -90,8 +90,8 @@ struct TraceRequest {
     PickedModule module;
     TraceScope scope = TraceScope::Written;
     RunOptions run;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// Returns the text of the trace, and messages of errors that end it.

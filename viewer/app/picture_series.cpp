@@ -120,7 +120,7 @@ ExitStatus take_series(const ViewOptions& options,
         series.digest = golden_multiple(series.digest) + fnv1a(picture.texels);
         const std::string bytes = encode_png(picture);
         if (bytes.empty()) {
-            return report_error(Error{"there is no memory for the picture"}, console);
+            return report_error(Error{"not enough memory for the picture"}, console);
         }
         const std::string path =
             options.frames == 0 ? options.screenshot : numbered_path(options.screenshot, i + 1);

@@ -12,10 +12,10 @@
 namespace lsys::view {
 
 struct FilmRequest {
-    ViewOptions options; // of the plant; the growth ends at its generations
+    ViewOptions options; // the growth ends at their number of generations
     GrowthMoment moment;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 /// The plant at a moment.

@@ -15,7 +15,7 @@ namespace {
 LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled) {
     LoadOutcome outcome;
     outcome.options = request.options;
-    outcome.since = request.since;
+    outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
     const Project project{record_files(make_file_host(&cancelled), outcome.files),
                           request.options.run.limits,

@@ -1,4 +1,4 @@
-// PlantLoader: makes plants on a thread of its own: LatestRequestWorker.
+// PlantLoader: makes plants on a thread of its own, a LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/latest_request_worker.h"
@@ -17,16 +17,16 @@ namespace lsys::view {
 struct LoadOutcome {
     std::shared_ptr<const PlantDocument> document; // null: failed
     Messages messages;
-    std::vector<std::string> files; // all requested files, readable or not
-    ViewOptions options;            // options of the request
-    SteadyClock::time_point since;  // time of the change that caused the request
-    double seconds = 0.0;           // time of making
+    std::vector<std::string> files;     // all requested files, readable or not
+    ViewOptions options;                // options of the request
+    SteadyClock::time_point changed_at; // time of the change that caused the request
+    double seconds = 0.0;               // time of making
 };
 
 struct LoadRequest {
     ViewOptions options;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 
 class PlantLoader {
@@ -34,10 +34,10 @@ public:
     /// `done` is called on the loader's thread whenever take() has an outcome.
     explicit PlantLoader(std::function<void()> done);
 
-    void request(const ViewOptions& options, SteadyClock::time_point since) {
-        worker_.request({options, since, false});
+    void request(const ViewOptions& options, SteadyClock::time_point changed_at) {
+        worker_.request({options, changed_at, false});
     }
-    void repeat(SteadyClock::time_point since) { worker_.repeat(since); }
+    void repeat(SteadyClock::time_point changed_at) { worker_.repeat(changed_at); }
     [[nodiscard]] std::optional<LoadOutcome> take() { return worker_.take(); }
     [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
 

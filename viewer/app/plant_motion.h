@@ -28,8 +28,8 @@ struct Bending {
 struct StandingRequest {
     std::shared_ptr<const PlantDocument> document;
     Bending bending;
-    SteadyClock::time_point since;
-    bool again = false;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
 };
 struct StandingOutcome {
     std::shared_ptr<const PlantDocument> document;

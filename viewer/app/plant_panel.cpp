@@ -254,7 +254,7 @@ void draw_look(PlantViewSettings& settings) {
     draw_camera(settings.camera);
 }
 
-/// `own_droop`: droop of the plant's leaves unless the user sets one.
+/// `own_droop`: droop of the plant's leaves unless the user sets another one.
 void draw_mesh(PlantViewSettings& settings, float own_droop) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
@@ -305,8 +305,8 @@ void draw_bending(PlantViewSettings& settings) {
     ImGui::Checkbox("Simulate", &settings.simulates);
     ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    // Ten decades, from trees that hang down to stalks that stand stiff. ImGui takes the smallest
-    // value of a logarithmic slider from the digits of its format.
+    // Ten decades, from sagging trees to rigid stalks. ImGui derives the smallest value of a
+    // logarithmic slider from the digits of its format.
     ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 1e-5F, 1e5F, "x%.6g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",

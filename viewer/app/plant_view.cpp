@@ -57,7 +57,7 @@ PlantView::PlantView(const ViewOptions& options,
     : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
       plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
-             [this](const std::vector<std::string>& files, SteadyClock::time_point since) {
+             [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
                  const auto shaders =
                      std::count_if(files.begin(), files.end(),
                                    [this](const std::string& each) { return is_shader(each); });
@@ -66,7 +66,7 @@ PlantView::PlantView(const ViewOptions& options,
                      wake_();
                  }
                  if (static_cast<std::size_t>(shaders) != files.size()) {
-                     loader_.repeat(since);
+                     loader_.repeat(changed_at);
                  }
              }) {
     files_ = {settings.file};
@@ -127,9 +127,9 @@ void PlantView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
         return; // the outcome of a newer request follows
     }
-    const bool fine = outcome.document != nullptr;
-    take_messages(outcome.messages, fine);
-    if (fine) {
+    const bool succeeded = outcome.document != nullptr;
+    take_messages(outcome.messages, succeeded);
+    if (succeeded) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
@@ -187,7 +187,7 @@ void PlantView::swap(LoadOutcome outcome) {
     }
     stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
-    stats_.swap_seconds = seconds_since(outcome.since);
+    stats_.swap_seconds = seconds_since(outcome.changed_at);
     ++stats_.swaps;
     shown_outcome_ = std::move(outcome);
     logs_next_frame_ = true;
@@ -266,7 +266,7 @@ void PlantView::take_moment() {
     }
 }
 
-/// Asks for the next moment of growth. Slow plants grow in slow motion.
+/// Requests the next moment of growth. Slow plants grow in slow motion.
 void PlantView::grow() {
     if (!settings.plays || document_ == nullptr) {
         if (film_ != nullptr) {
@@ -321,7 +321,7 @@ Result<std::string> PlantView::text_with_values(const StatementValues& values) c
         return Error{fmt::format("`{}` is compiled; write to its grammar", file)};
     }
     if (!grammar.translation.empty()) {
-        return Error{fmt::format("`{}` is no .lsys file; `lsc import --set` makes one", file)};
+        return Error{fmt::format("`{}` is not a .lsys file; `lsc import --set` makes one", file)};
     }
     Result<std::string> bytes = read_file(file, {kMaxSourceBytes}, console_);
     if (!bytes) {
@@ -502,7 +502,7 @@ void PlantView::picture_shown(double draw_seconds) {
     if (!std::exchange(logs_next_frame_, false)) {
         return;
     }
-    stats_.shown_seconds = seconds_since(shown_outcome_.since);
+    stats_.shown_seconds = seconds_since(shown_outcome_.changed_at);
     console_.detail(
         fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
                     "{:.0f} ms after the change",

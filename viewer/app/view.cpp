@@ -51,7 +51,7 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
 
 } // namespace
 
-void View::take_messages(const Messages& messages, bool fine) {
+void View::take_messages(const Messages& messages, bool succeeded) {
     MessageOptions plain = options_.messages;
     plain.colour = ColourMode::Never;
     std::string text = messages_text(messages, plain, "lsview");
@@ -60,7 +60,7 @@ void View::take_messages(const Messages& messages, bool fine) {
         entries_ = entries_of(messages);
         console_.io().err << text_ << std::flush;
     }
-    failed_ = !fine;
+    failed_ = !succeeded;
 }
 
 bool View::reload_shaders() {
@@ -117,7 +117,7 @@ void View::pick(const PicturePixel& pixel) {
         return;
     }
     request.run = options_.run;
-    request.since = SteadyClock::now();
+    request.changed_at = SteadyClock::now();
     trace_function_ = request.trace;
     if (picker_ == nullptr) {
         picker_ = std::make_unique<PickWorker>(run_pick, wake_);

@@ -110,7 +110,7 @@ protected:
     /// Draws `frame` unless nothing changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
-    void take_messages(const Messages& messages, bool fine);
+    void take_messages(const Messages& messages, bool succeeded);
     void request_shader_reload() { shaders_changed_ = true; }
     /// Reloads shaders if they changed. Returns whether messages changed.
     bool reload_shaders();
@@ -144,8 +144,8 @@ private:
     std::vector<TextLine> traced_;
     bool wants_trace_ = false;            // no forget_trace() since the trace began
     std::unique_ptr<TraceWorker> tracer_; // made by the first trace
-    bool wants_picked_ = false; // the outcome of picker_ is still wanted: no forget_picked() since
-    std::unique_ptr<PickWorker> picker_; // made by the first pick
+    bool wants_picked_ = false;           // no forget_picked() since the request of picker_
+    std::unique_ptr<PickWorker> picker_;  // made by the first pick
 };
 
 } // namespace lsys::view

@@ -33,7 +33,8 @@ void ViewSwitcher::make(const ViewOptions& options) {
 void ViewSwitcher::open(const std::string& file) {
     if (current_->is_unsaved() && refused_file_ != file) {
         refused_file_ = file;
-        current_->set_note("what was painted is not saved: Ctrl+S saves it; ask again to leave it");
+        current_->set_note(
+            "painted trees are not saved: Ctrl+S saves them; repeat to go on without saving");
         return;
     }
     refused_file_.clear();

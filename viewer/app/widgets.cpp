@@ -29,7 +29,7 @@ void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
     float direction = speed > 0.0F ? std::atan2(wind.velocity.z, wind.velocity.x) * kDegrees : 0.0F;
-    // At speed 0 the velocity would lose its direction, so a min speed is kept.
+    // Keep a min speed: at speed 0 the velocity would lose its direction.
     constexpr float kMin = 1e-4F;
     bool changed = ImGui::SliderFloat("Wind speed", &speed, 0.0F, 40.0F, "%.1f m/s");
     changed |=

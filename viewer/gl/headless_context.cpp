@@ -14,7 +14,7 @@ namespace lsys::view {
 namespace {
 
 /// Explains that the OpenGL version of the context is too old; empty if it is not.
-std::string why_too_old() {
+std::string version_error() {
     const int version = epoxy_gl_version();
     return version >= 45
                ? std::string()
@@ -72,7 +72,7 @@ struct HeadlessContext::State {
         if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
             return "its context cannot be used without a surface";
         }
-        return why_too_old();
+        return version_error();
     }
     std::string use_surfaceless() {
         const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -120,7 +120,7 @@ struct HeadlessContext::State {
             return "it has no OpenGL 4.5 core";
         }
         glfwMakeContextCurrent(window);
-        return why_too_old();
+        return version_error();
     }
     void clear() {
         if (context != EGL_NO_CONTEXT) {
@@ -165,7 +165,7 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
         context->state_->clear();
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", method.name, reason);
     }
-    return Error{fmt::format("there is no OpenGL 4.5 to draw with ({})", reasons)};
+    return Error{fmt::format("OpenGL 4.5 is not available ({})", reasons)};
 }
 
 } // namespace lsys::view

@@ -38,18 +38,18 @@ struct Programs {
 
 Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     Programs programs;
-    struct Wanted {
+    struct ProgramSpec {
         ProgramObject Programs::*program;
         const char* vertex;
         const char* fragment;
     };
-    const std::array<Wanted, 5> wanted = {
+    const std::array<ProgramSpec, 5> wanted = {
         {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
          {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
          {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
          {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"},
          {&Programs::line, "line.vert.glsl", "line.frag.glsl"}}};
-    for (const Wanted& one : wanted) {
+    for (const ProgramSpec& one : wanted) {
         Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
         if (!made) {
             return made.error();

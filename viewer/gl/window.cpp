@@ -43,7 +43,7 @@ Key key_of(int code, int scan_code) {
     return code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? static_cast<Key>(code) : Key::None;
 }
 
-std::string why_glfw_failed() {
+std::string glfw_error() {
     const char* reason = nullptr;
     return glfwGetError(&reason) == GLFW_NO_ERROR || reason == nullptr ? std::string("unknown")
                                                                        : std::string(reason);
@@ -204,7 +204,7 @@ Window::~Window() {
 Result<std::unique_ptr<Window>>
 Window::make(const std::string& title, std::uint32_t width, std::uint32_t height) {
     if (glfwInit() == GLFW_FALSE) {
-        return Error{fmt::format("there is no display for a window ({})", why_glfw_failed())};
+        return Error{fmt::format("there is no display for a window ({})", glfw_error())};
     }
     std::unique_ptr<Window> made(new Window()); // its destructor terminates GLFW
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -217,7 +217,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     state.window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height),
                                     title.c_str(), nullptr, nullptr);
     if (state.window == nullptr) {
-        return Error{fmt::format("the display has no OpenGL 4.5 ({})", why_glfw_failed())};
+        return Error{fmt::format("the display has no OpenGL 4.5 ({})", glfw_error())};
     }
     glfwMakeContextCurrent(state.window);
     glfwSwapInterval(1);

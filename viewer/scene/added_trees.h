@@ -19,7 +19,7 @@ struct LodTree {
 
     glm::vec3 position{};
     float scale = 1.0F;
-    std::uint32_t tree = 0; // in Forest::trees
+    std::uint32_t tree = 0; // index in Forest::trees
     std::uint16_t form = 0;
     // Index in TreeForm::impostor_trees; bit kRemoved is set for a removed tree.
     std::uint16_t impostor = 0;

@@ -22,8 +22,8 @@ glm::vec3 hue_colour(float hue, float saturation, float value) {
     return display * display; // a gamma of 2
 }
 
-/// Colour of a ramp from dark blue over green to yellow, with evenly rising lightness; `part` from
-/// 0 to 1.
+/// Colour of a ramp from dark blue through green to yellow, with evenly rising lightness; `part`
+/// from 0 to 1.
 glm::vec3 ramp_colour(float part) {
     constexpr std::array<glm::vec3, 5> kStops = {{{0.27F, 0.13F, 0.55F},
                                                   {0.20F, 0.42F, 0.72F},
@@ -70,8 +70,8 @@ glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t las
     if (by == BranchColours::Age) {
         return ramp_colour(last == 0 ? 0.0F : static_cast<float>(value) / static_cast<float>(last));
     }
-    // Hues are multiples of the golden ratio, which lie far apart; lightness distinguishes hues
-    // that come near.
+    // Hues are multiples of the golden ratio, so consecutive hues are far apart; lightness
+    // distinguishes hues that are similar.
     constexpr double kGolden = 0.6180339887498949;
     const double turns = 0.07 + kGolden * static_cast<double>(value);
     const auto hue = static_cast<float>(turns - std::floor(turns));

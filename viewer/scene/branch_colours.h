@@ -29,8 +29,8 @@ struct LegendEntry {
 [[nodiscard]] std::uint32_t
 branch_value(BranchColours by, const InstanceCache& cache, std::uint32_t instance);
 
-/// Linear RGB. Ids and heroes have hues that lie far apart for neighbours; ages go from dark blue
-/// over green to yellow, `last` is the greatest age. Precondition: `by` is not Natural.
+/// Linear RGB. Consecutive ids and heroes have very different hues; ages go from dark blue through
+/// green to yellow. `last` is the greatest age. Precondition: `by` is not Natural.
 [[nodiscard]] glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t last);
 
 /// Colours of all branches of the heroes, in ascending order of value. Empty for Natural.

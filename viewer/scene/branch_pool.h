@@ -19,7 +19,7 @@ struct PoolBranch {
     float scale = 1.0F;
     std::array<std::int16_t, 4> rotation{}; // x, y, z, w in 1/32767
     std::uint32_t mesh = 0;                 // instance in its form's cache
-    std::uint32_t tree = 0;                 // in ForestLod::trees()
+    std::uint32_t tree = 0;                 // index in ForestLod::trees()
 
     /// Transforms a point of the hero, m, into the forest.
     [[nodiscard]] glm::vec3 at(const glm::vec3& place) const;

@@ -91,9 +91,10 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
                     fmt::format("a camera's field of view is 1 to 170 degrees, not `{}`", value)};
             }
         } else {
-            return Error{fmt::format("a camera is `eye X,Y,Z target X,Y,Z fov DEGREES`; `{}` is no "
-                                     "part of it",
-                                     word)};
+            return Error{
+                fmt::format("a camera is `eye X,Y,Z target X,Y,Z fov DEGREES`; `{}` is not a "
+                            "part of it",
+                            word)};
         }
     }
     if (glm::distance(camera.eye, camera.target) < 1e-4F) {

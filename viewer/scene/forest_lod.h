@@ -98,7 +98,7 @@ struct BranchRun {
     std::uint32_t form = 0;
     std::uint32_t level = 0;
     std::uint32_t instance = 0;
-    std::uint32_t first = 0; // in DrawLists::branches
+    std::uint32_t first = 0; // index in DrawLists::branches
     std::uint32_t count = 0;
     bool blends = false; // with impostors of the same trees
 };
@@ -122,7 +122,7 @@ struct DrawLists {
 
 /// A square of the ground.
 struct ForestCell {
-    std::uint32_t first = 0; // in ForestLod::trees()
+    std::uint32_t first = 0; // index in ForestLod::trees()
     std::uint32_t count = 0;
     glm::vec3 low{}; // bounding box of its trees
     glm::vec3 high{};
@@ -192,9 +192,9 @@ private:
 
     /// A tree with branches in view.
     struct VisibleTree {
-        std::uint32_t first = 0; // in visible_branches_
+        std::uint32_t first = 0; // index in visible_branches_
         std::uint32_t end = 0;
-        std::uint32_t first_mesh = 0; // in mesh_counts_
+        std::uint32_t first_mesh = 0; // index in mesh_counts_
     };
     /// Group of mesh_counts_ for blended trees; the groups before it are those of the levels.
     static constexpr std::uint32_t kBlending = kTreeLevels;
@@ -210,8 +210,8 @@ private:
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
-    /// Max error in m of the heights at which the picture of a cluster shows trees at the edges of
-    /// its cell. The error arises because the picture is taken from one of few elevations.
+    /// Max error, m, of the height at which a cluster shows trees at the edges of its cell: its
+    /// picture is taken from one of few elevations.
     [[nodiscard]] float cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,

@@ -60,7 +60,7 @@ Sphere joined(const Sphere& a, const Sphere& b) {
             radius * 1.0001F}; // covers rounding errors
 }
 
-/// Finds the first tree of which `instance` is the whole plant.
+/// Finds the first tree whose whole plant is `instance`.
 bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,

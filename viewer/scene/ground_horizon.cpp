@@ -15,8 +15,8 @@ namespace {
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kFirst = 2.0F; // m: nearer ground occludes nothing
 constexpr float kRatio = 1.06F;
-/// Added to slopes: covers the error of taking the arc between two directions as a straight line
-/// between its ends.
+/// Added to slopes: covers the error of approximating the arc between two directions by a straight
+/// line between its ends.
 constexpr float kMargin = 5e-4F;
 
 /// Index of the step at a distance, m, as a real number.

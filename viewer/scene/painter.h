@@ -106,7 +106,7 @@ private:
     LargeVector<std::uint8_t> placed_alive_;
     LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
-    // Erased trees of the painting whose numbers `placed` does not have.
+    // Erased trees of the painting whose numbers do not occur in `placed`.
     std::vector<std::uint32_t> erased_before_;
     std::uint64_t draws_ = 0; // count of random numbers used
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
 constexpr float kNearestRange = 34.0F; // m, of level 0
-// No gaps between levels: vertices of the finer level have morphed at its range, and those of the
-// coarser level start no nearer than the farthest corner of a node that meets that range: 0.85 * 2
-// * 34 >= 34 + sqrt(2) * 16.
+// No gaps between levels: vertices of the finer level finish their morph at its range. Vertices of
+// the coarser level begin theirs beyond the farthest corner of a node that touches that range,
+// since 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
 constexpr float kMorphStart = 0.85F;
 // The grid follows the camera in steps, so that it is seldom rebuilt.
 constexpr std::int64_t kGridStep = 16;

@@ -8,8 +8,8 @@ layout(binding = 2) uniform sampler2D leaf_texture;
 in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
-flat in uint kind; // bits: 1 textured, 2 translucent, 4 bumpy, 8 one colour; from
-                      // 256 on the translucency in 1/256
+flat in uint kind; // flags: 1 textured, 2 translucent, 4 bumpy, 8 one colour;
+                      // bits from 8 on: translucency in 1/256
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -35,7 +35,7 @@ out vec4 colour;
 layout(binding = 5) uniform sampler2D relief_texture; // normals as in glTF
 // Normal with the relief texture applied. The axes of the texture come from differences between
 // pixels, because vertices have no tangents (Schueler 2006, "Normal Mapping without Precomputed
-// Tangents", ShaderX 5). `normal`: that of the visible side.
+// Tangents", ShaderX 5). `normal`: the normal of the visible side.
 vec3 bumped(vec3 normal) {
     vec3 across = cross(dFdy(from_eye), normal);
     vec3 along = cross(normal, dFdx(from_eye));

@@ -84,8 +84,8 @@ vec3 shade_crown(vec3 albedo, vec3 normal, float lit, float translucency, float 
 }
 
 // Fraction of the sunlight that reaches a place in a crown through the rest of the crown.
-// `crown_position`: relative to the centre, in axes of the crown. Close to the mean of the shadow map
-// at such places in a wood, over views from the ground (where the mean is lower) and from above.
+// `crown_position`: relative to the centre, in axes of the crown. Fitted to the mean of the shadow map
+// at such places in a wood, over views from the ground (lower means) and from above.
 float crown_sunlight(vec3 crown_position) {
     return clamp(0.58 + 0.45 * dot(crown_position, frame.to_sun.xyz), 0.12, 0.97);
 }

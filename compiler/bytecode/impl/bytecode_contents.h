@@ -4,17 +4,17 @@
 //
 // A stream has these functions, each of which takes a field by reference:
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
-//   number_or_none a number that is kNone in most programs; kNone leaves the digest as it is
-//   table_or_none  a table that most programs lack; an empty one leaves the digest as it is
-//   implied        a truth that decides the derived word, computed from a field that as a whole does
-//                  not and therefore goes to outside_digest(); only the digest uses it
-//   outside_digest() returns the stream for fields that do not affect the derived word: itself, but
-//                  an IgnoringStream in the digest
+//   number_or_none a number that is kNone in most programs; kNone does not change the digest
+//   table_or_none  a table that most programs lack; an empty one does not change the digest
+//   implied        a truth value, computed from a field for the digest: the derived word depends on
+//                  it, but not on the rest of the field, which goes to outside_digest()
+//   outside_digest() returns the stream for fields that do not affect the derived word: an
+//                  IgnoringStream in the digest, otherwise the stream itself
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured
 // binding, so that a new field does not compile until it has a name here. Pass the field to the
-// stream: then it is written, read and digested. Only a field that decides drawing, printing or
-// messages alone goes to outside_digest(). Either way the format of .lsb files changes: raise
-// kModuleFileVersion.
+// stream: then it is written, read and digested. Only a field that affects nothing but drawing,
+// printing or messages goes to outside_digest(). In both cases the format of .lsb files changes:
+// raise kModuleFileVersion.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -211,7 +211,7 @@ void describe_production(Stream& stream, Value& production) {
     describe_word(stream, successor);
 }
 
-/// Leaves out the slopes: set_slopes() computes them from the points.
+/// Omits the slopes, which set_slopes() computes from the points.
 template <typename Stream, typename Value>
 void describe_curve(Stream& stream, Value& curve) {
     auto& [name, points] = curve;

@@ -19,9 +19,9 @@ public:
     /// linear map of the counts.
     [[nodiscard]] static std::optional<GrowthPowers> make(ModuleClasses& classes);
 
-    /// Moves the walk ahead to generation `age`. Precondition: age >= walk.age().
+    /// Advances the walk to generation `age`. Precondition: age >= walk.age().
     void advance_to(GrowthWalk& walk, std::uint32_t age);
-    /// Moves the walk ahead while its lower bound is at most `max_modules`, at most to `age`.
+    /// Advances the walk while its lower bound is at most `max_modules`, at most to `age`.
     /// Precondition: never_shrinks().
     void advance_while_fitting(GrowthWalk& walk, std::uint32_t age, std::uint64_t max_modules);
     [[nodiscard]] bool never_shrinks() const { return never_shrinks_; }

@@ -119,7 +119,7 @@ private:
     }
 
     ModuleClasses& classes_;
-    std::vector<Bounds> values_; // by class: size of what one module has become
+    std::vector<Bounds> values_; // by class: size of the modules that one module has become
     std::vector<ClassId> all_;
     std::vector<std::vector<ClassId>> by_rule_; // for sequential rewriting, else empty
     std::uint64_t terms_ = 0;

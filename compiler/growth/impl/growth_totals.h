@@ -17,9 +17,9 @@ struct SizeBounds {
     std::vector<GenerationSize> high;
 };
 
-/// Bounds of generations 0 ... generations; expands the classes that these reach. Empty for
-/// expansions that depend on the age, cyclic rewriting, predecessors of several modules, and too
-/// much work.
+/// Bounds of generations 0 ... generations; expands the classes that occur in them. Empty for
+/// expansions that depend on the age, for cyclic rewriting, for predecessors of several modules,
+/// and for programs that need too much work.
 [[nodiscard]] SizeBounds bound_totals(ModuleClasses& classes, std::uint32_t generations);
 
 } // namespace lsys::analysis

@@ -12,7 +12,7 @@ namespace lsys::analysis {
 
 namespace {
 
-std::uint64_t small(const Count& count) {
+std::uint64_t low_64_bits(const Count& count) {
     return count.value.low;
 }
 
@@ -20,8 +20,8 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// a - b, at least 0. Counts beyond 2^128 are logarithms, which hide small differences: the result
-/// is 0 if b is a logarithm, and a if only a is one.
+/// a - b, at least 0. Counts beyond 2^128 are logarithms, which hide low_64_bits differences: the result
+/// is 0 if b is a logarithm, and a if only a is a logarithm.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -167,8 +167,8 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
             }
         }
         work_ += high.size() + low.size();
-        decided_ = decided_ && expansion.decided;
-        if (decided_) {
+        probabilities_known_ = probabilities_known_ && expansion.probabilities_known;
+        if (probabilities_known_) {
             for (const ClassOutcome& outcome : classes_->outcomes(expansion.outcomes)) {
                 for (const ClassTerm& term : classes_->terms(outcome.terms)) {
                     expected_[static_cast<std::size_t>(term.target)] +=
@@ -202,13 +202,13 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return matches;
 }
 
-/// Lowers the lower bounds by the modules that `matches` matches replace, since as many as that may
-/// occur.
-void GrowthWalk::use_up(const SequenceRule& rule, const Count& matches) {
+/// Subtracts from the lower bounds the modules that `matches` matches of the rule replace, because
+/// that many matches may occur.
+void GrowthWalk::subtract_replaced(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
     }
-    decided_ = false;
+    probabilities_known_ = false;
     for (const auto& [symbol, uses] : rule.uses) {
         for (const ClassId id : by_symbol_[static_cast<std::uint32_t>(symbol)]) {
             Count& low = low_[static_cast<std::size_t>(id)];
@@ -234,14 +234,14 @@ void GrowthWalk::pass(const Rule& rule) {
     if (rule.sequence != kNone) {
         const SequenceRule& sequence = sequences_[rule.sequence];
         const Count matches = max_matches(sequence);
-        use_up(sequence, matches);
+        subtract_replaced(sequence, matches);
         write(sequence, matches);
         return;
     }
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
     if (found != by_symbol_.end()) {
         const std::vector<ClassId> ids =
-            found->second; // a pass does not read the modules it writes
+            found->second; // modules written in a pass are not read in it
         rewrite(ids);
     }
 }
@@ -281,7 +281,7 @@ void GrowthWalk::advance() {
             matches.push_back(max_matches(sequence));
         }
         for (std::size_t i = 0; i < sequences_.size(); ++i) {
-            use_up(sequences_[i], matches[i]);
+            subtract_replaced(sequences_[i], matches[i]);
         }
         const std::vector<ClassId> ids = present_;
         rewrite(ids);
@@ -319,9 +319,9 @@ GenerationSize GrowthWalk::total(const std::vector<Count>& counts, bool is_low) 
         // `size` is the size of one module, so its counts fit 64 bits.
         const Count& times = counts[static_cast<std::size_t>(id)];
         add_times(sum.modules, times, 1);
-        add_times(sum.parameters, times, small(size.parameters));
-        add_times(sum.segments, times, small(size.segments));
-        add_times(sum.bytes, times, small(size.bytes));
+        add_times(sum.parameters, times, low_64_bits(size.parameters));
+        add_times(sum.segments, times, low_64_bits(size.segments));
+        add_times(sum.bytes, times, low_64_bits(size.bytes));
     }
     return sum;
 }
@@ -373,13 +373,14 @@ ProductionId GrowthWalk::dominant() {
             for (const ClassTerm& term : classes_->terms(outcome.terms)) {
                 modules += term.count;
             }
-            const double times = decided_ && expansion.decided ? expected_[i] * outcome.probability
-                                                               : as_double(high_[i]);
+            const double times = probabilities_known_ && expansion.probabilities_known
+                                     ? expected_[i] * outcome.probability
+                                     : as_double(high_[i]);
             modules_written[outcome.production] += times * modules;
         }
     }
     for (const SequenceRule& rule : sequences_) {
-        // All matches count for the first production of the rule, since any other may match too.
+        // Count all matches for the first production of the rule, since the others may match too.
         double modules = 0.0;
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;

@@ -1,5 +1,5 @@
 // The min, max and expected number of modules of each class in a word, generation by generation. A
-// GrowthWalk holds the counts of one generation; advance() replaces them by those of the next.
+// GrowthWalk holds the counts of one generation; advance() computes the counts of the next.
 #pragma once
 
 #include "compiler/growth/growth.h"
@@ -32,13 +32,13 @@ public:
     [[nodiscard]] GenerationSize high() const { return total(high_, false); }
     [[nodiscard]] double expected_modules() const;
     /// Whether the expected counts are known: every outcome so far had a known probability.
-    [[nodiscard]] bool decided() const { return decided_; }
-    /// Whether no production can change this word or the later ones.
+    [[nodiscard]] bool probabilities_known() const { return probabilities_known_; }
+    /// Whether no production can change the current word or later words.
     [[nodiscard]] bool is_final();
-    /// Whether a generation is a linear map of the counts that does not depend on the age, except
-    /// for the choice of the rule in cyclic rewriting.
+    /// Whether a generation is a linear map of the counts. The map may depend on the age only by
+    /// the choice of the rule in cyclic rewriting.
     [[nodiscard]] bool is_linear() const;
-    /// The production that writes most modules of the next generation.
+    /// The production that writes the most modules of the next generation.
     [[nodiscard]] ProductionId dominant();
     /// Number of terms processed so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
@@ -46,14 +46,14 @@ public:
     [[nodiscard]] Count low(ClassId id) const { return at(low_, id); }
     [[nodiscard]] Count high(ClassId id) const { return at(high_, id); }
     [[nodiscard]] std::span<const ClassId> present() const { return present_; }
-    /// Replaces the word by one of age `age` with these counts by class.
+    /// Replaces the word by a word of age `age` with these counts by class.
     void load(std::uint32_t age, std::span<const Count> low, std::span<const Count> high);
 
 private:
     /// A rule with several predecessor modules.
     struct SequenceRule {
         std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules that a match replaces
-        std::vector<ClassTerm> max_written; // most modules of each class that a match writes
+        std::vector<ClassTerm> max_written; // max count of modules of each class per match
         ProductionId first = kNoProduction;
     };
     struct Rule {
@@ -68,7 +68,7 @@ private:
     void list_rules();
     void pass(const Rule& rule);
     void rewrite(std::span<const ClassId> ids);
-    void use_up(const SequenceRule& rule, const Count& matches);
+    void subtract_replaced(const SequenceRule& rule, const Count& matches);
     void write(const SequenceRule& rule, const Count& matches);
     [[nodiscard]] Count max_matches(const SequenceRule& rule) const;
     void add_present(ClassId id);
@@ -79,8 +79,8 @@ private:
 
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;
-    bool decided_ = true;
-    std::vector<Count> low_; // by class: number of modules, as high_ and expected_
+    bool probabilities_known_ = true;
+    std::vector<Count> low_; // by class: number of modules; also high_ and expected_
     std::vector<Count> high_;
     std::vector<double> expected_;
     std::vector<bool> is_present_;

@@ -17,7 +17,7 @@ KnownValue known(const std::optional<std::uint32_t>& count) {
     return count ? known(static_cast<float>(*count)) : KnownValue{};
 }
 
-/// The domain of numbers that may not be known.
+/// The domain of numbers that may be unknown.
 struct Known : UnknownDomain<KnownValue> {
     Known(const ExpressionInputs& given, std::uint64_t& counter) : inputs(given), work(counter) {}
 
@@ -41,7 +41,8 @@ struct Known : UnknownDomain<KnownValue> {
         if (x.known && y.known) {
             return known(arithmetic::apply(opcode, x.value, y.value));
         }
-        // A false side decides `&&`, and a true side decides `||`, whatever the other side is.
+        // A false operand decides `&&`, and a true operand decides `||`, whatever the other operand
+        // is.
         const KnownValue one = x.known ? x : y;
         const bool logical = opcode == Opcode::And || opcode == Opcode::Or;
         const bool decides = one.known && (one.value != 0.0F) == (opcode == Opcode::Or);

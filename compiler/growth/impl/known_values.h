@@ -23,13 +23,13 @@ struct KnownValue {
 struct ExpressionInputs {
     std::span<const KnownValue> formals;
     std::optional<std::uint32_t> step;  // value of step(): age of the word being rewritten
-    std::optional<std::uint32_t> steps; // value of steps(): generations asked for
+    std::optional<std::uint32_t> steps; // value of steps(): requested generations
 };
 
 /// Runs expressions in the domain of known and unknown values (interpret.h).
 class Evaluator {
 public:
-    /// For code that needs at most this stack depth and number of slots.
+    /// For code whose stack depth and number of slots are at most these.
     explicit Evaluator(std::size_t stack_depth = kUsualStack, std::size_t slots = 0)
         : stack_(std::max<std::size_t>(stack_depth, 1)), slots_(slots) {}
 

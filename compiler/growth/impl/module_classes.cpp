@@ -242,7 +242,7 @@ KnownValue ModuleClasses::value_of(std::uint32_t production,
     return evaluator_.run(bytecode_->instructions, first_instruction, inputs(formals));
 }
 
-/// The weight of a stochastic production; unknown if it is in error.
+/// The weight of a stochastic production; unknown if computing it is a run-time error.
 KnownValue ModuleClasses::weight_of(std::uint32_t production,
                                     std::span<const KnownValue> parameters) {
     const BytecodeProduction& p = bytecode_->productions[production];
@@ -268,8 +268,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                                      : Holds::Yes;
     };
     Matches matches;
-    // By stochastic group that is in the list: whether a member is certain to match and to have a
-    // weight above 0.
+    // By stochastic group in the list: whether it has a member that is certain to match and whose
+    // weight is certain to be above 0.
     std::unordered_map<std::uint32_t, bool> groups;
     for (const std::uint32_t p : index_.productions_of(symbol)) {
         const BytecodeProduction& production = bytecode_->productions[p];
@@ -278,7 +278,7 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             continue;
         }
         const bool certain = first == Holds::Yes;
-        bool is_taken = true; // a match replaces the module: some weight is certain to be above 0
+        bool is_taken = true; // a match replaces the module: some weight is surely above 0
         if (!production.stochastic) {
             matches.list.push_back({p, 1.0});
         } else if (const auto added = groups.find(production.group); added != groups.end()) {
@@ -294,7 +294,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
                 if (!weight.known || weight.value != 0.0F) {
                     const double share = weight.known ? static_cast<double>(weight.value) : 1.0;
                     matches.list.push_back({q, share});
-                    matches.decided = matches.decided && member == Holds::Yes && weight.known;
+                    matches.probabilities_known =
+                        matches.probabilities_known && member == Holds::Yes && weight.known;
                     is_taken = is_taken || (member == Holds::Yes && weight.known);
                     sum += share;
                 }
@@ -305,11 +306,11 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             groups.emplace(production.group, is_taken);
         }
         if (certain && !is_taken) { // without a weight above 0 the module is copied
-            matches.decided = matches.decided && matches.list.empty();
+            matches.probabilities_known = matches.probabilities_known && matches.list.empty();
             matches.list.push_back({kNone, 1.0});
             return matches;
         }
-        matches.decided = matches.decided && certain;
+        matches.probabilities_known = matches.probabilities_known && certain;
         if (certain) {
             return matches;
         }
@@ -353,7 +354,8 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
             all = std::move(here);
             continue;
         }
-        all.decided = all.decided && here.decided && here.list == all.list;
+        all.probabilities_known =
+            all.probabilities_known && here.probabilities_known && here.list == all.list;
         for (const Match& m : here.list) {
             const bool present =
                 std::any_of(all.list.begin(), all.list.end(),
@@ -400,7 +402,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
                                              std::span<const KnownValue> parameters) {
     ClassExpansion expansion;
     expansion.done = true;
-    expansion.decided = matches.decided;
+    expansion.probabilities_known = matches.probabilities_known;
     expansion.unchanged = matches.list.size() == 1 && matches.list.front().production == kNone;
     std::vector<ClassOutcome> outcomes;
     std::vector<KnownValue> formals;
@@ -415,7 +417,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             outcome.production = static_cast<ProductionId>(m.production);
             formals.assign(index_.first_formal(m.production), KnownValue{});
             formals.insert(formals.end(), parameters.begin(), parameters.end());
-            // Without relevant parameters a successor is read only once, so it is not kept.
+            // Without relevant parameters each successor is read only once, so it is not stored.
             CountedWord once;
             CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
             if (!word.made) {

@@ -21,7 +21,7 @@ namespace lsys::analysis {
 
 enum class ClassId : std::uint32_t {};
 
-/// `count` modules of class `target`.
+/// A number of modules, `count`, of class `target`.
 struct ClassTerm {
     ClassId target{};
     std::uint32_t count = 0;
@@ -37,7 +37,7 @@ struct ClassOutcome {
 /// All outcomes of a class, and the min and max number of modules of each class among them.
 struct ClassExpansion {
     bool done = false;
-    bool decided = false;   // the probabilities of the outcomes are known
+    bool probabilities_known = false; // the probabilities of the outcomes are known
     bool copies = false;    // the module may be copied, since possibly no production matches
     bool unchanged = false; // every outcome is the module itself with the same parameters
     TableRange outcomes;    // range of ModuleClasses::outcomes
@@ -49,7 +49,8 @@ class ModuleClasses {
 public:
     /// Further classes have no known values.
     static constexpr std::uint32_t kMaxClassesWithKnownValues = 4096;
-    /// Instructions run and template codes read after which new classes have no known values.
+    /// Limit of instructions run plus template codes read; above it new classes have no known
+    /// values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
     /// `bytecode` is verified and outlives this; `steps` is the number of generations asked for.
@@ -62,7 +63,7 @@ public:
     /// The parameters of a class; known ones are exact.
     [[nodiscard]] std::vector<KnownValue> parameters(ClassId id) const;
 
-    /// The word that a derivation begins with: an outcome for each axiom.
+    /// The first word of a derivation: an outcome for each axiom.
     [[nodiscard]] ClassExpansion start();
     /// The classes of a production's successor for unknown formals.
     [[nodiscard]] std::vector<ClassTerm> successor(ProductionId production);
@@ -111,7 +112,7 @@ private:
     };
     struct Matches {
         std::vector<Match> list;
-        bool decided = true;
+        bool probabilities_known = true;
     };
 
     static std::size_t number(ClassId id) { return static_cast<std::size_t>(id); }

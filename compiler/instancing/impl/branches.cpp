@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-/// Properties of the words that a symbol can become by rewriting: true if one of them has it.
+/// Effects of a symbol: true if a word that the symbol can become by rewriting has the property.
 struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;
@@ -48,8 +48,8 @@ public:
             walk(axiom.word, "axiom", kNone);
         }
         branches_.sites.clear(); // branches of an axiom are always taken
-        // Branches that a decomposition writes get no id, since the number of passes left for their
-        // modules is not part of their key. Interpreted branches are never rewritten.
+        // Branches written by a decomposition get no id, because their key does not contain the
+        // number of passes left for their modules. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
             const Production& production = program_.productions[i];
             walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
@@ -92,7 +92,7 @@ private:
         }
     }
 
-    /// A `[` that waits for its `]`.
+    /// A `[` whose `]` has not been read yet.
     struct Open {
         std::uint32_t index = 0;
         std::uint32_t site = kNone; // index in found_
@@ -114,7 +114,7 @@ private:
         std::vector<std::uint32_t> formals;
         std::vector<std::uint32_t> locals;
         Effects effects;
-        std::uint32_t id = 0; // 0 until a valid branch is of this kind
+        std::uint32_t id = 0; // 0 until a valid branch of this kind is found
     };
 
     Diagnostic& refuse(SourceSpan span, std::string message) {
@@ -163,8 +163,8 @@ private:
         return static_cast<std::size_t>(production.predecessor.items.front().symbol);
     }
 
-    /// Whether the predecessor of a production of Stage::Rewrite stands at module `index` of a
-    /// word. Predecessors have no brackets, so that a match stays within its branch.
+    /// Whether a predecessor of a production of Stage::Rewrite matches the symbols at module
+    /// `index` of a word. Predecessors have no brackets, so a match stays within its branch.
     [[nodiscard]] bool is_rewritten(const ProgramWord& word, std::uint32_t index) const {
         const SymbolId symbol = program_.modules[word.first_module + index].symbol;
         const auto& rules = rules_of_[static_cast<std::size_t>(symbol)];

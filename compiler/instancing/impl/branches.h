@@ -1,6 +1,6 @@
-// The valid branches of a system, which instancing records once and puts in place of equal branches
-// (docs/language.md section 9; Kenwood, Gain and Marais 2014, "Efficient procedural generation of
-// forests", J. WSCG 22(1), as implemented by Carey 2019).
+// The valid branches of a system. Instancing records such a branch once and reuses the record in
+// place of equal branches (docs/language.md section 9; Kenwood, Gain and Marais 2014, "Efficient
+// procedural generation of forests", J. WSCG 22(1), as implemented by Carey 2019).
 #pragma once
 
 #include "compiler/program/program.h"
@@ -27,10 +27,10 @@ struct BranchKind {
     std::uint32_t first_site = 0;
     std::vector<std::uint32_t> formals; // formals used in the branch, ascending
     std::vector<std::uint32_t> locals;  // local values used in the branch, ascending
-    /// Its drawing depends on the vertical: by tropism or an operation that DependsOnVertical, in
-    /// the branch itself or after rewriting.
+    /// Whether its drawing depends on the vertical: by tropism or an operation that
+    /// DependsOnVertical, in the branch itself or after rewriting.
     bool depends_on_vertical = false;
-    /// Some production that its modules can reach is stochastic or draws a random number.
+    /// Whether a production that its modules can reach is stochastic or draws a random number.
     bool is_random = false;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kFormBits = 64;
 constexpr std::size_t kPieceOfListing = std::size_t{1} << 18;
 
-/// The shortest decimal that reads back as this binary32, as the author wrote it.
+/// The binary64 number nearest to the shortest decimal that reads back as this binary32.
 double as_written(float number) {
     return std::stod(fmt::format("{}", number));
 }
@@ -41,14 +41,14 @@ public:
             out_ += fmt::format("#w{} : @(0,0) {} $;\n", weight, text_of(axiom.word.span));
         }
         std::size_t site = 0;
-        const std::vector<double> chances = probabilities();
+        const std::vector<double> probability = probabilities();
         bool wanted = true;
         for (std::uint32_t i = 0; i < program_.productions.size() && wanted; ++i) {
             const std::size_t begin = site;
             while (site < branches_.sites.size() && branches_.sites[site].production == i) {
                 ++site;
             }
-            wanted = forms(program_.productions[i], chances[i],
+            wanted = forms(program_.productions[i], probability[i],
                            std::span(branches_.sites).subspan(begin, site - begin));
         }
         if (wanted) {
@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// By production: its weight divided by the sum of the weights of its group, which is its
-    /// probability if there are no conditions. NaN if some weight of the group is not constant.
+    /// By production: its weight divided by the sum of the weights of its group. That is its
+    /// probability if there are no conditions. NaN if a weight of the group is not constant.
     [[nodiscard]] std::vector<double> probabilities() const {
         std::vector<double> sums(program_.context_group_count, 0.0);
         for (const Production& production : program_.productions) {
@@ -76,14 +76,15 @@ private:
         return sources_.file(span.file).text().substr(span.begin, span.end - span.begin);
     }
 
-    /// Whether form `form` takes branch `number`. The number of a form has 64 bits, so every form
-    /// that can be listed takes the branches from number 64 on.
+    /// Whether form `form` takes branch `number` from a record. The form number has 64 bits, so
+    /// every form that can be listed takes the branches from number 64 on.
     [[nodiscard]] static bool takes(std::uint64_t form, std::size_t number) {
         return number >= kFormBits || (form >> number & 1U) == 0;
     }
 
     /// Lists the forms of one production. Returns false if `put` ended the list.
-    bool forms(const Production& production, double chance, std::span<const BranchSite> sites) {
+    bool
+    forms(const Production& production, double probability, std::span<const BranchSite> sites) {
         const std::uint64_t last = last_form(sites.size());
         if (page_.first > last || page_.count == 0) {
             return true;
@@ -103,9 +104,9 @@ private:
             out_ += fmt::format(" : {} : ", text_of(production.predecessor.span));
             out_ += production.condition == kNoValue ? "*" : text_of(production.condition_span);
             if (rewrites || production.stochastic) {
-                out_ += std::isnan(chance)
+                out_ += std::isnan(probability)
                             ? fmt::format(" ~ {:.9g}*({})", part, text_of(production.weight_span))
-                            : fmt::format(" ~ {:.9g}", chance * part);
+                            : fmt::format(" ~ {:.9g}", probability * part);
             }
             for (std::size_t i = 0; i < production.locals.size(); ++i) {
                 out_ += i == 0 ? " : let " : ", ";

@@ -1,5 +1,5 @@
-// Modules with a number of parameters that no production rewrites, although productions rewrite the
-// same name with another number.
+// Modules with a number of parameters that no production rewrites, although productions rewrite
+// modules of the same name with another number of parameters.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
 
@@ -52,7 +52,8 @@ std::optional<Fix> range_fix(const CheckInput& input,
     return std::nullopt;
 }
 
-/// First values for a module of the axiom without any: `A(1)`, if production replaces `A(len)`.
+/// First values for a module of the axiom without arguments: `A(1)`, if a production replaces
+/// `A(len)`.
 std::optional<Fix> first_values_fix(const CheckInput& input,
                                     const ModuleMention& place,
                                     const Production& production,

@@ -1,7 +1,7 @@
-// Brackets that only balance across productions: one leaves a branch open that another closes. A
-// fixed point over the productions bounds, for each module over all generations, the number of
-// brackets that the words it becomes leave open, and the lowest bracket depth within them. This
-// decides whether a `]` can ever lack its `[`.
+// Brackets that only balance across productions: one production leaves a branch open that another
+// closes. For each module and all generations, a fixed point over the productions bounds the number
+// of brackets left open by the words that the module becomes, and the lowest bracket depth within
+// these words. The bounds decide whether a `]` can ever lack its `[`.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -139,7 +139,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     // The note below replaces the warnings about brackets of these two productions.
-    diagnostics.rejudge([&](const Diagnostic& known) -> std::optional<Severity> {
+    diagnostics.reassign_severities([&](const Diagnostic& known) -> std::optional<Severity> {
         const auto is_of = [&](const Production* production) {
             return production != nullptr && known.span.file == production->span.file &&
                    known.span.begin >= production->span.begin &&

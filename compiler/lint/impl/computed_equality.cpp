@@ -1,6 +1,6 @@
-// `==` and `!=` on values that rounding may keep from being equal. Each value has a Level. Exact:
-// made of whole numbers, halves, quarters ... by + - * and similar operations. Literal: a constant
-// that is only passed on, so it equals itself. Computed: everything else.
+// `==` and `!=` on values that may differ by rounding. Each value has a Level. Exact: computed from
+// whole numbers, halves, quarters ... by + - * and similar operations. Literal: a constant that is
+// only passed on, so it equals itself. Computed: everything else.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -56,8 +56,8 @@ private:
         return false;
     }
 
-    /// Sets source_ for the formals in the expressions of a production: the module parameters that
-    /// they receive.
+    /// Sets source_ for the formals in the expressions of a production, to the module parameters
+    /// that they receive.
     void trace(const Production& production) {
         std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
         for (const ProgramPattern* pattern :

@@ -1,4 +1,4 @@
-// Conditions that always or never hold, and pairs of conditions that both miss or both accept a
+// Conditions that always or never hold, and pairs of conditions that both exclude or both include a
 // single value.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
@@ -43,7 +43,7 @@ void check_constant(const CheckInput& input,
             const std::string replacement =
                 fmt::format("* ~ {}", input.sources.text(production.condition_span));
             add_fix(diagnostic,
-                    fmt::format("a probability stands behind a `~`: write `{}`", replacement),
+                    fmt::format("a probability comes after a `~`: write `{}`", replacement),
                     production.condition_span, replacement, false);
             return;
         }
@@ -51,8 +51,8 @@ void check_constant(const CheckInput& input,
     }
 }
 
-/// Finds single parameter values in the table of a rule that are a gap or an overlap: `x > 2` and
-/// `x < 2` both miss 2, `x >= 2` and `x <= 2` both accept it.
+/// Finds single parameter values that are a gap or an overlap in the table of a rule: `x > 2` and
+/// `x < 2` both exclude 2, `x >= 2` and `x <= 2` both include it.
 class SingleValues {
 public:
     SingleValues(const CheckInput& input, SymbolId symbol, const RuleTable& table)
@@ -67,7 +67,7 @@ public:
                     continue;
                 }
                 const std::size_t here = count(point);
-                // No gap if the same production matches on both sides: `x != 2` is on purpose.
+                // No gap if the same production matches on both sides: `x != 2` is intended.
                 if (here == 0 && !gap_reported_ && count(below) != 0 && count(above) != 0 &&
                     first(below) != first(above)) {
                     gap_reported_ = true;
@@ -104,8 +104,8 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// Another parameter that equals parameter `axis` at a point, if conditions compare each of the
-    /// two with some parameter.
+    /// Another parameter that equals parameter `axis` at a point, if conditions compare both
+    /// parameters with parameters.
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {
@@ -154,7 +154,7 @@ private:
         const std::string_view text = input_.sources.text(p.condition_span);
         const char sign = value.opcode == Opcode::Greater ? '>' : '<';
         const std::size_t at = text.find_first_of("<>");
-        // The text must contain exactly one comparison sign: that of the opcode.
+        // The text must contain exactly one comparison sign, which belongs to the opcode.
         if (at == std::string_view::npos ||
             text.find_first_of("<>=", at + 1) != std::string_view::npos || text[at] != sign ||
             text.find("/*") != std::string_view::npos) {

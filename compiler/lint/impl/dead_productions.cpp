@@ -27,8 +27,8 @@ public:
           explained_(program_.symbols.size(), false), rewriters_(rewriters_of(program_)) {}
 
     void run() {
-        // If only dead productions write a module, the productions that need this module are dead
-        // as a consequence. Only the first production of such a chain or cycle is reported.
+        // If only dead productions write a module, the productions that need this module are dead,
+        // too. Only the first production of such a chain or cycle is reported.
         std::vector<bool> written(program_.symbols.size(), false);
         for (std::size_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Marks the modules that would occur if `symbol` did.
+    /// Marks the modules that would occur if `symbol` did; the current report explains them.
     void explain(SymbolId symbol) {
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;
@@ -104,7 +104,7 @@ private:
         return false;
     }
 
-    /// Suggests the name in place of a module that does nothing, if `nearest` is one.
+    /// Suggests the name at a module that does nothing and is named `nearest`, if there is one.
     bool
     suggest_at_mention(Diagnostic& diagnostic, std::string_view name, std::string_view nearest) {
         for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {

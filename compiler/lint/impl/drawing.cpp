@@ -13,13 +13,13 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     const Reachable reachable = find_reachable(program);
     bool prepared = false;
-    bool out_of_reach = false;  // some module would draw, but never occurs
-    SymbolId drawn = kNoSymbol; // the first module that draws
+    bool has_unreachable_drawing = false; // some module would draw, but never occurs
+    SymbolId drawn = kNoSymbol;           // the first module that draws
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         const TurtleOperation operation = program.symbols[s].turtle;
         if (draws(operation)) {
-            out_of_reach = out_of_reach || !reachable.occurs(symbol);
+            has_unreachable_drawing = has_unreachable_drawing || !reachable.occurs(symbol);
             if (reachable.occurs(symbol) &&
                 (drawn == kNoSymbol ||
                  reachable.generation[s] < reachable.generation[static_cast<std::size_t>(drawn)])) {
@@ -32,7 +32,7 @@ void check_drawing(const CheckInput& input, Diagnostics& diagnostics) {
     if (drawn == kNoSymbol) {
         // Other checks report modules that never occur. Without operations that prepare drawing,
         // the grammar may be meant for words alone.
-        if (out_of_reach || !prepared) {
+        if (has_unreachable_drawing || !prepared) {
             return;
         }
         Diagnostic& diagnostic =

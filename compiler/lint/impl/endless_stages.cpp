@@ -78,8 +78,8 @@ private:
                          (holds == true && (!production.stochastic || production.weight > 0.0F));
     }
 
-    /// Computes endless_: removes modules with a production that writes no endless module, until
-    /// all that are left write one.
+    /// Computes endless_: removes modules that have a production without endless modules, until
+    /// each remaining module writes an endless one.
     void remove_ending() {
         endless_ = is_certain_;
         std::vector<std::uint32_t> kept(program_.productions.size(), 0); // endless modules written

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Parameters that the command reads of `count`: `'` one, an index, or three, a colour.
+/// Parameters that the command reads from `count`: for `'` one (an index) or three (a colour).
 std::uint32_t parameters_read(const TurtleCommand& command, std::uint32_t count) {
     const bool is_index = operation_of(command, count) == TurtleOperation::SetColour;
     return is_index ? 1 : command.max_parameters;

@@ -37,14 +37,15 @@ void check_quotes(const CheckInput& input, const ProgramWord& word, Diagnostics&
     const std::uint32_t begin = program.modules[first].begin;
     const std::uint32_t end = program.modules[last].begin;
     const std::string_view inside = text.substr(begin + 1, end - begin - 1);
-    // Quotation marks stand close to what they enclose.
+    // Quotation marks have no blanks on their inner sides.
     if (end <= begin + 1 || inside.find('"') != std::string_view::npos || inside.front() == ' ' ||
         inside.back() == ' ') {
         return;
     }
-    Diagnostic& diagnostic = diagnostics.add(
-        DiagnosticCode::QuotedModules, {word.file, begin, begin + 1},
-        "modules stand without quotation marks: each `\"` is a module that multiplies the step");
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::QuotedModules, {word.file, begin, begin + 1},
+                        "modules are written without quotation marks: each `\"` is a module that "
+                        "multiplies the step");
     diagnostic.labels.push_back({{word.file, end, end + 1}, "and so is this"});
     diagnostic.fixes.push_back(
         {fmt::format("write `{}`", inside),
@@ -72,7 +73,7 @@ void check_comma(const CheckInput& input,
             number, false);
 }
 
-/// Reports `F(l, w)` where the name of the second parameter says that it is a width.
+/// Reports `F(l, w)` if the name of the second parameter is that of a width.
 void check_width(const CheckInput& input,
                  std::string_view command,
                  const std::vector<SourceSpan>& arguments,

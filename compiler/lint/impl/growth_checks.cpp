@@ -66,9 +66,10 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
             diagnostic.notes.push_back(fmt::format("generation {} has {}{}", limit->largest_fitting,
                                                    bound_text, to_text(limit->at_largest.modules)));
         }
-        if (limit->has_wanted && generations != next) {
+        if (limit->has_requested && generations != next) {
             diagnostic.notes.push_back(fmt::format("generation {} would have {}{}", generations,
-                                                   bound_text, to_text(limit->at_wanted.modules)));
+                                                   bound_text,
+                                                   to_text(limit->at_requested.modules)));
         }
         if (limit->dominant != kNoProduction) {
             const Production& production =
@@ -90,8 +91,8 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
         return;
     }
     const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
-    // A single generation without change is not reported: authors use it to see that growth is
-    // over.
+    // Do not report a single generation without change: authors use it to see that the growth has
+    // ended.
     if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
         const std::uint32_t last = *prediction.unchanged_from;
         if (last < prediction.high.size() && prediction.high[last].modules.at_most(0)) {

@@ -88,7 +88,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
 }
 
 void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
-    // The result of a grammar that draws nothing is its word, so any module may be a result.
+    // A grammar that draws nothing is used for its word, so any module may be meant.
     if (!use.draws) {
         return;
     }

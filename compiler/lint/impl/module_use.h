@@ -16,7 +16,7 @@ namespace lsys {
 /// A module in the axiom or in a successor.
 struct ModuleMention {
     const ProgramWord* word = nullptr;
-    std::size_t index = 0; // in Program::modules
+    std::size_t index = 0; // index in Program::modules
 };
 
 struct ModuleUse {

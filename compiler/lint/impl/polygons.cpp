@@ -1,4 +1,4 @@
-// Polygons: the axiom and every successor have as many `{` as `}`; `.` only stands within a
+// Polygons: the axiom and every successor have as many `{` as `}`; `.` only occurs within a
 // polygon, and a polygon has at least three vertices. In profile `carey` polygons do not nest.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
@@ -103,8 +103,8 @@ private:
         return depth > 0;
     }
 
-    /// Finds the modules that can stand in a polygon: they are written there, or replace a module
-    /// that is.
+    /// Finds the modules that can occur in a polygon: modules written in a polygon, and modules
+    /// that replace such modules.
     void find_inside() {
         std::vector<SymbolId> work;
         const auto mark = [&](SymbolId symbol) {
@@ -248,7 +248,7 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<bool> inside_; // by symbol: can stand in a polygon
+    std::vector<bool> inside_; // by symbol: can occur in a polygon
     GroupedLists rewriters_;
     bool stray_reported_ = false;
     /// Some polygon begins in one word and ends in another, so modules outside of `{` and `}` of

@@ -1,7 +1,7 @@
 // The probabilities of stochastic alternatives without conditions sum to 1 (docs/language.md
-// section 5). With conditions the sum depends on which of them match, so weights are normalised at
-// run time. With `weights any` all weights are normalised at run time, and their sum has to be
-// finite.
+// section 5). With conditions the sum depends on the matching alternatives, so weights are
+// normalised at run time. With `weights any` all weights are normalised at run time, and their sum
+// has to be finite.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
 
@@ -29,7 +29,7 @@ struct Group {
 
 void report(const CheckInput& input, const Group& group, Diagnostics& diagnostics) {
     const std::vector<Production>& productions = input.program.productions;
-    // The message stands at the probability with which the sum exceeds 1, else at the last one.
+    // The message is at the probability that makes the sum exceed 1, else at the last probability.
     std::uint32_t culprit = group.members.back();
     double running = 0.0;
     for (const std::uint32_t member : group.members) {

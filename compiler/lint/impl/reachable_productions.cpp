@@ -33,8 +33,8 @@ public:
                 check_covered(SymbolId{s}, productions);
             }
         }
-        // Rules with several predecessor modules. They have no condition grid, so check_covered()
-        // is left out.
+        // Rules with several predecessor modules have no condition grid, so check_covered() does
+        // not apply.
         std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sequences;
         for (std::uint32_t p = 0; p < bytecode_.productions.size(); ++p) {
             if (bytecode_.productions[p].predecessor.count > 1) {
@@ -75,12 +75,13 @@ private:
             }
             const auto [place, is_new] = met.emplace(key(p), p);
             const Production& earlier = production(place->second);
-            // Conditions with different constants may be equal by chance, until a user changes one.
-            const bool by_chance =
+            // Conditions with different constants may be equal only until a user changes a
+            // constant.
+            const bool may_change =
                 (names_constant(input_, production(p)) || names_constant(input_, earlier)) &&
                 input_.sources.text(production(p).condition_span) !=
                     input_.sources.text(earlier.condition_span);
-            if (is_new || by_chance) {
+            if (is_new || may_change) {
                 continue;
             }
             Diagnostic& diagnostic =
@@ -95,8 +96,8 @@ private:
         }
     }
 
-    /// Reports productions that come after an unconditional production which matches whenever they
-    /// do.
+    /// Reports productions after an unconditional production that matches in all cases in which
+    /// they match.
     void check_unconditional(std::span<const std::uint32_t> productions) {
         std::uint32_t unconditional = kNone; // the first production without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>
@@ -108,7 +109,7 @@ private:
             if (code(p).stochastic) {
                 members.emplace(group, p);
             }
-            // A stochastic production is tried when the first one of its group is.
+            // A stochastic production is tried together with the first production of its group.
             const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
             const auto own = first_in_group.find(group);
             std::uint32_t earlier =
@@ -132,7 +133,7 @@ private:
         return code(a).stochastic && code(b).stochastic && code(a).group == code(b).group;
     }
 
-    /// Reports productions whose condition holds only where earlier conditions do.
+    /// Reports productions whose condition holds only where earlier conditions hold.
     void check_covered(SymbolId symbol, std::span<const std::uint32_t> productions) {
         const bool plain = std::all_of(productions.begin(), productions.end(),
                                        [&](std::uint32_t p) { return is_context_free(p); });
@@ -199,7 +200,7 @@ private:
             diagnostic.help.emplace_back("productions are tried in the order of the file");
         } else if (late.condition == kNoValue) {
             diagnostic.help.emplace_back("remove one of them, or let chance choose between both");
-            offer_chance(early, late, diagnostic);
+            offer_probabilities(early, late, diagnostic);
         } else {
             diagnostic.help.push_back(
                 fmt::format("productions are tried in the order of the file: move {} above {}",
@@ -207,16 +208,17 @@ private:
         }
     }
 
-    /// Shows two productions without condition with probabilities.
-    void
-    offer_chance(const Production& early, const Production& late, Diagnostic& diagnostic) const {
+    /// Adds a help text that shows two productions without condition as stochastic alternatives.
+    void offer_probabilities(const Production& early,
+                             const Production& late,
+                             Diagnostic& diagnostic) const {
         if (early.condition != kNoValue || early.span.file != late.span.file ||
             input_.sources.text(early.condition_span) != "*" ||
             input_.sources.text(late.condition_span) != "*") {
             return;
         }
         diagnostic.fixes.push_back(
-            {"with a probability behind `~`",
+            {"with a probability after `~`",
              {{early.condition_span, "* ~ 0.5"}, {late.condition_span, "* ~ 0.5"}},
              false});
     }

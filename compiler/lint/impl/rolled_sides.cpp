@@ -1,6 +1,6 @@
-// Two productions meant to put a branch on opposite sides by `/` and `\`. These modules roll, so
-// both branches point the same way. With the turtle of Crankshaw's thesis `/` and `\` pitch, as in
-// its equation 2.11.
+// Two productions that are meant to put branches on opposite sides by `/` and `\`. These modules
+// roll, so both branches point the same way. With the turtle of Crankshaw's thesis `/` and `\`
+// pitch, as in its equation 2.11.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/program/message_words.h"
 #include "compiler/resolve/profiles.h"
@@ -64,7 +64,7 @@ private:
                !production.has_right && production.predecessor.items.size() == 1;
     }
 
-    /// Whether each module with the symbol stands before a `]`. Reads all words once.
+    /// Whether a `]` follows each module with the symbol. Reads all words once.
     [[nodiscard]] bool ends_branches(SymbolId symbol) {
         if (ends_branch_.empty()) {
             ends_branch_.assign(program_.symbols.size(), 1);
@@ -87,8 +87,9 @@ private:
         }
     }
 
-    /// Reports two productions that differ by rolls in opposite directions, after which something
-    /// is drawn and nothing changes the heading until the branch ends. Returns whether it reported.
+    /// Reports two productions that differ only by rolls in opposite directions, if something is
+    /// drawn after the rolls and nothing changes the heading until the branch ends. Returns whether
+    /// it did.
     bool check(const Production& one, const Production& other) {
         const std::size_t count = one.successor.module_count;
         if (other.successor.module_count != count) {
@@ -146,7 +147,7 @@ private:
 } // namespace
 
 void check_rolled_sides(const CheckInput& input, Diagnostics& diagnostics) {
-    // An author who has chosen another turtle profile means its rolls.
+    // An author who has chosen another turtle profile intends its rolls.
     if (input.program.settings.turtle == Settings{}.turtle) {
         RolledSides(input, diagnostics).check();
     }

@@ -53,7 +53,7 @@ std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
         for (std::uint64_t point = 0; point < table.points; ++point) {
             bool holds = true;
             if (condition != kNone) {
-                table.grid.place(point, std::span(values).subspan(first));
+                table.grid.set_parameters(point, std::span(values).subspan(first));
                 const analysis::KnownValue value =
                     evaluator.run(bytecode.instructions, condition, {values, {}, {}});
                 if (!value.known) {
@@ -74,7 +74,7 @@ std::string module_at(const CheckInput& input,
                       std::uint64_t point) {
     const std::uint32_t count = input.program.symbol(symbol).parameter_count;
     std::vector<analysis::KnownValue> values(count);
-    table.grid.place(point, values);
+    table.grid.set_parameters(point, values);
     const std::uint32_t first = production.predecessor.items.front().first_formal;
     std::string text(input.name(symbol));
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -100,7 +100,7 @@ bool names_constant(const CheckInput& input, const Production& production) {
             continue;
         }
         if (!is_letter(text[at])) {
-            // The `e` of an exponent belongs to a number and begins no name.
+            // The `e` of an exponent belongs to a number and does not begin a name.
             const bool number = is_part(text[at]);
             ++at;
             while (number && at < text.size() && is_part(text[at])) {

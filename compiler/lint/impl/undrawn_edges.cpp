@@ -1,6 +1,6 @@
 // Edge rewriting in which one of two edges is never drawn: Sierpinski's gasket written with `F` and
-// `X`, of which only `F` draws. Edges differ from growing tips of plants by their productions,
-// which are mirror images of each other and have no brackets.
+// `X`, where only `F` draws. Edges differ from growing tips of plants by their productions, which
+// are mirror images of each other and have no brackets.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/reachable.h"
 #include "compiler/program/message_words.h"
@@ -44,8 +44,8 @@ TurtleOperation opposite(TurtleOperation turn) {
     }
 }
 
-/// Whether one successor equals the other after any of: exchanging the edges, reversing the turns,
-/// reading it backwards.
+/// Whether some combination of exchanging the edges, reversing the turns and reading backwards
+/// turns one successor into the other.
 bool are_images(const std::vector<Step>& a, const std::vector<Step>& b) {
     for (std::uint32_t form = 0; form < 8; ++form) {
         std::vector<Step> image = a;
@@ -86,8 +86,8 @@ public:
 private:
     static constexpr std::uint32_t kSeveral = kNone - 1;
 
-    /// Sets only_: the production of each symbol that has a single one, without contexts,
-    /// conditions or parameters.
+    /// Sets only_: for each symbol with exactly one production, that production, if it has no
+    /// contexts, conditions or parameters.
     void find_productions() {
         for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -157,7 +157,8 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     Reachable reachable_;
-    std::vector<std::uint32_t> only_; // by symbol; kNone: no production, kSeveral: others
+    std::vector<std::uint32_t>
+        only_; // by symbol; kNone: no production, kSeveral: no unique plain one
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether a setting takes one number and has this name.
+/// Whether this is the name of a setting of one number.
 bool is_setting_name(std::string_view name) {
     constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
                                                      "seed",  "sides", "height"};

@@ -125,8 +125,8 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
     case Opcode::Normal:
     case Opcode::Poisson:
     case Opcode::Binomial:
-        // Run-time errors of a draw are reported at the text of the draw, other errors at the whole
-        // argument or condition.
+        // Run-time errors of a draw are reported at the text of the draw, other errors at the text
+        // of the whole argument or condition.
         if (swapped) {
             instruction(Opcode::Swap);
         }
@@ -233,7 +233,7 @@ std::uint32_t CodeEmitter::locals(std::span<const LocalValue> values) {
     const auto first = static_cast<std::uint32_t>(bytecode_.instructions.size());
     for (std::uint32_t i = 0; i < values.size(); ++i) {
         if (program_.value(values[i].value).left == kNoValue) {
-            continue; // a leaf is emitted wherever it is used
+            continue; // a leaf is emitted at each use
         }
         const std::uint32_t site = add_site(program_.value(values[i].value).span);
         begin_site(site);

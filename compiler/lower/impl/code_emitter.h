@@ -26,7 +26,7 @@ public:
     /// Emits code that computes `values` and emits each, ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);
 
-    /// Whether an operand did not fit its 24 bits, which makes the emitted code useless.
+    /// Whether an operand exceeded its 24 bits; the emitted code is then useless.
     [[nodiscard]] bool overflowed() const { return overflowed_; }
 
 private:
@@ -48,12 +48,12 @@ private:
     std::uint32_t current_site_ = kNone;    // site of the next instruction
     bool overflowed_ = false;
 
-    /// A step of emitting the code of a value. frames_ is a stack: its last step is emitted first.
+    /// A step of emitting the code of a value. The last step of frames_, a stack, is emitted first.
     enum class Step : std::uint8_t { Operands, Operation, Store, If, Else, EndIf };
     struct Frame {
         ValueId value;
         Step step = Step::Operands;
-        std::size_t skip = 0; // Else, EndIf: index of the instruction that skips to behind it
+        std::size_t skip = 0; // Else, EndIf: index of the instruction that skips past it
     };
     std::vector<Frame> frames_;
 };

@@ -28,8 +28,8 @@ void PlaceWriter::set_position(const SourceFile& file, std::uint32_t offset) {
     place_ = file.line_column(offset);
 }
 
-/// Moves to the module at `offset`. Returns whether the text from the last module to this one is
-/// ASCII without a line end.
+/// Moves to the module at `offset`. Returns whether the text between the last module and this one
+/// is ASCII without a line end.
 bool PlaceWriter::move_to(std::uint32_t offset) {
     bool plain = true;
     bool ascii = true;

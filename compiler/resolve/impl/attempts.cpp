@@ -47,7 +47,7 @@ void AttemptedStatements::read(std::string_view text) {
     }
 }
 
-/// Notes lines of other notations that give the axiom or the generations.
+/// Records lines in other notations that give the axiom or the generations.
 void AttemptedStatements::read_lines(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());

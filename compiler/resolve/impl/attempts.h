@@ -14,10 +14,10 @@ class AttemptedStatements {
 public:
     explicit AttemptedStatements(const Resolution& resolution);
 
-    /// Whether `#keyword` stands anywhere in the text. Only `w` and `n` are found.
+    /// Whether `#keyword` occurs anywhere in the text. Only `w` and `n` are found.
     [[nodiscard]] bool has(std::string_view keyword) const;
-    /// Whether `#define NAME`, `#param NAME`, `#function NAME` or `#curve NAME` stands anywhere in the
-    /// text.
+    /// Whether `#define NAME`, `#param NAME`, `#function NAME` or `#curve NAME` occurs anywhere in
+    /// the text.
     [[nodiscard]] bool defines(std::string_view name) const;
 
 private:

@@ -1,6 +1,6 @@
-// The constants of #define and #param by name. A constant must precede its use, so the table is
-// filled while the statements are walked; places of later definitions are known from the beginning,
-// for messages.
+// The constants of #define and #param by name. A constant must be defined before its use, so the
+// table is filled while the statements are walked. The places of later definitions are known from
+// the beginning, for messages.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -25,7 +25,7 @@ class ConstantTable {
 public:
     explicit ConstantTable(Resolution& resolution);
 
-    /// The state at the statement of visible_until(): Later for a constant defined after it.
+    /// The state at the statement given to visible_until(): Later for a constant defined after it.
     [[nodiscard]] ConstantState state(NameId name) const;
     /// Makes state() ignore definitions after this statement (index in Ast::statements).
     void visible_until(std::size_t statement) { visible_until_ = statement; }

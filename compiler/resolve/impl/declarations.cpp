@@ -53,7 +53,7 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadDeclaration, parentheses,
         fmt::format("`{}` is about modules with any number of parameters", statement));
-    // Formals can be removed without changing the meaning; numbers may be intended.
+    // Formals can be removed without changing the meaning; numbers may be meant as arguments.
     const bool has_only_formals =
         resolution_.sources.text(parentheses).find_first_of("0123456789") == std::string_view::npos;
     error.fixes.push_back({"leave the parentheses out", {{parentheses, ""}}, has_only_formals});
@@ -87,7 +87,7 @@ void DeclarationResolver::object(const ObjectNode& node) {
     }
 }
 
-/// Reports names of files that other programs expand or read.
+/// Reports file names with variables or formats of other programs.
 bool DeclarationResolver::check_file_name(const ObjectNode& node) {
     const std::string_view name = node.object;
     const bool has_variable = name.starts_with('$') || name.find("/$") != std::string_view::npos;
@@ -181,7 +181,7 @@ void DeclarationResolver::ignore(const IgnoreNode& node, NameSplitter& splitter)
     if (first_ignore_.file != kNoFile && first_consider_.file != kNoFile) {
         Diagnostic& error =
             resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, node.keyword_span,
-                                        "`#ignore` and `#consider` cannot stand in one grammar");
+                                        "a grammar cannot have both `#ignore` and `#consider`");
         error.labels.push_back(
             {node.considers ? first_ignore_ : first_consider_,
              node.considers ? "modules are ignored here" : "all but these are ignored already"});

@@ -34,7 +34,7 @@ private:
     Resolution& resolution_;
     SymbolTable& symbols_;
     Suggestions suggestions_;
-    SourceSpan first_ignore_; // kNoFile: none
+    SourceSpan first_ignore_; // kNoFile if there is none
     SourceSpan first_consider_;
     std::unordered_map<NameId, std::size_t> bindings_; // index in Program::objects
 };

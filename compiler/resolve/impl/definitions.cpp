@@ -37,7 +37,7 @@ DefinitionResolver::DefinitionResolver(Resolution& resolution,
                                        ExpressionResolver& expressions)
     : resolution_(resolution), constants_(constants), expressions_(expressions) {
     for (const Definition& definition : resolution.options.definitions) {
-        replacements_[definition.name] = definition.value; // the last -D of a name counts
+        replacements_[definition.name] = definition.value; // the last -D of a name is used
     }
 }
 
@@ -131,7 +131,7 @@ void DefinitionResolver::param(const ParamNode& node) {
     advance_draw_position(draws);
 }
 
-/// Adds a constant. Its value is that of -D if given, else a global if it is drawn at random, else
+/// Adds a constant. Its value is that of -D if given, else a global if the value is random, else
 /// the literal `value`.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
     const auto replaced = replacements_.empty()

@@ -33,7 +33,7 @@ public:
     void generations(const GenerationsNode& node, SourceSpan statement);
     void define(const DefineNode& node);
     void param(const ParamNode& node);
-    /// Names of -D that no #define or #param has.
+    /// Names of -D without a #define or #param.
     [[nodiscard]] std::vector<std::string> unknown_definitions() const;
 
     /// Index of the next draw among the draws of #define, #param and #w.

@@ -103,7 +103,7 @@ std::vector<std::string_view> arguments_in(std::string_view call) {
     return arguments;
 }
 
-/// `spelling` with each of its parameters replaced by an argument.
+/// Replaces each parameter in `spelling` by an argument.
 std::string with_arguments(std::string_view spelling,
                            const std::vector<std::string_view>& parameters,
                            const std::vector<std::string_view>& arguments) {
@@ -145,8 +145,8 @@ std::string with_arguments(std::string_view spelling,
     return text;
 }
 
-/// The text that replaces a call of a function of another language. Empty if no text is certain
-/// enough.
+/// The text that replaces a call of a function of another language. Empty if the replacement is not
+/// certain.
 std::string replaced_call(const Synonym& synonym, std::string_view call) {
     const std::vector<std::string_view> arguments = arguments_in(call);
     const std::string_view spelling = synonym.spelling;
@@ -315,7 +315,7 @@ SourceSpan ExpressionResolver::fault_place(Opcode opcode,
     return expression.span();
 }
 
-/// Whether the unknown name `text` must mean the only parameter of the production: both are one
+/// Whether the unknown name `text` can only mean the one parameter of the production: both are one
 /// letter, there are no constants, and nothing else after the predecessor reads the parameter.
 bool ExpressionResolver::is_only_choice(std::string_view text, const Expression& unknown) const {
     if (formals_.size() != 1 || text.size() != 1 || !resolution_.program.constants.empty() ||
@@ -330,7 +330,7 @@ bool ExpressionResolver::is_only_choice(std::string_view text, const Expression&
     return formal.size() == 1 && !has_word(rest.substr(0, rest.find(';')), formal);
 }
 
-/// Shows how a call with another number of arguments may be meant.
+/// Explains the probable meaning of a call with a wrong number of arguments.
 void ExpressionResolver::explain_argument_count(const Expression& call,
                                                 ExpressionPlace place,
                                                 Diagnostic& error) const {
@@ -368,9 +368,9 @@ void ExpressionResolver::explain_argument_count(const Expression& call,
     }
 }
 
-/// The function that a name was before all `x` of a file became `len`: `max` for `malen`; empty:
-/// none.
-std::string_view ExpressionResolver::before_renaming(std::string_view text) const {
+/// The function whose name became `text` when all `x` of a file were replaced by `len`: `max` for
+/// `malen`. Empty if there is none.
+std::string_view ExpressionResolver::name_before_replacement(std::string_view text) const {
     for (const NameId formal : formals_) {
         const std::string_view name = resolution_.text(formal);
         const std::size_t at = name.size() < 2 ? std::string_view::npos : text.find(name);
@@ -436,7 +436,7 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
     const std::string nearest = suggestions_.nearest(text, known);
     if (!nearest.empty()) {
         suggest(error, name, nearest);
-    } else if (const std::string_view before = before_renaming(text); !before.empty()) {
+    } else if (const std::string_view before = name_before_replacement(text); !before.empty()) {
         suggest(error, name, std::string(before));
     }
 }
@@ -476,11 +476,11 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
     }
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::RangeNotAllowed, expression.span(),
-        is_range ? fmt::format("a {} cannot stand {}",
+        is_range ? fmt::format("a {} is not allowed {}",
                                expression.kind == ExpressionKind::Range ? "random range"
                                                                         : "random number",
                                where)
-                 : fmt::format("`{}` is drawn at random, so it cannot stand {}",
+                 : fmt::format("`{}` is random, so it is not allowed {}",
                                resolution_.text(expression.name), where));
     if (!is_range) {
         error.labels.push_back({constants_.definition_span(expression.name), "it is drawn here"});
@@ -505,7 +505,7 @@ bool ExpressionResolver::check_range(const Expression& expression,
             fmt::format("the minimum {} of this range lies above its maximum {}", *low, *high));
         const std::string low_text(resolution_.sources.text(first));
         const std::string high_text(resolution_.sources.text(second));
-        // With names and operators another number may be the wrong one.
+        // If the arguments are names or expressions, any argument may be the wrong one.
         const bool are_numbers =
             (low_text + high_text).find_first_not_of("0123456789.eE+-") == std::string::npos;
         error.fixes.push_back(
@@ -527,15 +527,15 @@ bool ExpressionResolver::check_range(const Expression& expression,
     return true;
 }
 
-/// Reports a constant argument with which the distribution cannot be drawn from. Returns whether
-/// there is none.
+/// Reports a constant argument that is invalid for the distribution. Returns whether all constant
+/// arguments are valid.
 bool ExpressionResolver::check_distribution_of(const Expression& expression,
                                                Opcode opcode,
                                                ValueId first,
                                                ValueId second) {
     const auto x = constant_value(first);
     const auto y = constant_value(second);
-    // Arguments that are not constant are replaced by valid ones.
+    // Arguments that are not constant count as valid.
     const bool has_mean = opcode != Opcode::Binomial;
     const DistributionFault fault =
         check_distribution(opcode, x.value_or(0.0F), y.value_or(has_mean ? 0.0F : 1.0F));
@@ -560,7 +560,7 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
         Diagnostic error =
             make_diagnostic(DiagnosticCode::NotFinite, span, fmt::format("{} is {}", what, result));
         if (place != ExpressionPlace::Axiom) {
-            // The production may match no module, so that nothing computes the value.
+            // The value may never be computed, since the production may match no module.
             error.severity = Severity::Warning; // set before add(), which counts errors
             error.notes.emplace_back(place == ExpressionPlace::Successor
                                          ? "the derivation ends where this production is applied"

@@ -191,7 +191,7 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
     return name_value(expression, place);
 }
 
-/// Processes the expression on top: pushes its next operand, or combines the values of all.
+/// Processes the top expression: pushes its next operand, or combines the values of all operands.
 void ExpressionResolver::visit(ExpressionPlace place) {
     Frame& frame = frames_.back();
     const Expression& expression = resolution_.ast.expression(frame.expression);
@@ -444,14 +444,14 @@ ValueId ExpressionResolver::call_value(const Expression& expression, ExpressionP
 ValueId ExpressionResolver::choice_value(const Expression& expression,
                                          std::span<const ValueId> arguments) {
     if (const auto condition = constant_value(arguments[0])) {
-        // A division by zero or an overflow on the side that is not chosen is no error.
+        // A division by zero or an overflow in the branch that is not chosen is not an error.
         const bool holds = *condition != 0.0F;
         forget_faults(resolution_.ast.expression(operand(expression, holds ? 2 : 1)).span());
     }
     return values_.choice(arguments[0], arguments[1], arguments[2], expression.span());
 }
 
-/// Forgets divisors that are zero and causes of infinite values within `unchosen`.
+/// Forgets divisors that are zero, and causes of infinite values, within `unchosen`.
 void ExpressionResolver::forget_faults(SourceSpan unchosen) {
     const auto is_inside = [&](SourceSpan span) {
         return span.file == unchosen.file && span.begin >= unchosen.begin &&

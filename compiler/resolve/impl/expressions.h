@@ -45,7 +45,7 @@ public:
     /// Begins a statement: clears formals, local values and reported names; numbers draws from 0.
     void begin_statement();
     /// Adds a formal of the current production; `where` is its place in messages. Returns false if
-    /// the name is a formal already.
+    /// the name already is a formal.
     bool add_formal(NameId name, SourceSpan where);
     [[nodiscard]] SourceSpan formal_span(NameId name) const;
     /// Defines the function of a #function or #curve, or reports why it cannot be used.
@@ -64,16 +64,16 @@ public:
     void add_local(NameId name, ValueId value, std::uint32_t slot);
     /// Whether an expression after add_local() has used the local value.
     [[nodiscard]] bool is_local_used(NameId name) const { return used_locals_.contains(name); }
-    /// Suppresses messages about unknown names, since the head of the production is in error.
+    /// Suppresses messages about unknown names, because the head of the production has an error.
     void set_formals_incomplete() { formals_incomplete_ = true; }
 
     /// The value of an expression, or kPoison if it contains an error, which has been reported. A
-    /// parameter of a module or a condition that can never be finite is an error in the axiom, and
-    /// a warning in a production, which may match no module.
+    /// parameter or condition that can never be finite is an error in the axiom. In a production it
+    /// is a warning, since the production may match no module.
     [[nodiscard]] ValueId resolve(ExpressionId root, ExpressionPlace place);
     /// The value of a single name, for values of #set.
     [[nodiscard]] ValueId resolve_name(NameId name, SourceSpan span, ExpressionPlace place);
-    /// Whether the name is that of a constant, known by now or defined later.
+    /// Whether the name is a constant, defined before or after this point.
     [[nodiscard]] bool is_constant(NameId name) const {
         return constants_.state(name) != ConstantState::Unknown;
     }
@@ -158,7 +158,7 @@ private:
     [[nodiscard]] bool is_only_choice(std::string_view text, const Expression& unknown) const;
     void
     explain_argument_count(const Expression& call, ExpressionPlace place, Diagnostic& error) const;
-    [[nodiscard]] std::string_view before_renaming(std::string_view text) const;
+    [[nodiscard]] std::string_view name_before_replacement(std::string_view text) const;
     void report_unknown_function(const Expression& expression, NameId function);
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
     void check_finite(ValueId value, ExpressionId root, ExpressionPlace place);

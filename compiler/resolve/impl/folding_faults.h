@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// The reason why an instruction of these values yields an infinity or NaN: "division by zero".
+/// The reason why an instruction with these operands yields an infinity or NaN: "division by zero".
 [[nodiscard]] std::string reason_for_fault(Opcode opcode, float x, float y);
 
 /// The names of all functions of expressions.

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether a predecessor is words of two letters and more with `-` between them: `shoot-apex`.
+/// Whether a predecessor is a hyphenated name, words of two or more letters: `shoot-apex`.
 bool is_hyphenated(std::string_view text) {
     std::size_t word = 0;
     bool has_hyphen = false;
@@ -49,7 +49,7 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
     const auto empty_context = [&](SourceSpan sign, const char* side) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::EmptyContext, sign, fmt::format("the {} context is empty", side));
-        error.help.emplace_back("write the module that has to stand there, or leave the sign out");
+        error.help.emplace_back("write the required module, or remove the sign");
         error.fixes.push_back({"remove the sign", {{sign, ""}}, false});
         ok = false;
     };
@@ -77,7 +77,7 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
             error.notes.emplace_back("a name holds no `-`, which is a module that turns");
             std::string joined(written);
             std::replace(joined.begin(), joined.end(), '-', '_');
-            Fix fix{fmt::format("write `{}`, wherever it stands", joined), {}, false};
+            Fix fix{fmt::format("write `{}` at every place", joined), {}, false};
             const FileId file = node.predecessor.span.file;
             const std::string_view text = resolution_.sources.file(file).text();
             for (std::size_t at = text.find(written); at != std::string_view::npos;
@@ -111,9 +111,10 @@ bool HeadResolver::check_stage(const ProductionNode& node) {
         several ? fmt::format("`{}` takes one module, not {}", keyword_of(node.stage),
                               node.predecessor.count)
                 : fmt::format("`{}` has no contexts", keyword_of(node.stage)));
-    error.notes.emplace_back(node.stage == Stage::Interpret
-                                 ? "a module is drawn by what it is, not by where it stands"
-                                 : "a module is decomposed by what it is, not by where it stands");
+    error.notes.emplace_back(
+        node.stage == Stage::Interpret
+            ? "how a module is drawn depends on the module alone, not on its neighbours"
+            : "how a module is decomposed depends on the module alone, not on its neighbours");
     return false;
 }
 

@@ -87,16 +87,16 @@ std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value)
 
 void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& material) {
     std::vector<Entry> entries;
-    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile: not met
+    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile until the key is read
     bool ok = true;
-    bool is_skipping = false; // values of a key in error
+    bool is_skipping = false; // within the values of an invalid key
     for (std::uint32_t i = 1; i < node.values.count; ++i) {
         const SetValue value = resolution_.ast.set_values[node.values.first + i];
         if (!value.is_word) {
             if (entries.empty() && !is_skipping) {
                 resolution_.diagnostics
                     .add(DiagnosticCode::BadMaterial, value.span,
-                         "a key stands behind the index, not a value")
+                         "a key comes after the index, not a value")
                     .help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
                 return;
             }
@@ -115,7 +115,7 @@ void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& m
             report_unknown_key(value, entries.empty() ? Entry{} : entries.back());
             ok = false;
             if (!entries.empty() && entries.back().values.count < entries.back().key->count) {
-                entries.pop_back(); // the word stands for its value
+                entries.pop_back(); // the word takes the place of the key's value
             }
             continue;
         }
@@ -145,7 +145,7 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
     if (lacks_value && expressions_.is_constant(word.word)) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, word.span,
-            fmt::format("a constant stands in parentheses here: `({})`", name));
+            fmt::format("a constant is in parentheses here: `({})`", name));
         add_fix(error, fmt::format("write `({})`", name), word.span, fmt::format("({})", name),
                 true);
         return;
@@ -168,12 +168,11 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
 void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material) {
     const MaterialKey& key = *entry.key;
     if (entry.values.count != key.count) {
-        resolution_.diagnostics.add(
-            DiagnosticCode::BadMaterial, entry.span,
-            entry.values.count == 0 ? fmt::format("`{}` takes {}", key.name, key.wanted)
-                                    : fmt::format("`{}` takes {}; {} stand{} here", key.name,
-                                                  key.wanted, counted(entry.values.count, "value"),
-                                                  entry.values.count == 1 ? "s" : ""));
+        resolution_.diagnostics.add(DiagnosticCode::BadMaterial, entry.span,
+                                    entry.values.count == 0
+                                        ? fmt::format("`{}` takes {}", key.name, key.wanted)
+                                        : fmt::format("`{}` takes {}; found {}", key.name, key.wanted,
+                                                      counted(entry.values.count, "value")));
         return;
     }
     const SetValue first = resolution_.ast.set_values[entry.values.first];
@@ -211,7 +210,7 @@ void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material)
     }
 }
 
-/// A number from 0 to 1; of `two_sided` one of the two.
+/// A number from 0 to 1; for `two_sided` exactly 0 or 1.
 std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetValue& value) {
     const MaterialKey& key = *entry.key;
     if (value.is_file) {
@@ -229,7 +228,7 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
         (is_switch && *number != 0.0F && *number != 1.0F)) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, value.span,
-            fmt::format("`{}` takes {}, not {}", key.name, key.wanted, number_text(*number)));
+            fmt::format("`{}` takes {}; found {}", key.name, key.wanted, number_text(*number)));
         error.labels.push_back({entry.span, "the key"});
         if (key.kind == KeyKind::Colour && *number >= 2.0F && *number <= 255.0F) {
             error.help.push_back(
@@ -252,7 +251,8 @@ void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& pic
     picture = {path_of(file), file.span};
 }
 
-/// The path of the file relative to the root file, as written in another one.
+/// The path of the file relative to the root file; paths are written relative to the including
+/// file.
 std::string MaterialResolver::path_of(const SetValue& file) const {
     const std::string name(resolution_.text(file.word));
     const FileId root = resolution_.ast.files[0].file;

@@ -19,8 +19,8 @@ public:
     MaterialResolver(Resolution& resolution, ExpressionResolver& expressions)
         : resolution_(resolution), expressions_(expressions) {}
 
-    /// Adds a statement to Program::materials, or reports its mistakes. Constants are those before
-    /// the statement.
+    /// Adds a statement to Program::materials, or reports its mistakes. Only constants before the
+    /// statement are visible.
     void material(const MaterialNode& node, SourceSpan statement);
 
 private:

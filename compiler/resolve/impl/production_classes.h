@@ -1,7 +1,7 @@
-// Numbers rules and groups (docs/language.md section 5). A rule is the productions with equal
-// predecessors; a group is those of a rule with equal contexts. The hash tables store production
-// numbers only and compare the productions in the Program, so that a million productions take a few
-// megabytes.
+// Numbers rules and groups (docs/language.md section 5). A rule is a set of productions with equal
+// predecessors; a group is a set of productions of a rule with equal contexts. The hash tables
+// store only production numbers and compare the productions in the Program, so that a million
+// productions take a few megabytes.
 #pragma once
 
 #include "compiler/program/program.h"
@@ -26,7 +26,7 @@ private:
     };
     using Hash = std::uint64_t (*)(const Production&);
     using Equal = bool (*)(const Production&, const Production&);
-    /// The first production of the class of production `index`.
+    /// The first production of the class that contains production `index`.
     [[nodiscard]] std::uint32_t
     first_equal(Table& table, std::uint32_t index, Hash hash, Equal equal);
 

@@ -28,7 +28,7 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
     Diagnostic& error = report_duplicate(resolution_, node.name_span, first,
                                          fmt::format("production {}", quoted(name)));
     if (first.file != node.name_span.file || first.begin == node.name_span.begin) {
-        return false; // of a file that is included, perhaps twice
+        return false; // the file may be included twice
     }
     std::string free(name);
     while (!free.empty() && free.back() >= '0' && free.back() <= '9') {
@@ -37,7 +37,7 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
     for (int number = 2; number < 1000; ++number) {
         const std::string candidate = fmt::format("{}{}", free, number);
         if (resolution_.names.find(candidate) == kNoName) {
-            error.help.emplace_back("what stands behind the `#` is a name of your choice, another "
+            error.help.emplace_back("the word after the `#` is a name of your choice, a different "
                                     "one for each production");
             add_fix(error, fmt::format("write `#{}`", candidate), node.name_span, candidate, false);
             break;
@@ -124,7 +124,7 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     }
 }
 
-/// Whether no parameter and no earlier local value has the name; reports one that has.
+/// Whether no parameter or earlier local value has the name; reports the one that has it.
 bool ProductionResolver::is_new_local(const LocalNode& node, const Production& production) {
     const auto report = [&](const char* what, SourceSpan first) {
         Diagnostic& error = resolution_.diagnostics.add(
@@ -159,7 +159,7 @@ bool ProductionResolver::is_new_local(const LocalNode& node, const Production& p
     return true;
 }
 
-/// Resolves the probability or weight behind `~`: a number, or with `weights any` an expression.
+/// Resolves the probability or weight after `~`: a number, or with `weights any` an expression.
 void ProductionResolver::resolve_weight(ExpressionId probability, Production& production) {
     production.stochastic = true;
     production.weight = std::numeric_limits<float>::quiet_NaN();

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Returns `weight`, or NaN after reporting that it is no valid probability or weight.
+/// Returns `weight`, or NaN after reporting that it is not a valid probability or weight.
 [[nodiscard]] float checked_weight(Resolution& resolution, float weight, SourceSpan span);
 
 class ProductionResolver {

@@ -33,8 +33,8 @@ struct Resolution {
     return static_cast<std::size_t>(name);
 }
 
-/// Suggests the nearest known name for an unknown one. A work limit keeps files of a million
-/// mistakes fast.
+/// Suggests the nearest known name for an unknown one. A work limit bounds the time for files with
+/// a million mistakes.
 class Suggestions {
 public:
     /// The nearest candidate that is similar enough, or an empty string.

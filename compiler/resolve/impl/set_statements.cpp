@@ -24,7 +24,7 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 #include "compiler/bytecode/settings.def"
 });
 
-/// Smaller densities are likely meant in g/cm³.
+/// Smaller densities are probably meant in g/cm³.
 constexpr float kMinLikelyDensity = 2.0F;
 
 /// Forms of module names that a front end reads.
@@ -121,7 +121,7 @@ void SetResolver::report_unknown_key(const SetNode& node) {
     }
 }
 
-/// Explains `#set iterations 6;`, which is a statement of its own.
+/// Explains `#set iterations 6;`: the equivalent in .lsys is a statement, not a setting.
 void SetResolver::report_statement_for_key(const SetNode& node,
                                            const Synonym& synonym,
                                            Diagnostic& error) const {
@@ -138,7 +138,7 @@ void SetResolver::report_statement_for_key(const SetNode& node,
     }
 }
 
-/// Explains a pull that is given by one number.
+/// Explains a tropism that is given by one number.
 void SetResolver::explain_tropism(const SetNode& node, Diagnostic& error) const {
     const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
     std::string_view number = resolution_.sources.text(span);

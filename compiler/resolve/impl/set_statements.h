@@ -1,5 +1,6 @@
-// Resolves #set: keys and values to Settings. Modes and profiles decide how everything else is
-// read, so they are read first; numbers may use constants and are read in the order of the text.
+// Resolves #set: keys and values to Settings. Modes and profiles affect the reading of all other
+// statements, so they are read first; numbers may use constants and are read in the order of the
+// text.
 #pragma once
 
 #include "compiler/resolve/impl/expressions.h"
@@ -20,7 +21,7 @@ public:
     /// Origin of the `#set` statements.
     enum class Origin : std::uint8_t {
         Grammar,
-        Options, // of --set: they replace values of the grammar, `names` that of the root file
+        Options, // --set: replaces values of the grammar; `names` applies to the root file
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 

@@ -1,6 +1,6 @@
 // Name splitting (docs/language.md section 3): an unknown module name that is a sequence of known
-// names in exactly one way is read as that sequence, `AS(1)` as `A S(1)`. Decided after all
-// statements are parsed, from the name, the number of parameters and the file.
+// names in exactly one way is read as that sequence, `AS(1)` as `A S(1)`. The decision is made
+// after all statements are parsed, from the name, the number of parameters and the file.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -63,7 +63,7 @@ private:
     std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
     std::unordered_set<std::size_t> use_lengths_;
     std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
-    /// Work left. When it is used up, names that are costly to split stay whole.
+    /// Work left. After it is used up, names that are costly to split stay whole.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
 };
 

@@ -22,8 +22,8 @@ std::string_view line_at(std::string_view text, std::size_t at) {
     return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-/// The modules of `text` up to the `:` or `;` behind them, with blanks in place of parentheses and
-/// their contents (arguments), and of comments `/* ... */`.
+/// The modules of `text` up to the next `:` or `;`. Arguments with their parentheses, and comments
+/// `/* ... */`, are replaced by blanks.
 std::string without_arguments(std::string_view text) {
     std::string kept;
     std::size_t depth = 0;
@@ -34,7 +34,7 @@ std::string without_arguments(std::string_view text) {
             continue;
         }
         if (depth == 0 && (text[at] == ':' || text[at] == ';')) {
-            break; // what follows is another part, or another statement
+            break; // the rest is another part or statement
         }
         depth += text[at] == '(' ? 1U : 0U;
         kept += depth == 0 ? text[at] : ' ';
@@ -58,7 +58,7 @@ void for_each_word(std::string_view text, const Visit& visit) {
     }
 }
 
-/// The words of a file that are neither in a comment `/* ... */` nor behind `//` in their line.
+/// The words of a file outside of comments `/* ... */` and before `//` in their line.
 class FileWords {
 public:
     FileWords(std::string_view text, bool letters) {
@@ -81,7 +81,7 @@ public:
     }
 
     [[nodiscard]] bool has(std::string_view word) const { return words_.count(word) != 0; }
-    /// Whether a word is one of the file with two neighbouring letters exchanged.
+    /// Whether the file has the word with two neighbouring letters exchanged.
     [[nodiscard]] bool has_with_exchanged_letters(std::string_view word) const {
         std::string other(word);
         for (std::size_t i = 0; i + 1 < other.size(); ++i) {
@@ -93,8 +93,8 @@ public:
         }
         return false;
     }
-    /// For a file with `names letters`: whether a word looks like part of a remark, since none of
-    /// its letters is a module of the file, or three or more are not.
+    /// For a file with `names letters`: whether a word looks like part of a remark. None of its
+    /// letters is a module of the file, or at least three of them are not.
     [[nodiscard]] bool has_foreign_letters(std::string_view word) const {
         const auto foreign = std::count_if(
             word.begin(), word.end(), [&](char letter) { return letters_.count(letter) == 0; });
@@ -111,8 +111,8 @@ public:
     CommentSearch(Resolution& resolution, const std::vector<bool>& known, NameSplitter& splitter)
         : resolution_(resolution), known_(known), splitter_(splitter) {}
 
-    /// Whether `comment`, the text behind a `//`, is meant as a comment: outside of parentheses it
-    /// has a word of several letters that is no module, or two such words in a row.
+    /// Whether `comment`, the text after a `//`, is meant as a comment: outside of parentheses it
+    /// has a word of several letters that is not a module, or two such words in a row.
     [[nodiscard]] bool is_comment(std::string_view comment, FileId file) {
         bool found = false;
         bool was_foreign = false;
@@ -126,8 +126,8 @@ public:
         return found;
     }
 
-    /// Whether the text behind a `//` may be modules with a mistake among them: it has a name of
-    /// several letters that the file has elsewhere.
+    /// Whether the text after a `//` may be modules with a mistake among them: it has a name of
+    /// several letters that occurs elsewhere in the file.
     [[nodiscard]] bool may_be_modules(std::string_view comment, FileId file) {
         bool found = false;
         for_each_word(without_arguments(comment), [&](std::string_view word) {

@@ -16,13 +16,13 @@ namespace {
 constexpr std::uint32_t kMaxFormals = 8;
 constexpr std::uint32_t kMinPoints = 2;
 constexpr std::uint32_t kMaxPoints = 256;
-/// Max number of values that inlining the calls of one statement may make: n functions that each
-/// call the next one twice make 2^n values.
+/// Max number of values that inlining the calls of one statement may create. If each of n functions
+/// calls the next one twice, inlining creates 2^n values.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 22;
 
 } // namespace
 
-/// Whether no other function has the name; reports one that has.
+/// Whether no other function has the name; reports the one that has it.
 bool ExpressionResolver::is_free_name(NameId name, SourceSpan span) {
     const std::string_view text = resolution_.text(name);
     UserFunction& function = user_functions_.at(name);
@@ -110,7 +110,7 @@ void ExpressionResolver::define_function(const FunctionNode& node) {
             work.push_back(operand);
         }
     }
-    std::sort(function.nodes.begin(), function.nodes.end()); // operands come before what uses them
+    std::sort(function.nodes.begin(), function.nodes.end()); // operands come before their users
 }
 
 std::optional<std::vector<CurveKnot>> ExpressionResolver::read_points(const CurveNode& node) {
@@ -133,13 +133,13 @@ std::optional<std::vector<CurveKnot>> ExpressionResolver::read_points(const Curv
         (i % 2 == 0 ? point.x : point.y) = *number;
         if (!std::isfinite(*number)) {
             resolution_.diagnostics.add(DiagnosticCode::BadFunction, span,
-                                        fmt::format("{} is no coordinate", *number));
+                                        fmt::format("{} is not a coordinate", *number));
             return std::nullopt;
         }
         if (i % 2 == 0 && i > 0 && !(points[i / 2 - 1].x < point.x)) {
             resolution_.diagnostics
                 .add(DiagnosticCode::BadFunction, span,
-                     fmt::format("{} does not lie behind {}, the point before it", point.x,
+                     fmt::format("x is {}, but the point before it is at {}", point.x,
                                  points[i / 2 - 1].x))
                 .help.emplace_back("the points of a curve ascend from left to right");
             return std::nullopt;
@@ -224,7 +224,7 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
         if (first_report_of(expression.name)) {
             resolution_.diagnostics.add(
                 DiagnosticCode::ProgramTooLarge, span,
-                fmt::format("the functions of this statement stand for more than {} operations",
+                fmt::format("the functions of this statement expand to more than {} operations",
                             kMaxExpanded));
         }
         return kPoison;
@@ -252,7 +252,7 @@ bool ExpressionResolver::draws(ValueId root) const {
 }
 
 /// Inlines a call: a copy of the body with the arguments in place of the formals. An argument that
-/// is used more than once, or possibly not at all, is computed once into a slot.
+/// is used several times, or possibly never, is computed once into a slot.
 ValueId ExpressionResolver::expanded(const UserFunction& function,
                                      std::span<const ValueId> arguments,
                                      SourceSpan span) {
@@ -296,7 +296,7 @@ ValueId ExpressionResolver::expanded(const UserFunction& function,
                        : arguments[value.index];
             break;
         case Opcode::Local: {
-            // A slot whose value has become a leaf is replaced by that leaf.
+            // A slot whose value is now a leaf is replaced by that leaf.
             const ValueId known = copy_of(values_of_slots.at(value.index));
             copy = values_.is_leaf(known)
                        ? values_.leaf_at(known, span)

@@ -23,11 +23,13 @@ public:
     /// kNoValue for a distribution of one argument.
     [[nodiscard]] ValueId
     draw(Opcode opcode, ValueId first, ValueId second, std::uint32_t number, SourceSpan span);
-    /// An operation on one or two values: a literal if all operands are, kPoison if one is.
+    /// An operation on one or two values: a literal if all operands are literals, kPoison if one
+    /// is.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
     /// arithmetic::mix() of three values.
     [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);
-    /// `yes` where the condition is not 0, else `no`; one of these if the condition is a literal.
+    /// `yes` if the condition is not 0, else `no`. A literal condition selects one of the two at
+    /// once.
     [[nodiscard]] ValueId choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span);
     /// The value of curve `index` with these points at `x`.
     [[nodiscard]] ValueId

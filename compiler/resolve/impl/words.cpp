@@ -24,7 +24,7 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
 
 namespace {
 
-/// Appends a module, or the modules that its name is split into, the last of which gets the
+/// Appends a module, or the modules that its name is split into. The last of them gets the
 /// arguments.
 void append_module(ModuleReading& reading, const ModuleView& module) {
     Program& program = reading.resolution.program;
@@ -49,7 +49,7 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
     }
 }
 
-/// Appends modules from `index` on while they have no arguments and a cached symbol, as nearly all
+/// Appends modules from `index` on while they have no arguments and a cached symbol; nearly all
 /// modules of a long word do. Returns the index of the first module that does not.
 std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
     ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;

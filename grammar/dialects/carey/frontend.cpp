@@ -26,7 +26,7 @@ void write_settings(const CareyFile& file, const ParseContext& context, Translat
         const std::string_view value = context.sources.text(setting.value);
         if (!is_number(value, "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignValue, setting.value,
-                                    "`" + shown(value) + "` is no number");
+                                    "`" + shown(value) + "` is not a number");
             continue;
         }
         const std::string name(setting.key->lsys);
@@ -56,23 +56,23 @@ void write_axiom(const CareyFile& file,
     }
 }
 
-/// Properties of a rule that depend on the other rules.
-struct RulePlace {
+/// How a rule is selected: properties that depend on the other rules.
+struct RuleSelection {
     std::size_t number = 0;
-    bool chosen = false;   // other rules have the same left side
+    bool has_alternatives = false; // other rules have the same left side
     std::string condition; // true in the generations of its turn; empty: `rewriting cyclic` decides
 };
 
 /// Writes the condition and the probability of a rule.
 void write_choice(const CareyRule& rule,
-                  const RulePlace& place,
+                  const RuleSelection& selection,
                   const ParseContext& context,
                   Translation& translation) {
-    if (!place.chosen) {
-        translation.put(place.condition.empty() ? "*" : place.condition, rule.left);
+    if (!selection.has_alternatives) {
+        translation.put(selection.condition.empty() ? "*" : selection.condition, rule.left);
         return;
     }
-    translation.put(place.condition.empty() ? "" : place.condition + " ", rule.left);
+    translation.put(selection.condition.empty() ? "" : selection.condition + " ", rule.left);
     if (rule.ratio) {
         translation.put("~ ", *rule.ratio);
         translation.copy(*rule.ratio, context.sources);
@@ -84,7 +84,7 @@ void write_choice(const CareyRule& rule,
 /// Writes a rule as a production whose left side ends in a module with `parameters` parameters. The
 /// last module of its right side gets them.
 void write_production(const CareyRule& rule,
-                      const RulePlace& place,
+                      const RuleSelection& selection,
                       std::size_t parameters,
                       const ParseContext& context,
                       CareyWriter& writer,
@@ -94,12 +94,12 @@ void write_production(const CareyRule& rule,
         formals += (i == 1 ? "(x" : ", x") + std::to_string(i);
     }
     formals += parameters == 0 ? "" : ")";
-    const std::string name =
-        std::to_string(place.number) + (parameters == 0 ? "" : "p" + std::to_string(parameters));
+    const std::string name = std::to_string(selection.number) +
+                             (parameters == 0 ? "" : "p" + std::to_string(parameters));
     translation.put("#r" + name + " : ", rule.left);
     writer.write(rule.left, CareyText::Left);
     translation.put(formals + " : ", rule.left);
-    write_choice(rule, place, context, translation);
+    write_choice(rule, selection, context, translation);
     translation.put(" : ", rule.left);
     writer.write(rule.right, CareyText::Right);
     if (parameters > 0) {
@@ -126,16 +126,16 @@ void write_rules(const CareyFile& file,
         if (rule.ratio && !is_number(context.sources.text(*rule.ratio), "-")) {
             context.diagnostics.add(DiagnosticCode::ForeignValue, *rule.ratio,
                                     "`" + shown(context.sources.text(*rule.ratio)) +
-                                        "` is no ratio");
+                                        "` is not a ratio");
         }
-        RulePlace place{i + 1, alternatives[left_sides[i]] > 1, {}};
+        RuleSelection selection{i + 1, alternatives[left_sides[i]] > 1, {}};
         if (parameters.any && turns.size() > 1) {
-            place.condition = "mod(step(), " + std::to_string(turns.size()) +
-                              ") == " + std::to_string(turns[left_sides[i]]);
+            selection.condition = "mod(step(), " + std::to_string(turns.size()) +
+                                  ") == " + std::to_string(turns[left_sides[i]]);
         }
-        write_production(rule, place, 0, context, writer, translation);
-        for (const std::size_t count : parameters.of_rule[i]) {
-            write_production(rule, place, count, context, writer, translation);
+        write_production(rule, selection, 0, context, writer, translation);
+        for (const std::size_t count : parameters.counts_by_rule[i]) {
+            write_production(rule, selection, count, context, writer, translation);
         }
     }
 }
@@ -159,8 +159,8 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
         any_choice = any_choice || !is_new;
     }
     const LeftParameters parameters = find_left_parameters(file, context);
-    // A module with parameters and one without are rewritten in the same turn, which a cyclic
-    // rewriting of modules does not do.
+    // With `rewriting cyclic`, the same module with and without parameters would take different
+    // turns; the forest generator gives them one turn.
     translation.put("#set turtle " + std::string(row.turtle) +
                     ";\n#set names letters;\n#set rewriting " +
                     (parameters.any ? "leftmost" : "cyclic") + ";\n");

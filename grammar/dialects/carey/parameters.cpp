@@ -48,18 +48,18 @@ public:
 
     LeftParameters walk() {
         LeftParameters found;
-        found.of_rule.resize(rules_.size());
+        found.counts_by_rule.resize(rules_.size());
         while (!forms_.empty()) {
             const TextModule module = forms_.back();
             forms_.pop_back();
             for (std::size_t i = 0; i < rules_.size(); ++i) {
                 if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
-                    found.of_rule[i].push_back(module.form.second);
+                    found.counts_by_rule[i].push_back(module.form.second);
                     found.any = true;
                 }
             }
         }
-        for (std::vector<std::size_t>& counts : found.of_rule) {
+        for (std::vector<std::size_t>& counts : found.counts_by_rule) {
             std::sort(counts.begin(), counts.end());
         }
         return found;
@@ -128,7 +128,7 @@ private:
                                : "`" + shown(context_.sources.text(rule.right.back().span)) + "`";
         Diagnostic& error = context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
                                                      "the rule `" + text_of(rule) +
-                                                         "` leaves this parameter behind " +
+                                                         "` leaves this parameter after " +
                                                          problem + ", which cannot take it");
         error.labels.push_back({rule.rule->right, "replaces text, and the parameter stays"});
         error.help.emplace_back("give the symbol with the parameter a name that no rule rewrites");

@@ -1,5 +1,5 @@
 // Parameters that stay in the text when a rule of a .rules file replaces the symbol before them:
-// the forest generator replaces text, so the rule `F=FF` makes `FF(2)` of `F(2)`.
+// the forest generator replaces text, so the rule `F=FF` turns `F(2)` into `FF(2)`.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -12,7 +12,7 @@ namespace lsys {
 
 /// Per rule of the file, ascending: the parameter counts that can follow its left side.
 struct LeftParameters {
-    std::vector<std::vector<std::size_t>> of_rule;
+    std::vector<std::vector<std::size_t>> counts_by_rule;
     bool any = false;
 };
 

@@ -44,12 +44,12 @@ void report_no_equals(const LinePiece& name,
                       Diagnostics& diagnostics) {
     if (has_equals) {
         diagnostics.add(DiagnosticCode::ForeignSyntax, colon.span,
-                        "the ratio of a rule stands behind its right side");
+                        "the ratio of a rule comes after its right side");
         return;
     }
     Diagnostic& error =
         diagnostics.add(DiagnosticCode::ForeignKey, name.span,
-                        "`" + shown(name.text) + "` is no setting, and a rule has a `=`");
+                        "`" + shown(name.text) + "` is not a setting, and a rule has a `=`");
     std::vector<std::string_view> keys;
     for (const CareyKey& key : kKeys) {
         keys.push_back(key.name);

@@ -42,7 +42,7 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
     }
     if (c == ',') {
         diagnostics.add(DiagnosticCode::ForeignSyntax, module.span,
-                        "`,` is no symbol, it ends the rule for the forest generator");
+                        "`,` is not a symbol: it ends the rule for the forest generator");
         return false;
     }
     if (c == '(' || c == ')') {

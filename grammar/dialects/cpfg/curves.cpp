@@ -189,7 +189,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             if (const auto curve = beside(path)) {
                 read_curves(*curve, view.curves);
             }
-            // A missing file takes a number, so that later curves keep theirs.
+            // A missing file keeps its number, so that the numbers of later curves do not change.
             view.curves.resize(before + 1);
             const std::string_view file = path.substr(path.find_last_of('/') + 1);
             view.curves.back().file = file.substr(0, file.find('.'));

@@ -23,7 +23,7 @@ struct CpfgCurve {
     std::vector<CurvePoint> points; // control polygon; x ascends
 };
 
-/// Contents of a view file that words depend on.
+/// The parts of a view file that affect the derivation.
 struct CpfgView {
     std::string angle; // an expression of .lsys; empty: none is given
     std::vector<CpfgCurve> curves;

@@ -64,8 +64,8 @@ void CpfgExpressions::warn_left_out(SourceSpan span,
     }
 }
 
-/// A number without its fraction.
-ForeignId CpfgExpressions::whole(ForeignId value, SourceSpan span) {
+/// Truncates a number to an integer.
+ForeignId CpfgExpressions::truncated(ForeignId value, SourceSpan span) {
     if (tree_[value].kind == ForeignKind::Number && is_integer(tree_[value].text)) {
         return value;
     }
@@ -79,11 +79,12 @@ ForeignId CpfgExpressions::read(ForeignId value, SourceSpan span) {
     return tree_.add(std::move(node));
 }
 
-/// An element of an array: its curve at whole numbers, which keeps to the first and the last point.
+/// An element of an array, read from the array's curve; an index out of range reads the nearest
+/// one.
 ForeignId CpfgExpressions::element(const ForeignNode& node) {
     const auto found = arrays_.find(node.text);
     if (found == arrays_.end()) {
-        return unsupported(node.span, "`" + shown(node.text) + "` is no array");
+        return unsupported(node.span, "`" + shown(node.text) + "` is not an array");
     }
     Array& array = found->second;
     if (array.sizes.size() != node.parts.size()) {
@@ -96,7 +97,7 @@ ForeignId CpfgExpressions::element(const ForeignNode& node) {
         if (tree_[part].kind != ForeignKind::Number || !is_integer(tree_[part].text)) {
             part = tree_.call("floor", {part}, node.token);
         }
-        if (node.parts.size() > 1) { // each index keeps to its own size
+        if (node.parts.size() > 1) { // clamp each index to its dimension
             const std::string last = std::to_string(array.sizes[i] - 1);
             part = tree_.call("clamp",
                               {part, tree_.number("0", node.token), tree_.number(last, node.token)},
@@ -128,7 +129,7 @@ std::string CpfgExpressions::known_literal(ForeignId value) {
     return literal;
 }
 
-/// The first value of a global variable, that of `Start:`.
+/// The initial value of a global variable, assigned in `Start:`.
 ForeignId CpfgExpressions::first_value(const std::string& global, SourceSpan span) {
     const auto start = globals_.find(global);
     return start == globals_.end() ? tree_.number("0", span) : read(start->second, span);
@@ -166,7 +167,7 @@ ForeignId CpfgExpressions::name(const ForeignNode& node) {
     return first_value(node.text, node.span);
 }
 
-/// `func(which, x)`; which is a number, or a name in the set of functions.
+/// `func(which, x)`, where `which` is a number or the name of a function of the set.
 ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     const ForeignNode which = tree_[node.parts[0]];
     std::size_t index = curves_.size();
@@ -260,8 +261,8 @@ ForeignId CpfgExpressions::call(const ForeignNode& node) {
 ForeignId CpfgExpressions::binary(const ForeignNode& node) {
     const ForeignId a = term(node.parts[0]);
     const ForeignId b = term(node.parts[1]);
-    if (node.text == "%") { // the remainder of the operands cut to whole numbers
-        return tree_.call("mod", {whole(a, node.token), whole(b, node.token)}, node.token);
+    if (node.text == "%") { // the remainder of the truncated operands
+        return tree_.call("mod", {truncated(a, node.token), truncated(b, node.token)}, node.token);
     }
     return tree_.binary(node.text == "<>" ? "!=" : node.text, a, b, node.token);
 }
@@ -273,7 +274,7 @@ ForeignId CpfgExpressions::term(ForeignId expression) {
         return name(node);
     case ForeignKind::Text:
     case ForeignKind::Address:
-        return unsupported(node.span, "a value that is no number");
+        return unsupported(node.span, "a value that is not a number");
     case ForeignKind::Unary:
         return tree_.unary(node.text, term(node.parts[0]), node.token);
     case ForeignKind::Binary:
@@ -313,7 +314,7 @@ void CpfgExpressions::write_functions(Translation& out, SourceSpan place) const 
             const ForeignId value = array.values[i];
             const bool plain = tree_[value].kind == ForeignKind::Number;
             out.put((i == 0 ? " " : ", ") + std::to_string(i) + (plain ? " " : " ("), place);
-            tree_.write(value, {.expands = true}, out);
+            tree_.write(value, {.expands_locals = true}, out);
             out.put(plain ? "" : ")", place);
         }
         out.put(";\n", place);

@@ -1,7 +1,7 @@
 // Expressions and statements of cpfg in .lsys. An assignment of a production becomes a local value,
-// one of the header a constant, and `if` chooses among the values of the variables that its blocks
-// assign. Global variables are known if each step adds the same amount to them or assigns them
-// before reading them.
+// an assignment of the header a constant, and `if` chooses among the values of the variables that
+// its blocks assign. Global variables are known if each step adds the same amount to them or
+// assigns them before reading them.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -24,13 +24,13 @@ public:
 
     /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
-    /// Begins the axiom, or a setting: global variables have their first values.
+    /// Begins the axiom or a setting, where global variables have their initial values.
     void begin_axiom();
-    /// Begins a production with its formals and without variables. `stage`: of the .lsys statement
-    /// to be written.
+    /// Begins a production with its formals and without variables. `stage` is the stage of the
+    /// .lsys production to be written.
     void begin(std::set<std::string> formals, Stage stage);
-    /// Makes the random numbers of the production parameters of its module, with numbers from
-    /// `first` on.
+    /// Turns the random numbers of the production into parameters of its module, numbered from
+    /// `first`.
     void bind_draws(std::uint32_t first);
     /// Defines a variable of the production.
     void let(const std::string& name, ForeignId value) { variables_[name] = value; }
@@ -39,12 +39,12 @@ public:
     [[nodiscard]] ForeignId term(ForeignId expression);
     /// Count of random numbers of the production so far.
     [[nodiscard]] std::uint32_t draws() const { return draws_; }
-    /// Constants are the local values before this one.
+    /// Index of the first local value that is not a constant.
     [[nodiscard]] std::size_t end_of_constants() const { return end_of_constants_; }
     /// Writes the arrays and functions that expressions read.
     void write_functions(Translation& out, SourceSpan place) const;
 
-    /// Reports nothing from here on if `quiet`: what is read has been reported.
+    /// Suppresses reports, for statements whose mistakes have been reported.
     void set_quiet(bool quiet) { quiet_ = quiet; }
     /// Warns once per `what` that lsc leaves it out.
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
@@ -54,7 +54,7 @@ private:
     struct Array {
         std::vector<int> sizes;
         std::vector<ForeignId> values;
-        std::string name; // of its curve in .lsys; empty: not read
+        std::string name; // of its curve in .lsys; empty while nothing reads the array
     };
 
     [[nodiscard]] ForeignId name(const ForeignNode& node);
@@ -64,11 +64,11 @@ private:
     [[nodiscard]] ForeignId element(const ForeignNode& node);
     [[nodiscard]] ForeignId binary(const ForeignNode& node);
     [[nodiscard]] ForeignId draw(SourceSpan span) { return tree_.draw(draws_++, span); }
-    [[nodiscard]] ForeignId whole(ForeignId value, SourceSpan span);
+    [[nodiscard]] ForeignId truncated(ForeignId value, SourceSpan span);
     /// The node of a variable, as read at `span`.
     [[nodiscard]] ForeignId read(ForeignId value, SourceSpan span);
-    /// The literal that `value` is known to be, or empty. Local values on the way to it are written
-    /// as the literal, since what depends on it stays as it is here.
+    /// The literal that `value` is known to be, or empty. The local values that lead to it become
+    /// inline, so the literal replaces their names.
     [[nodiscard]] std::string known_literal(ForeignId value);
     void assign(const std::string& variable, ForeignId value, SourceSpan span);
     void run(const CpfgStatement& statement);
@@ -107,11 +107,12 @@ private:
     std::map<std::string, ForeignId> increments_; // by global: what each step adds to it
     std::set<std::string> reset_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
-    std::map<std::size_t, std::string> curve_names_; // of functions that are read
+    std::map<std::size_t, std::string>
+        curve_names_; // by curve: name of its function in .lsys, if read
     std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign
-    std::set<Stage> entered_;               // stages whose step statements have been reported
+    std::set<Stage> reported_stages_;       // stages whose step statements have been reported
     std::set<std::string> warned_;
     std::uint32_t draws_ = 0;
     std::size_t end_of_constants_ = 0;

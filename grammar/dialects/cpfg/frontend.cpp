@@ -33,7 +33,7 @@ ForeignId CpfgSession::add(ForeignNode expression) {
         report_unsupported(span, "an expression of more than 1000 operations in one another");
     }
     ForeignNode flat{.kind = ForeignKind::Number, .text = "0", .span = span, .token = span};
-    flat.depth = depth + 1; // of the parents, which are not reported
+    flat.depth = depth + 1; // so that the enclosing expressions are replaced, too, without a report
     return expressions.add(std::move(flat));
 }
 

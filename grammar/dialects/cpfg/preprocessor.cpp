@@ -98,7 +98,7 @@ private:
         return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
     }
 
-    /// Length of one or two backslashes and the line end behind them; 0 if `text` begins otherwise.
+    /// Length of one or two backslashes and the line end after them; 0 for other texts.
     static std::size_t splice_length(std::string_view text) {
         std::size_t length = std::min(text.find_first_not_of('\\'), text.size());
         if (length == 0 || length > 2) {
@@ -300,7 +300,7 @@ private:
         return replaced ? used : length;
     }
 
-    /// Reads `(a, b)` behind the name of a macro; adds its length to `used`.
+    /// Reads `(a, b)` after the name of a macro; adds its length to `used`.
     static bool
     read_arguments(std::string_view text, std::vector<std::string>& arguments, std::size_t& used) {
         if (!text.starts_with("(")) {

@@ -59,7 +59,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
 <INITIAL>{
   {B}+                                   { }
   "\n"                                   { }
-  [Ll]"system"{B}*":"                    { session.label = true; ITEM(LABEL, Symbols); }
+  [Ll]"system"{B}*":"                    { session.in_label = true; ITEM(LABEL, Symbols); }
   [Ss]"eed"{B}*":"                       { ITEM(SEED, Expression); }
   [Dd]"erivation"" "?[Ll]"ength"{B}*":"  { ITEM(LENGTH, Expression); }
   [Mm]"aximum "[Dd]"epth"{B}*":"         { ITEM(DEPTH, Expression); }
@@ -87,7 +87,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
 <SYMBOLS>{
   {B}+                  { }
   "\n\t"                { }
-  "\n"                  { session.mode = Mode::Line; session.label = false; return Token::TOK_EOL; }
+  "\n"                  { session.mode = Mode::Line; session.in_label = false; return Token::TOK_EOL; }
   "no warnings"|"warnings" { return Token::TOK_WARNINGS; }
   "-->"                 { session.mode = Mode::Symbols; return Token::TOK_ARROW; }
   "-o>"                 { return Token::TOK_OBJECT_ARROW; }

@@ -86,7 +86,7 @@ public:
     int nesting = 0; // brackets open in an expression
     // In the arguments of a module; the `)` that closes them ends Mode::Expression.
     bool in_arguments = false;
-    bool label = false; // in the label `Lsystem: 1`
+    bool in_label = false; // the label `Lsystem: 1`
 
     /// The place of the next `length` bytes.
     SourceSpan take(std::uint32_t length) {

@@ -74,7 +74,7 @@ void CpfgExpressions::read_each_step() {
             reset_.insert(variable);
         }
     }
-    for (const auto& [variable, value] : globals_) { // local values have the name itself
+    for (const auto& [variable, value] : globals_) { // the name itself is for local values
         if (changed_globals_.count(variable) != 0 && tree_[value].kind == ForeignKind::Local) {
             tree_.locals()[tree_[value].index].name = "start_" + variable;
         }
@@ -182,13 +182,13 @@ std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& s
 
 /// Finds the values of global variables in the production that begins.
 void CpfgExpressions::enter_step() {
-    const bool was_quiet = std::exchange(quiet_, quiet_ || !entered_.insert(stage_).second);
+    const bool was_quiet = std::exchange(quiet_, quiet_ || !reported_stages_.insert(stage_).second);
     in_header_ = true;
     in_step_ = true;
     for (const auto& [variable, added] : increments_) {
         const SourceSpan span = tree_[added].span;
         const ForeignId first = first_value(variable, span);
-        const std::string start = known_literal(first); // no constant beside the local value
+        const std::string start = known_literal(first); // makes `first` inline
         ForeignId done = tree_.call("step", {}, span);  // count of finished steps
         if (stage_ != Stage::Rewrite) {
             done = tree_.binary("-", done, tree_.number("1", span), span);
@@ -252,7 +252,7 @@ void CpfgExpressions::bind_draws(std::uint32_t first) {
     draws_ = first;
 }
 
-/// Gives a variable a value. What another variable is called needs no name of its own.
+/// Assigns a value to a variable; adds a local value unless the value already has a name.
 void CpfgExpressions::assign(const std::string& variable, ForeignId value, SourceSpan span) {
     const ForeignKind kind = tree_[value].kind;
     const auto before = variables_.find(variable);
@@ -363,7 +363,7 @@ void CpfgExpressions::branch(const CpfgStatement& statement) {
         }
         const ForeignId a = value_in(yes, name);
         const ForeignId b = value_in(no, name);
-        for (const ForeignId value : {a, b}) { // values of this variable give way to the choice
+        for (const ForeignId value : {a, b}) { // the result of the `if` takes over their name
             if (tree_[value].kind == ForeignKind::Local) {
                 ForeignLocal& old = tree_.locals()[tree_[value].index];
                 old.is_final = old.is_final && old.name != name;
@@ -384,7 +384,7 @@ void CpfgExpressions::define_array(const CpfgStatement& statement) {
         std::from_chars(size.data(), size.data() + size.size(), value);
         if (value <= 0 || value > kMaxElements / count) {
             static_cast<void>(
-                unsupported(target.span, "an array whose size is no number from 1 to 256"));
+                unsupported(target.span, "an array whose size is not a number from 1 to 256"));
             return;
         }
         array.sizes.push_back(value);

@@ -115,7 +115,7 @@ void CpfgWriter::lower_productions() {
     }
 }
 
-/// Lowers a production that has begun.
+/// Lowers a production after CpfgExpressions::begin().
 void CpfgWriter::lower(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
     Lowered& lowered = lowered_[index];
@@ -137,8 +137,9 @@ void CpfgWriter::lower(std::size_t index) {
     lowered.draws = expressions_.draws();
 }
 
-/// Finds the modules whose productions match by chance: all productions of such a module become one
-/// that draws the random numbers, and decompositions that choose by them.
+/// Finds the modules whose conditions or choices are random. The productions of such a module
+/// become one production that draws the random numbers, and decompositions that choose by the
+/// numbers.
 void CpfgWriter::find_groups() {
     std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
     std::set<std::pair<Stage, std::string>> drawn;
@@ -393,7 +394,7 @@ void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     }
 }
 
-/// Reports productions that .lsys does not have; returns false for those.
+/// Reports productions that .lsys cannot express; returns false for them.
 bool CpfgWriter::check(const CpfgProduction& production) {
     if (production.predecessor.empty()) {
         session_.report_unsupported(production.span, "a production without a module");
@@ -471,8 +472,8 @@ std::vector<std::string> CpfgWriter::draw_names(const std::vector<std::string>& 
 
 void CpfgWriter::write_production(std::size_t index) {
     write_head(session_.productions[index], label_of(session_.productions[index].stage, index));
-    write_condition(index, {.expands = true});
-    write_weight(index, {.expands = true});
+    write_condition(index, {.expands_locals = true});
+    write_weight(index, {.expands_locals = true});
     write_successor(index, {});
 }
 
@@ -486,8 +487,8 @@ void CpfgWriter::write_successor(std::size_t index, const ForeignWriting& how) {
     out_.put(";\n", production.arrow);
 }
 
-/// Writes the productions of a module that match by chance: the first draws the random numbers, by
-/// which the others choose.
+/// Writes the productions of a module with random conditions or choices: the first production draws
+/// the random numbers, the others choose by them.
 void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];
@@ -507,7 +508,7 @@ void CpfgWriter::write_group(std::size_t index) {
                  production.span);
         write_parameters(own, draws, production.span);
         out_.put(" : ", production.span);
-        write_condition(member, {.expands = true, .draws = draws});
+        write_condition(member, {.expands_locals = true, .draws = draws});
         always = always || is_always(lowered_[member].condition);
         write_successor(member, {.draws = draws});
     }

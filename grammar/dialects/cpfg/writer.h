@@ -1,8 +1,8 @@
 // Writes a parsed cpfg file as .lsys text.
 //
-// The conditions of .lsys draw no random numbers. So where one decides whether a production matches,
-// it becomes a parameter of an intermediate module, which is decomposed at once:
-// `A(x) --> random1(x, {0, 1})`, `random1(x, u) : u < 0.5 --> ...`.
+// Conditions of .lsys draw no random numbers. A random number in a cpfg condition therefore becomes
+// a parameter of an intermediate module, which is decomposed at once: `A(x) --> random1(x, {0,
+// 1})`, `random1(x, u) : u < 0.5 --> ...`.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -32,9 +32,9 @@ private:
         ForeignId condition = kNoForeign;
         ForeignId weight = kNoForeign;
         std::vector<std::vector<ForeignId>> arguments; // by module of the successor
-        std::size_t first_local = 0;                   // of its local values
+        std::size_t first_local = 0;                   // index of its first local value
         std::size_t end_local = 0;
-        std::uint32_t first_draw = 0; // in a group: of the random numbers of its module
+        std::uint32_t first_draw = 0; // in a group: index of its first random number
         std::uint32_t draws = 0;
     };
 
@@ -106,7 +106,7 @@ private:
     ForeignId interpret_depth_ = kNoForeign;
     std::vector<std::vector<ForeignId>> axiom_; // arguments by module
     std::vector<Lowered> lowered_;              // by production
-    // Productions among which a random number decides, by the first of them.
+    // Groups of productions among which a random number chooses, by the first production.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
     std::set<Stage> bound_;         // stages with groups
     std::set<std::string> used_;    // names of all modules

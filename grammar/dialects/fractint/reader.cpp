@@ -10,7 +10,7 @@ namespace {
 /// `;` begins a comment everywhere.
 constexpr LineFormat kFormat{" \t\r\x1A", ';', true};
 
-/// Bytes of a piece between entries: a word, a brace, or a remark that a parenthesis begins.
+/// Bytes of a piece between entries: a word, a brace, or a remark after a `(`.
 std::size_t word_length(std::string_view ahead) {
     const std::string_view stops(" \t\r\x1A(\n;{\0", 9);
     return length_up_to(ahead, ahead[0] == '(' ? stops.substr(5) : stops);
@@ -30,13 +30,13 @@ std::vector<FractintEntry> read_fractint_entries(FileId root, const ParseContext
     LineReader reader(whole_file(root, context), kFormat, context);
     std::vector<FractintEntry> entries;
     SourceSpan name{root, 0, 0};
-    // Count on this line; a line of one word may name the entry that begins on the next line.
-    std::size_t words = 0;
+    // Words on this line; a line of one word may name the entry that begins on the next line.
+    std::size_t word_count = 0;
     LinePiece piece;
     while ((piece = reader.next(word_length)).kind != LinePieceKind::TextEnd) {
         if (piece.kind == LinePieceKind::LineEnd) {
-            name.begin = words > 1 ? name.end : name.begin;
-            words = 0;
+            name.begin = word_count > 1 ? name.end : name.begin;
+            word_count = 0;
         } else if (piece.text == "{") {
             LinePiece close;
             do {
@@ -47,9 +47,9 @@ std::vector<FractintEntry> read_fractint_entries(FileId root, const ParseContext
             }
             entries.push_back({name, {root, piece.span.end, close.span.begin}});
             name.begin = name.end;
-            words = 0;
+            word_count = 0;
         } else if (piece.text[0] != '(' && piece.text != "\xEF\xBB\xBF") {
-            name = words++ == 0 ? piece.span : name;
+            name = word_count++ == 0 ? piece.span : name;
         }
     }
     return entries;

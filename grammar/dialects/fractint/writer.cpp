@@ -19,9 +19,9 @@ constexpr double kFullTurn = 360.0;
 constexpr std::uint32_t kMinAngle = 3; // parts of a full turn
 constexpr std::uint32_t kMaxAngle = 50;
 
-/// Commands with a number behind them.
+/// Commands that a number may follow.
 constexpr std::string_view kNumbered = "@\\/C<>";
-/// Symbols that no rule can replace in present versions of Fractint.
+/// Symbols that no rule can replace in current versions of Fractint.
 constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
 
 char folded(char c) {
@@ -117,7 +117,7 @@ void FractintWriter::write_angle(const FractintLine& line) {
     }
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
         warn_quirk(place, "Fractint takes " + std::to_string(parts) +
-                              " for the angle and what stands behind it for a mistake");
+                              " for the angle and the text after it for a mistake");
     }
     if (parts < kMinAngle || parts > kMaxAngle) {
         warn_quirk(place, "Fractint takes angles from " + std::to_string(kMinAngle) + " to " +
@@ -146,7 +146,7 @@ bool FractintWriter::check_key(const FractintLine& line) {
     }
     const char symbol = folded(key[0]);
     if (static_cast<unsigned char>(symbol) < 0x20 || static_cast<unsigned char>(symbol) >= 0x7F) {
-        report_syntax(line.key, "this is no symbol");
+        report_syntax(line.key, "this is not a symbol");
         return false;
     }
     if (symbol == '[' || symbol == ']') {
@@ -164,18 +164,18 @@ bool FractintWriter::check_key(const FractintLine& line) {
 void FractintWriter::check_texts(const FractintLine& line) {
     const bool is_rule = line.kind == FractintLineKind::Rule;
     bool begun = false;
-    std::uint32_t words = 0;
+    std::uint32_t word_count = 0;
     for (const SourceSpan& text : line.texts) {
         const bool equals = context_.sources.text(text) == "=";
         if (equals && begun && is_rule) {
             report_syntax(text, "a line holds one rule; this is a second `=`");
             return;
         }
-        words += equals ? 0U : 1U;
-        if (words == 2 && !equals && is_rule) {
+        word_count += equals ? 0U : 1U;
+        if (word_count == 2 && !equals && is_rule) {
             warn_quirk(text,
                        "Fractint takes a text with blanks for a mistake; here they mean nothing");
-            ++words; // warn only once
+            ++word_count; // warn only once
         }
         begun = begun || !equals;
     }
@@ -212,7 +212,8 @@ void FractintWriter::write_rule(const Rule& rule, std::size_t number) {
 void FractintWriter::write_text(const FractintLine& line) {
     bool begun = false;
     for (const SourceSpan& text : line.texts) {
-        // The `=` of `Axiom = F` and `F = FF`; in an axiom others are symbols.
+        // The first `=` of `Axiom = F` and `F = FF` is a sign; in an axiom, further `=` are
+        // symbols.
         if (!begun && context_.sources.text(text) == "=") {
             begun = line.kind == FractintLineKind::Axiom;
             continue;
@@ -232,7 +233,7 @@ void FractintWriter::write_word(SourceSpan word) {
             const CodePoint point = decode_utf8(text.substr(at - 1));
             at += point.length - 1;
             report_syntax({symbol.file, symbol.begin, symbol.begin + point.length},
-                          "this is no symbol of a system");
+                          "this is not a symbol of a system");
             continue;
         }
         write_symbol(symbol);
@@ -252,7 +253,7 @@ void FractintWriter::write_symbol(SourceSpan symbol) {
     }
 }
 
-/// Writes the number behind a command; returns its bytes in `rest`. `I` inverts it, `Q` takes its
+/// Writes the number after a command; returns its bytes in `rest`. `I` inverts it, `Q` takes its
 /// square root.
 std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view rest) {
     bool root = false;

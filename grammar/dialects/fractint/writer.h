@@ -46,7 +46,7 @@ private:
     SourceSpan name_;
     const ParseContext& context_;
     Translation& translation_;
-    bool has_unknown_key_ = false; // a line begins with a word that is no key
+    bool has_unknown_key_ = false; // a line begins with a word that is not a key
 };
 
 } // namespace lsys

@@ -43,7 +43,7 @@ ForeignId HoudiniExpressions::term(ForeignId root, const HoudiniScope& scope) {
     Terms terms;
     std::vector<ForeignId> wanted;
     std::vector<ForeignId> open{root};
-    while (!open.empty()) { // a seed is no part of what is written
+    while (!open.empty()) { // the seed of `rand` is not written
         const ForeignId id = open.back();
         open.pop_back();
         wanted.push_back(id);
@@ -81,7 +81,7 @@ ForeignId HoudiniExpressions::lower(ForeignId id, const Terms& terms, const Houd
                    ? tree_.call("mod", std::move(parts), node.token)
                    : tree_.binary(operator_of(node.text), parts[0], parts[1], node.token);
     case ForeignKind::Text:
-        return unsupported(node.span, "a text is no value here");
+        return unsupported(node.span, "a text is not a value here");
     case ForeignKind::Missing:
         return tree_.number("0", node.span);
     default: // a number
@@ -112,7 +112,7 @@ ForeignId HoudiniExpressions::name(const ForeignNode& node, const HoudiniScope& 
     }
     if (name == "i") {
         return unsupported(node.span,
-                           "where a module stands in the word, `i`, is not known to rules of lsc, "
+                           "`i`, the index of a module in the word, is not known to rules of lsc, "
                            "except as the seed of `rand`");
     }
     if (name.size() == 1 && kTurtleVariables.find(name[0]) != std::string_view::npos) {
@@ -151,8 +151,8 @@ ForeignId HoudiniExpressions::random(const ForeignNode& node, const HoudiniScope
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =
             session_.context.diagnostics.add(DiagnosticCode::ForeignFeature, node.token,
-                                             "chance cannot stand in a condition or probability");
-        error.help.emplace_back("write the probability behind the rule, as in `A=B:0.3`; a first "
+                                             "a condition or probability cannot be random");
+        error.help.emplace_back("write the probability after the rule, as in `A=B:0.3`; a first "
                                 "rule with `rand(i)<0.3` and a second without condition are read");
         return tree_.number("0", node.span);
     }

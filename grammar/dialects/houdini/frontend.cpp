@@ -15,7 +15,7 @@ namespace {
 
 enum class LineKind : std::uint8_t { Nothing, Setting, NamedPremise, Premise, Rule, Other };
 
-/// The line without a `Rule 2:` in front.
+/// The line without a leading label, `Rule 2:`.
 std::string_view without_label(std::string_view line) {
     constexpr std::string_view kRule = "rule";
     if (houdini_key(line.substr(0, kRule.size())) != kRule) {
@@ -42,7 +42,7 @@ bool is_setting(std::string_view line) {
 }
 
 /// A rule has a symbol, perhaps with contexts, parameters and a condition, then a `=`; a line with
-/// an arrow is no rule.
+/// an arrow is not a rule.
 LineKind kind_of_rule(std::string_view line, std::size_t equals) {
     std::string_view head = trimmed(line.substr(0, equals));
     head = trimmed(head.substr(0, head.find(':')));
@@ -118,7 +118,7 @@ std::string_view recognise_houdini(std::string_view text) {
 
 namespace {
 
-/// Reports `b = 0.7`, the field of a value, which would be read as a rule without any sense.
+/// Reports `b = 0.7`, a value in a form of its own, which would be read as a meaningless rule.
 void report_values(FileId root, const ParseContext& context) {
     const std::string_view text = context.sources.file(root).text();
     for (std::size_t at = 0; at < text.size();) {

@@ -10,8 +10,8 @@ namespace lsys {
 
 namespace {
 
-/// The parameter counts with which the axiom and the successors have a turtle symbol; if they do
-/// not have it, its count in the head.
+/// The parameter counts that a turtle symbol has in the axiom and the successors; if it does not
+/// occur there, its count in the head.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {
@@ -38,7 +38,7 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
 
 /// Probability that the condition `rand(seed) < number` or `rand(seed) > number` holds, as an
 /// expression; empty for other conditions.
-std::string HoudiniWriter::chance_of(ForeignId condition) const {
+std::string HoudiniWriter::probability_of(ForeignId condition) const {
     const ForeignNode& test = tree_[condition];
     if (test.kind != ForeignKind::Binary) {
         return {};
@@ -58,7 +58,7 @@ std::string HoudiniWriter::chance_of(ForeignId condition) const {
 
 /// Finds pairs of rules that together are a random choice: the only two rules of a group, the first
 /// with the condition `rand(seed) < number`, the second without a condition.
-void HoudiniWriter::find_chances() {
+void HoudiniWriter::find_random_pairs() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
     std::map<std::string_view, std::size_t> rules_of; // by symbol
     for (const HoudiniRule& rule : session_.rules) {
@@ -71,10 +71,10 @@ void HoudiniWriter::find_chances() {
             rules[1]->condition != kNoForeign) {
             continue;
         }
-        const std::string chance = chance_of(rules[0]->condition);
+        const std::string chance = probability_of(rules[0]->condition);
         if (!chance.empty()) {
-            chances_[rules[0]] = chance;
-            chances_[rules[1]] = "(1 - " + chance + ")";
+            probabilities_[rules[0]] = chance;
+            probabilities_[rules[1]] = "(1 - " + chance + ")";
         }
     }
 }
@@ -124,9 +124,9 @@ HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
             }
             constexpr std::size_t kMax = 64;
             if (extended.size() > kMax) {
-                report_unsupported(
-                    rule.span, "symbols of the turtle stand here with too many different numbers "
-                               "of parameters");
+                report_unsupported(rule.span,
+                                   "turtle symbols occur here with too many different numbers "
+                                   "of parameters");
                 return {};
             }
             variants = std::move(extended);
@@ -200,7 +200,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
     }
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
-    if (const auto chance = chances_.find(&rule); chance != chances_.end()) {
+    if (const auto chance = probabilities_.find(&rule); chance != probabilities_.end()) {
         expressions_.warn_random(rule.span);
         translation_.put("* ~ " + chance->second, rule.span);
     } else if (rule.condition != kNoForeign) {
@@ -231,7 +231,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
 }
 
 void HoudiniWriter::write_expression(ForeignId expression, const HoudiniScope& scope) {
-    tree_.write(expressions_.term(expression, scope), {.expands = true}, translation_);
+    tree_.write(expressions_.term(expression, scope), {.expands_locals = true}, translation_);
 }
 
 /// Writes the rule that ages a symbol matched by no other rule.

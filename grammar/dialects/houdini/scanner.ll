@@ -1,5 +1,5 @@
 /* The tokens of Houdini's rule texts. A line is a setting, the premise or a rule. Expressions stand within
-   parentheses and behind a `:`; elsewhere every character is a symbol. No pattern that may be long contains NUL. */
+   parentheses and after a `:`; elsewhere every character is a symbol. No pattern that may be long contains NUL. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs

@@ -61,8 +61,8 @@ public:
     /// Puts the last `length` bytes of the last match back.
     void put_back(std::uint32_t length);
     [[nodiscard]] SourceSpan last() const { return last_; }
-    /// The token of a line's first word; 0 if the word is no key. `text` includes the blanks after
-    /// the word.
+    /// The token of a line's first word; 0 if the word is not a key. `text` includes the blanks
+    /// after the word.
     int key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
@@ -81,7 +81,7 @@ public:
     /// Reports parentheses that are nested too deep.
     void check_nesting(SourceSpan span) const;
     void add_premise(std::vector<HoudiniModule> modules, SourceSpan span);
-    /// `rule` has no nodes, span and formals yet.
+    /// Adds a rule; sets its nodes, span and formals.
     void add_rule(HoudiniRule rule, SourceSpan span);
     void forget_rule();
 

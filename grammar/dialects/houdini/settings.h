@@ -13,7 +13,7 @@ enum class HoudiniSettingKind : std::uint8_t {
     Value,   // b, c or d
     Gravity, // the default parameter of the command T
     Seed,
-    Ignore, // symbols that contexts do not see
+    Ignore, // symbols that contexts skip
 };
 
 struct HoudiniSettingRow {

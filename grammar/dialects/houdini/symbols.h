@@ -1,6 +1,6 @@
 // Properties of each symbol of a Houdini rule text: parameter counts, whether rules rewrite it,
-// whether rules read its age. Houdini takes 0 for parameters that are left out; in .lsys modules
-// with different numbers of parameters are different modules.
+// whether rules read its age. Houdini uses 0 for omitted parameters; in .lsys, modules with
+// different numbers of parameters are different modules.
 #pragma once
 
 #include "grammar/dialects/houdini/session.h"
@@ -24,7 +24,7 @@ public:
     explicit HoudiniSymbols(const HoudiniSession& session);
 
     [[nodiscard]] const HoudiniSymbol& symbol(const HoudiniModule& module) const;
-    /// Parameters of a module, without those left out at the end.
+    /// Parameters of a module, without omitted ones at the end.
     [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
     [[nodiscard]] bool occurs(std::string_view symbol) const { return symbols_.contains(symbol); }
 

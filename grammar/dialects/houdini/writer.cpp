@@ -19,7 +19,7 @@ HoudiniWriter::HoudiniWriter(HoudiniSession& session, Translation& translation)
         bool& known = has_probability_[group_of(rule)];
         known = known || rule.probability != kNoForeign;
     }
-    find_chances();
+    find_random_pairs();
 }
 
 void HoudiniWriter::report_syntax(SourceSpan place, const std::string& message) const {
@@ -39,14 +39,14 @@ void HoudiniWriter::read_settings() {
             continue;
         }
         if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
-            report_syntax(value, "`" + shown(text(value)) + "` is no number");
+            report_syntax(value, "`" + shown(text(value)) + "` is not a number");
         } else if (!settings_.emplace(row->name, value).second) {
-            report_syntax(setting.key, "this setting stands twice");
+            report_syntax(setting.key, "this setting occurs twice");
         }
     }
 }
 
-/// The value of a setting as the file has it, or `fallback`.
+/// The value of a setting as written in the file, or `fallback`.
 std::string HoudiniWriter::number(std::string_view name, const char* fallback) const {
     const auto found = settings_.find(name);
     std::string digits = found != settings_.end() ? std::string(text(found->second)) : fallback;
@@ -105,7 +105,7 @@ bool HoudiniWriter::calls(std::string_view function) const {
     return false;
 }
 
-/// Defines the values b, c and d as constants, which -D can replace.
+/// Defines the values b, c and d as constants, which the option -D can replace.
 void HoudiniWriter::write_values() {
     for (const std::string_view value : {"b", "c", "d"}) {
         if (!reads_variable(value)) {
@@ -160,14 +160,14 @@ void HoudiniWriter::write_symbol(const HoudiniModule& module) {
     const std::string_view symbol = text(module.symbol);
     if (symbol[0] == '`') {
         report_unsupported(module.symbol,
-                           "what stands in back quotes is of Houdini's expressions, which lsc does "
+                           "text in back quotes is an expression of Houdini, which lsc does "
                            "not have");
         return;
     }
     const CodePoint point = decode_utf8(symbol);
     const std::string spelled = spelled_letter(point.value);
     if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
-        report_syntax(module.symbol, "this is no character of a module");
+        report_syntax(module.symbol, "this is not a character of a module");
     } else if (spelled == symbol) {
         translation_.copy(module.symbol, session_.context.sources);
     } else {
@@ -211,7 +211,7 @@ void HoudiniWriter::write_word(const Word& word) {
     }
 }
 
-/// Warns, once per symbol, that lsc does not have the effect of the symbol.
+/// Warns, once per symbol, that lsc ignores the effect of the symbol.
 void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
     if (warned_.find(symbol) != std::string::npos) {
         return;
@@ -237,7 +237,7 @@ HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
     return made;
 }
 
-/// Angles of `~`, which are drawn when the module is written.
+/// Random angles of `~`, drawn when the module is written.
 std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
                                                    const HoudiniScope& scope) {
     const SourceSpan span = module.symbol;
@@ -311,9 +311,10 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
     }
 }
 
-/// The value that Houdini takes for an omitted parameter with others after it.
-ForeignId
-HoudiniWriter::left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place) {
+/// The value of an omitted parameter that others follow.
+ForeignId HoudiniWriter::omitted_argument(const HoudiniModule& module,
+                                          std::uint32_t index,
+                                          SourceSpan place) {
     const char symbol = text(module.symbol)[0];
     std::string value = "0";
     if (!symbols_.symbol(module).is_command) {
@@ -336,7 +337,7 @@ HoudiniWriter::left_out(const HoudiniModule& module, std::uint32_t index, Source
     return tree_.number(value, place);
 }
 
-/// The parameters of a module of a word, without the first `skip`.
+/// The arguments of a module in the axiom or a successor, without the first `skip`.
 std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
                                                 std::uint32_t skip,
                                                 const HoudiniScope& scope) {
@@ -353,7 +354,7 @@ std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
         const bool is_given =
             i < given && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
         made.push_back(is_given ? expressions_.term(module.arguments[i], scope)
-                                : left_out(module, i, place));
+                                : omitted_argument(module, i, place));
     }
     if (known.has_age) {
         made.push_back(tree_.number("0", place));

@@ -55,13 +55,13 @@ private:
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<ParameterCounts> all_parameter_counts(const HoudiniRule& rule) const;
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
-    void find_chances();
-    [[nodiscard]] std::string chance_of(ForeignId condition) const;
+    void find_random_pairs();
+    [[nodiscard]] std::string probability_of(ForeignId condition) const;
     bool check_head(const HoudiniRule& rule);
 
     [[nodiscard]] Word lower_word(const std::vector<HoudiniModule>& word,
                                   const HoudiniScope& scope);
-    /// Finds the local values of a word, and their names, from `first` on.
+    /// Finds the local values of a word from index `first` on, and their names.
     void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
     void write_word(const Word& word);
     void write_expression(ForeignId expression, const HoudiniScope& scope);
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] std::vector<ForeignId>
     arguments(const HoudiniModule& module, std::uint32_t skip, const HoudiniScope& scope);
     [[nodiscard]] ForeignId
-    left_out(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
+    omitted_argument(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
     void write_symbol(const HoudiniModule& module);
     void warn_lost(char symbol, SourceSpan place);
 
@@ -87,7 +87,7 @@ private:
     HoudiniExpressions expressions_;
     std::map<std::string, bool> has_probability_; // by group
     // Probability in place of a condition with `rand`.
-    std::map<const HoudiniRule*, std::string> chances_;
+    std::map<const HoudiniRule*, std::string> probabilities_;
     std::map<std::string_view, bool> aged_;
     std::vector<std::string_view> zeros_;
     std::string warned_; // symbols that have been reported

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-/// Binding strength of what is written, the loosest first.
+/// Precedence levels in .lsys, from loose to tight.
 enum Level : std::uint8_t { Any, Or, And, Equal, Compare, Sum, Product, Sign, Power, Single };
 
 Level level_of(const ForeignNode& node) {
@@ -39,8 +39,8 @@ Level level_of(const ForeignNode& node) {
     }
 }
 
-/// The loosest left operand that stands without parentheses. Comparisons are not operands of each
-/// other without them.
+/// The loosest left operand that needs no parentheses. A comparison as an operand of another
+/// comparison needs them.
 Level left_level(Level own) {
     return own == Equal || own == Compare ? Sum : own == Power ? Single : own;
 }
@@ -55,11 +55,11 @@ Level right_level(Level own) {
 /// A part to be written: a node, or a text with its place.
 struct ForeignExpressions::Item {
     ForeignId node = kNoForeign;
-    Level loosest = Any; // that stands without parentheses
+    Level loosest = Any; // the loosest operator that needs no parentheses here
     bool leads = true;   // stands at the beginning, where a sign needs no parentheses
     std::string_view text{};
     SourceSpan span{};
-    bool is_operator = false; // between blanks
+    bool is_operator = false; // written between blanks
 };
 
 ForeignId ForeignExpressions::add(ForeignNode node) {
@@ -130,7 +130,7 @@ void ForeignExpressions::count_reads(std::span<const ForeignId> roots,
                                      std::span<const ForeignId> expanded,
                                      std::size_t first) {
     const auto count = [&](ForeignId root) {
-        for (const ForeignId id : below(root)) {
+        for (const ForeignId id : subtree(root)) {
             const ForeignNode& node = (*this)[id];
             if (node.kind == ForeignKind::Local) {
                 ++locals_[node.index].reads;
@@ -148,7 +148,7 @@ void ForeignExpressions::count_reads(std::span<const ForeignId> roots,
             return false;
         }));
     }
-    for (std::size_t i = locals_.size(); i-- > first;) { // a value reads earlier ones only
+    for (std::size_t i = locals_.size(); i-- > first;) { // a value reads only earlier ones
         ForeignLocal& local = locals_[i];
         if (local.reads != 0) {
             local.is_inline = local.is_inline || (local.reads == 1 && !local.is_final);
@@ -185,13 +185,13 @@ bool ForeignExpressions::has_draw(ForeignId root) const {
 
 std::uint64_t ForeignExpressions::expanded_size(ForeignId root) const {
     constexpr std::uint64_t kMax = std::uint64_t{1} << 32U;
-    std::map<ForeignId, std::uint64_t> sizes; // of the values of local values
+    std::map<ForeignId, std::uint64_t> sizes; // sizes of the values of local values
     std::vector<ForeignId> open{root};
     while (!open.empty()) {
         const ForeignId id = open.back();
         std::uint64_t size = 0;
         const std::size_t before = open.size();
-        for (const ForeignId part : below(id)) {
+        for (const ForeignId part : subtree(id)) {
             const ForeignNode& node = (*this)[part];
             if (node.kind != ForeignKind::Local) {
                 ++size;
@@ -210,7 +210,7 @@ std::uint64_t ForeignExpressions::expanded_size(ForeignId root) const {
     return sizes[root];
 }
 
-std::vector<ForeignId> ForeignExpressions::below(ForeignId root) const {
+std::vector<ForeignId> ForeignExpressions::subtree(ForeignId root) const {
     std::vector<ForeignId> all;
     std::vector<ForeignId> open{root};
     while (!open.empty()) {

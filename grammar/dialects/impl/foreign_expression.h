@@ -1,7 +1,7 @@
-// The expressions of other languages as one tree. A parser adds the nodes of its file; a front end
-// adds what they are in .lsys, and writes that with the place of each part in the original file.
-// Nodes are numbered, children before parents. A local value is one node however often it is
-// read, so text never grows by what it stands for, and a random number is drawn once.
+// Expressions of other languages as one tree. A parser adds the nodes of its file; a front end adds
+// the equivalent nodes of .lsys and writes them with the place of each part in the original file.
+// Nodes are numbered, children before parents. A local value is one node however often it is read,
+// so the text grows by a name per use, and a random number is drawn once.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -30,7 +30,7 @@ enum class ForeignKind : std::uint8_t {
     Call,
     // --- only in the other language
     Text,    // in quotes
-    Missing, // an argument that is left out
+    Missing, // an omitted argument
     Address, // `&name`
     Choose,  // a ? b : c
     Index,   // text: the array
@@ -55,7 +55,7 @@ struct ForeignLocal {
     std::string name{}; // proposed; ForeignExpressions::name_locals() makes it unique
     ForeignId value = kNoForeign;
     SourceSpan span{};
-    bool is_final = false;  // written as a `let` even if it is read once only
+    bool is_final = false;  // written as a `let` even if it is read only once
     bool is_inline = false; // written in place of its name
     bool is_constant = false;
     std::uint32_t reads = 0; // by other written values; set by count_reads()
@@ -63,8 +63,9 @@ struct ForeignLocal {
 
 /// How the nodes of one statement are written.
 struct ForeignWriting {
-    bool expands = false; // local values in place of their names, which a condition cannot read
-    std::span<const std::string> draws{}; // parameters with the draws; none: `{0, 1}`
+    bool expands_locals =
+        false; // values replace the names of locals: a condition cannot read locals
+    std::span<const std::string> draws{}; // parameters that hold the draws; empty: `{0, 1}`
 };
 
 class ForeignExpressions {
@@ -91,21 +92,21 @@ public:
     [[nodiscard]] std::vector<ForeignLocal>& locals() { return locals_; }
     [[nodiscard]] const std::vector<ForeignLocal>& locals() const { return locals_; }
     /// Counts how often the written expressions `roots` and other written values read each local
-    /// value; one that is read once and is not final becomes inline. In `expanded` expressions only
-    /// constants keep their names.
-    /// Local values before `first` have been counted.
+    /// value; a value that is read once and is not final becomes inline. In `expanded` expressions
+    /// only constants keep their names. Precondition: the local values before `first` have been
+    /// counted.
     void count_reads(std::span<const ForeignId> roots,
                      std::span<const ForeignId> expanded,
                      std::size_t first);
-    /// Gives the values that are written, from `first` to `end`, names that are not in `taken`, and
-    /// adds them to it.
+    /// Gives the written local values from `first` to `end` names that are not in `taken`, and adds
+    /// the names to it.
     void name_locals(std::size_t first, std::size_t end, std::set<std::string>& taken);
     [[nodiscard]] static bool is_written(const ForeignLocal& local) {
         return local.reads != 0 && !local.is_inline;
     }
 
     // --- queries
-    /// The literal that the node is, or that the local value is that it reads; else empty.
+    /// The literal of a number, or of the number that a local value stands for; else empty.
     [[nodiscard]] std::string_view literal(ForeignId id) const;
     /// Whether the expression, with the local values that it reads, has a node for which `wanted`
     /// holds.
@@ -129,11 +130,11 @@ public:
     [[nodiscard]] bool has_draw(ForeignId root) const;
     /// Count of nodes written for `root` when local values are expanded, at most about 2^32.
     [[nodiscard]] std::uint64_t expanded_size(ForeignId root) const;
-    /// The nodes of the expression itself, children before parents.
-    [[nodiscard]] std::vector<ForeignId> below(ForeignId root) const;
+    /// The nodes of the expression without those of local values, children before parents.
+    [[nodiscard]] std::vector<ForeignId> subtree(ForeignId root) const;
 
     void write(ForeignId root, const ForeignWriting& how, Translation& out) const;
-    /// Writes `let a = ..., b = ...`, the local values from `first` to `end`; `before` comes first.
+    /// Writes `before`, then `let a = ..., b = ...`, the local values from `first` to `end`.
     void write_locals(std::string_view before,
                       std::size_t first,
                       std::size_t end,
@@ -150,17 +151,18 @@ private:
                     Translation& out) const;
     [[nodiscard]] bool is_expanded(const ForeignNode& node, const ForeignWriting& how) const {
         return node.kind == ForeignKind::Local &&
-               (locals_[node.index].is_inline || (how.expands && !locals_[node.index].is_constant));
+               (locals_[node.index].is_inline ||
+                (how.expands_locals && !locals_[node.index].is_constant));
     }
 
-    std::deque<ForeignNode> nodes_; // of millions, without room for as many again
+    std::deque<ForeignNode> nodes_; // a deque: millions of nodes, without spare capacity
     std::vector<ForeignLocal> locals_;
 };
 
-/// A name that is not in `taken`: `wanted`, or with a number behind it. Adds it to `taken`.
+/// A name that is not in `taken`: `wanted`, or `wanted` and a number. Adds it to `taken`.
 [[nodiscard]] std::string unique_name(std::string_view wanted, std::set<std::string>& taken);
 
-/// The statement that defines `int(x)`, x without its fraction, which .lsys does not have.
+/// The statement that defines `int(x)`, x truncated to an integer, which .lsys lacks.
 inline constexpr std::string_view kIntegerPart = "#function int(x) if(x < 0, ceil(x), floor(x));\n";
 
 } // namespace lsys

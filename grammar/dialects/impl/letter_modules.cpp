@@ -56,8 +56,9 @@ bool read_letter_modules(SourceSpan text,
         at += point.length;
         if (!point.valid || point.value < 0x20 || point.value == 0x7F || point.value == '`') {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, module.span,
-                                    point.value == '`' ? "a back quote is no symbol of a module"
-                                                       : "this is no character of a module");
+                                    point.value == '`'
+                                        ? "a back quote is not the symbol of a module"
+                                        : "this is not a character of a module");
             is_valid = false;
             continue;
         }
@@ -106,7 +107,7 @@ bool write_plain_arguments(SourceSpan arguments,
             }
             context.diagnostics.add(DiagnosticCode::ForeignValue, place,
                                     number.empty() ? std::string("a number is missing")
-                                                   : "`" + shown(number) + "` is no number");
+                                                   : "`" + shown(number) + "` is not a number");
             return false;
         }
         at = end + 1;

@@ -27,9 +27,9 @@ void write_letter(const LetterModule& module,
                   const ParseContext& context,
                   Translation& translation);
 
-/// Calls visit(LetterModule) for each module of `text`, without blanks. A parenthesis right behind
-/// a character belongs to it up to the `)` that closes it; one that is never closed is reported.
-/// Returns false after reporting a mistake.
+/// Calls visit(LetterModule) for each module of `text`, without blanks. A `(` right after a
+/// character begins its arguments, which the matching `)` ends. Reports a missing `)`; returns
+/// false after reporting a mistake.
 bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit);

@@ -1,6 +1,6 @@
 // Reader of formats that are lists of lines: `key: value`, `A=B`. Splits a text into pieces, each
-// with its span. The format says where blanks and comments stand; the front end of a dialect says
-// how long a piece is, and which pieces a line takes.
+// with its span. The format defines the places of blanks and comments; the front end of a dialect
+// defines the length of a piece and the pieces of a line.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -14,8 +14,8 @@ namespace lsys {
 
 enum class LinePieceKind : std::uint8_t {
     Text,    // not empty
-    LineEnd, // with the blank lines behind it; empty where the text ends
-    TextEnd, // empty, behind the last LineEnd
+    LineEnd, // with the blank lines after it; empty where the text ends
+    TextEnd, // empty, after the last LineEnd
 };
 
 struct LinePiece {
@@ -26,7 +26,7 @@ struct LinePiece {
 
 struct LineFormat {
     std::string_view blanks;  // between pieces; with `\n` the text has no LineEnd
-    char comment = '\0';      // its first character, in front of a piece; NUL: none
+    char comment = '\0';      // first character of a comment, before a piece; NUL: none
     bool comment_nul = false; // a comment goes on after a NUL character
 };
 
@@ -34,13 +34,13 @@ struct DialectWords;
 
 class LineReader {
 public:
-    /// Bytes of the piece at the start of a text, which is not empty and begins with no blank; 0:
-    /// the piece is one character.
+    /// Returns the bytes of the piece at the start of a text, which is not empty and begins with no
+    /// blank; 0 stands for a piece of one character.
     using PieceLength = std::size_t (*)(std::string_view ahead);
 
     /// Precondition: the sources of `context` hold `text` as long as the reader is in use.
     LineReader(SourceSpan text, const LineFormat& format, const ParseContext& context);
-    /// Sets the words that messages compare with; null: none.
+    /// Sets the words that messages compare with; may be null.
     void set_words(const DialectWords* words) { words_ = words; }
 
     /// Skips blanks and comments; returns the next piece.

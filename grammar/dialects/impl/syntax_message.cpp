@@ -48,7 +48,7 @@ bool report_foreign_look_alike(SourceSpan place, const ParseContext& context) {
     Diagnostic& diagnostic =
         context.diagnostics.add(DiagnosticCode::LookAlike, character,
                                 ascii.empty()  ? "this is " + what + ", which has no meaning here"
-                                : ascii == " " ? "this is no plain blank but " + what
+                                : ascii == " " ? "this is not a plain blank but " + what
                                                : "this looks like `" + ascii + "` but is " + what);
     add_fix(diagnostic,
             ascii.empty()  ? "remove it"
@@ -100,7 +100,7 @@ bool SyntaxMessage::report_key() {
     const SourceSpan place{line.file, line.begin,
                            line.begin + static_cast<std::uint32_t>(word.size())};
     Diagnostic& diagnostic = context_.diagnostics.add(DiagnosticCode::ForeignKey, place,
-                                                      "`" + shown(word) + "` is no word of " +
+                                                      "`" + shown(word) + "` is not a word of " +
                                                           std::string(words_->name));
     suggest_key(diagnostic, place, word, words_->keys);
     return true;
@@ -130,7 +130,7 @@ bool SyntaxMessage::report_arrow() {
     const SourceSpan place{place_.file, begin, end};
     Diagnostic& diagnostic = context_.diagnostics.add(
         DiagnosticCode::ForeignSyntax, place,
-        "`" + std::string(arrow) + "` is no arrow of " + std::string(words_->name));
+        "`" + std::string(arrow) + "` is not an arrow of " + std::string(words_->name));
     add_fix(diagnostic, std::string(words_->name) + " writes `" + std::string(words_->arrow) + "`",
             place, std::string(words_->arrow), false);
     return true;

@@ -1,5 +1,5 @@
-// The messages of a syntax error of a dialect: the tokens that were expected, and the one found; or
-// the likely cause: a character that looks like another, a misspelt keyword, an arrow of another
+// Messages for syntax errors of a dialect. They name the expected tokens and the one found, or the
+// likely cause: a character that looks like another, a misspelt keyword, or an arrow of another
 // language.
 #pragma once
 

@@ -38,7 +38,7 @@ write_header(const L3dFile& file, const ParseContext& context, Translation& tran
     if (!(generations >= 0.0F && generations < kMaxGenerations)) {
         context.diagnostics.add(DiagnosticCode::ForeignValue, file.numbers[0],
                                 "`" + shown(context.sources.text(file.numbers[0])) +
-                                    "` is no number of generations");
+                                    "` is not a number of generations");
         return 0;
     }
     if (generations != std::trunc(generations)) {
@@ -54,14 +54,14 @@ write_header(const L3dFile& file, const ParseContext& context, Translation& tran
     return static_cast<std::uint32_t>(generations);
 }
 
-/// The axiom: the last line without a `=`; or, where there is none, the first rule if its `=` can
-/// be the command that sets the thickness, `fA=(5)A`.
+/// Returns the axiom: the last line without a `=`. Without such a line, the first rule is the axiom
+/// if its `=` can be the command that sets the thickness, as in `fA=(5)A`.
 std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context) {
     Diagnostics& diagnostics = context.diagnostics;
     for (std::size_t i = 0; i + 1 < file.axioms.size(); ++i) {
         diagnostics
             .add(DiagnosticCode::ForeignQuirk, file.axioms[i],
-                 "this is no axiom, since a later line without `=` takes its place")
+                 "this is not the axiom: a later line without `=` replaces it")
             .labels.push_back({file.axioms.back(), "the axiom"});
     }
     if (!file.axioms.empty()) {
@@ -74,7 +74,7 @@ std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context)
     }
     const SourceSpan whole{first->key.file, first->key.begin, first->value.end};
     diagnostics.add(DiagnosticCode::ForeignQuirk, whole,
-                    "L3D takes this for a rule; here it is the axiom, since there is no other");
+                    "L3D reads this as a rule; lsc takes it as the axiom, since there is no other");
     file.rules.erase(first);
     return whole;
 }

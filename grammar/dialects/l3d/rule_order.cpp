@@ -116,7 +116,7 @@ private:
 
 /// The swaps that an insertion sort of `order` makes, in sequence; a swap is the index of the first
 /// of two neighbours.
-std::vector<std::size_t> exchanges(Order order) {
+std::vector<std::size_t> swaps_of_sort(Order order) {
     std::vector<std::size_t> places;
     for (std::size_t i = 1; i < order.size(); ++i) {
         for (std::size_t k = i; k > 0 && order[k - 1] > order[k]; --k) {
@@ -164,7 +164,7 @@ void report_rule_order(const std::vector<L3dRule>& rules,
         return;
     }
     // Bisection finds a swap between the two orders that changes the word.
-    const std::vector<std::size_t> places = exchanges(sorted);
+    const std::vector<std::size_t> places = swaps_of_sort(sorted);
     std::size_t same = 0;
     std::size_t differs = places.size();
     while (differs - same > 1) {
@@ -178,8 +178,8 @@ void report_rule_order(const std::vector<L3dRule>& rules,
     Diagnostic& note = context.diagnostics.add(
         DiagnosticCode::RuleOrder, early.span,
         "`" + shown(early.text) + "` is replaced before `" + shown(late.text) +
-            "`, whose line stands above; in the order of the lines, generation " +
-            std::to_string(*generation) + " would be another word");
+            "`, whose line comes first; in the order of the lines, generation " +
+            std::to_string(*generation) + " would be a different word");
     note.labels.push_back({late.span, "replaced later, as L3D sorts its rules by these texts"});
     note.help.emplace_back("for the order of the lines, `lsc import` the file and put the "
                            "productions into that order");

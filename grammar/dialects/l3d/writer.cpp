@@ -90,7 +90,7 @@ std::uint32_t L3dWriter::put_character(std::uint32_t at, std::uint32_t end) {
     } else if (!point.valid || point.value < 0x20 || point.value == 0x7F) {
         if (context_.diagnostics.admits(DiagnosticCode::ForeignSyntax)) {
             context_.diagnostics.add(DiagnosticCode::ForeignSyntax, span,
-                                     "this is no character of a text");
+                                     "this is not a character of a text");
         }
     } else {
         translation_.copy(span, context_.sources);
@@ -105,7 +105,7 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
     }
 }
 
-/// Warns of a parameter that L3D does not read as it is written.
+/// Warns of a parameter whose written value L3D does not use.
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);

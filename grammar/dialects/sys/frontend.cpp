@@ -149,8 +149,8 @@ void write_modules(SourceSpan text,
     });
 }
 
-/// Numbers of parameters with which each symbol occurs. A symbol without parameters in its own
-/// successor has those of the module that it replaces.
+/// Parameter counts of each symbol. A symbol without parameters in its own successor counts as
+/// having those of the module that it replaces.
 using Arities = std::map<char32_t, std::set<std::size_t>>;
 
 /// The symbol that a rule replaces, the last one if it has several; nullopt if it has none.
@@ -229,7 +229,7 @@ void write_rule(const SysRule& rule,
     const std::string_view probability = context.sources.text(rule.probability);
     if (literal_length(probability) != probability.size()) {
         context.diagnostics.add(DiagnosticCode::ForeignValue, rule.probability,
-                                "`" + shown(probability) + "` is no probability");
+                                "`" + shown(probability) + "` is not a probability");
     }
     if (certain) {
         translation.put("*", rule.probability);

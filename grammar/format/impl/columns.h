@@ -38,7 +38,7 @@ struct LayoutRow {
 /// Replaces the widths of cells by blanks.
 void line_up(std::span<LayoutRow> rows);
 
-/// Value of a padding: the cell is not aligned.
+/// Value of a padding for a cell that is not aligned.
 inline constexpr std::uint32_t kUnaligned = 0xFFFFFFFFu;
 
 /// Replaces each width by its difference from the common column, or by kUnaligned.

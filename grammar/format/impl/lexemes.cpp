@@ -84,14 +84,14 @@ void LexemeReader::keyword() {
     depth_ = 0;
     part_ = 0;
     has_locals_ = false;
-    has_chance_ = false;
+    in_probability_ = false;
     in_formals_ = false;
     after_value_ = false;
     const char next = next_character();
     if (name == "w" || name == "ignore" || name == "consider") {
         shape_ = List;
-        has_chance_ = next == '~';
-        area_ = has_chance_ ? Area::Expression : Area::Modules;
+        in_probability_ = next == '~';
+        area_ = in_probability_ ? Area::Expression : Area::Modules;
     } else if (next == ':' || name == "decompose" || name == "interpret") {
         shape_ = Production;
         area_ = Area::Modules;
@@ -137,8 +137,8 @@ char LexemeReader::next_character() const {
 /// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an axiom,
 /// `#w ~` probability `:` modules.
 void LexemeReader::next_part() {
-    if (has_chance_) { // the modules of the axiom follow the probability
-        has_chance_ = false;
+    if (in_probability_) { // the modules of the axiom follow the probability
+        in_probability_ = false;
         area_ = Area::Modules;
         after_value_ = false;
     }

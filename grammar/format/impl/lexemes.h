@@ -1,5 +1,5 @@
-// The tokens of a .lsys text without errors, for the formatter: with comments and the blanks before
-// them. Read one by one, because a text may have a hundred million.
+// The tokens of a .lsys text without errors, for the formatter, with comments and the blanks before
+// them. Tokens are read one by one, because a text may have a hundred million.
 #pragma once
 
 #include <cstddef>
@@ -98,8 +98,8 @@ private:
     StatementShape shape_ = StatementShape::Other;
     std::uint32_t part_ = 0; // 1 head, 3 condition and local values, 4 successor
     bool has_locals_ = false;
-    bool has_chance_ = false; // in the probability of an axiom
-    bool in_formals_ = false; // of #function, its name included
+    bool in_probability_ = false; // in the probability of an axiom
+    bool in_formals_ = false;     // in the name or the formals of a #function
     std::uint32_t depth_ = 0;
     bool after_value_ = false;
     LexemeKind previous_ = LexemeKind::Semicolon;

@@ -1,5 +1,5 @@
 // Pieces of a statement, which contain no line ends: a module with its arguments, or another word
-// with its punctuation. Each describes the place before it: blanks, the begin of a cell, the
+// with its punctuation. Each piece describes the place before it: blanks, the begin of a cell, the
 // author's line end, a possible line break. Within a piece `^`, `*` and `/` have no blanks around
 // them; other binary operators have.
 #pragma once

@@ -62,7 +62,7 @@ unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
                 open.pop_back();
             }
         } else if (c == ']' && !open.empty()) {
-            open.erase(open.begin()); // closes an outer `[`: the `)` at `at` is for the innermost
+            open.erase(open.begin()); // closes an outer `[`: only the innermost may match `at`
         }
         return true;
     });

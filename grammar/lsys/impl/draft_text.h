@@ -21,7 +21,7 @@ struct DraftText {
     FileId file = kNoFile;
     std::string text;
     Diagnostics& diagnostics;
-    /// The text with blanks in place of comments, and letters in place of what stands in back quotes.
+    /// The text with comments replaced by blanks and text in back quotes replaced by letters.
     std::string masked;
     bool is_changed = false;
     bool is_incomplete = false; // a statement is left out
@@ -37,7 +37,7 @@ struct DraftText {
         masked[at] = c;
         is_changed = true;
     }
-    /// Makes `masked` anew.
+    /// Updates `masked` from `text`.
     void mask();
     /// Writes blanks over [begin, end), except for line ends.
     void blank(std::size_t begin, std::size_t end);
@@ -48,14 +48,14 @@ struct DraftText {
 /// The text of a statement, from its `#` to its `;` or, without one, to the next statement.
 struct StatementText {
     std::size_t begin = 0;
-    std::size_t end = 0; // of the `;`
+    std::size_t end = 0; // offset of the `;`
 };
 
-/// Whether `text` at `at` has a `#` and a word, behind blanks.
+/// Whether blanks, a `#` and a word follow `at`.
 [[nodiscard]] bool is_statement_start(std::string_view text, std::size_t at);
 /// The first offset at or after `at` outside of blanks and comments.
 [[nodiscard]] std::size_t skip_gaps(std::string_view text, std::size_t at);
-/// The statement that begins at `at`, where a `#` stands.
+/// The statement whose `#` is at `at`.
 [[nodiscard]] StatementText statement_at(std::string_view text, std::size_t at);
 /// `text` without blanks at its ends.
 [[nodiscard]] std::string_view without_blanks(std::string_view text);

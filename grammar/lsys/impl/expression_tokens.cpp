@@ -48,13 +48,13 @@ bool has_groups_of_three(std::string_view text) {
 
 namespace {
 
-/// Whether the `%` at `at` stands behind a percentage: no operand follows it.
+/// Whether the `%` at `at` ends a percentage: no operand follows it.
 bool ends_percentage(std::string_view text, std::size_t at) {
     const char next = next_character(text, static_cast<std::uint32_t>(at) + 1);
     return next == '\0' || std::string_view(":;),~}&|").find(next) != std::string_view::npos;
 }
 
-/// A number as authors write it, without zeros at its end.
+/// A number as authors write it, without trailing zeros.
 std::string number_text(double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);
@@ -64,12 +64,12 @@ std::string number_text(double value) {
     return text;
 }
 
-/// Reports `50%` and returns its value; nullopt: the current number is no percentage.
+/// Reports `50%` and returns its value; nullopt if the current number is not a percentage.
 std::optional<float> percentage(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
     const std::string_view all = session.scanned.text;
     const std::size_t at = all.find_first_not_of(" \t", scan.end);
-    const bool in_expression = scan.part == Part::Condition || scan.part == Part::Chance ||
+    const bool in_expression = scan.part == Part::Condition || scan.part == Part::Probability ||
                                scan.part == Part::Value || !scan.open.empty();
     if (!in_expression || at == std::string_view::npos || all[at] != '%' ||
         !ends_percentage(all, at)) {
@@ -81,10 +81,10 @@ std::optional<float> percentage(ParseSession& session, std::string_view text) {
             session.scanned.span(scan.begin, static_cast<std::uint32_t>(at) + 1);
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::MalformedNumber, span,
-                           scan.part == Part::Condition || scan.part == Part::Chance
+                           scan.part == Part::Condition || scan.part == Part::Probability
                                ? "there are no percentages: a probability is a number from 0 to 1"
                                : "there are no percentages");
-        // In the place of the condition the `~` is missing as well.
+        // If the percentage is the whole condition, its `~` is missing as well.
         const bool lacks_tilde = scan.part == Part::Condition && scan.open.empty() &&
                                  all.substr(scan.part_begin, scan.begin - scan.part_begin)
                                          .find_first_not_of(" \t\r\n") == std::string_view::npos;
@@ -94,7 +94,7 @@ std::optional<float> percentage(ParseSession& session, std::string_view text) {
     return static_cast<float>(value);
 }
 
-/// A unit of measure, and its length in metres; 0: of something else.
+/// A unit of measure and its length in metres; 0 for units of other quantities.
 struct Unit {
     std::string_view word;
     double metres;
@@ -113,8 +113,8 @@ const Unit* find_unit(std::string_view word) {
     return found == kUnits.end() ? nullptr : found;
 }
 
-/// The number at the end of `text`, `2.5e-3` of `F(2.5e-3`; empty if there is none, as in `1..5`.
-std::string_view number_that_ends(std::string_view text) {
+/// The number at the end of `text`, `2.5e-3` in `F(2.5e-3`; empty if there is none, as in `1..5`.
+std::string_view trailing_number(std::string_view text) {
     const std::size_t before = text.find_last_not_of("0123456789.eE+-");
     for (std::size_t begin = before == std::string_view::npos ? 0 : before + 1; begin < text.size();
          ++begin) {
@@ -127,7 +127,7 @@ std::string_view number_that_ends(std::string_view text) {
     return {};
 }
 
-/// Explains a number with a unit behind it.
+/// Explains a number that a unit follows.
 void explain_unit(Diagnostic& diagnostic,
                   std::string_view number,
                   const Unit& unit,
@@ -162,7 +162,7 @@ bool is_unit(ParseSession& session, std::string_view word) {
         return false;
     }
     if (session.wants(DiagnosticCode::MalformedNumber)) {
-        const std::string_view number = number_that_ends(text.substr(0, scan.last_end));
+        const std::string_view number = trailing_number(text.substr(0, scan.last_end));
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::MalformedNumber, "numbers have no unit");
         if (!number.empty()) {
@@ -245,7 +245,7 @@ void report_quoted_expression(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     Diagnostic& diagnostic =
-        session.report(DiagnosticCode::SyntaxError, "expressions stand without back quotes");
+        session.report(DiagnosticCode::SyntaxError, "expressions have no back quotes");
     const std::size_t close = text.find_first_of("`\n", scan.end);
     if (close != std::string_view::npos && text[close] == '`') {
         const auto end = static_cast<std::uint32_t>(close);
@@ -292,7 +292,7 @@ void report_malformed_number(ParseSession& session, std::string_view text, Sourc
         std::string digits(text);
         std::erase(digits, '_');
         if (literal_length(digits) == digits.size()) {
-            add_fix(diagnostic, "digits stand without `_`", span, digits,
+            add_fix(diagnostic, "numbers are written without `_`", span, digits,
                     has_groups_of_three(text));
         }
     } else if (text.starts_with("0x") || text.starts_with("0X")) {
@@ -308,7 +308,7 @@ std::size_t number_before_name(std::string_view text) {
         name.find('.') != std::string_view::npos) {
         return 0;
     }
-    // Not `1e`, `1f`, `1e5F`, `0x10`, which are numbers of other languages.
+    // Not in `1e`, `1f`, `1e5F` and `0x10`, which are numbers of other languages.
     const bool is_suffix = name == "f" || name == "F" || name == "e" || name == "E";
     const bool is_hexadecimal =
         text.substr(0, length) == "0" && (name[0] == 'x' || name[0] == 'X') && name.size() > 1;
@@ -355,7 +355,7 @@ bool lacks_comma(std::string_view text,
 }
 
 /// Whether `text` is a condition: a comparison outside of parentheses, or `*`.
-bool compares(std::string_view text) {
+bool is_condition(std::string_view text) {
     int depth = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
         const char c = text[at];
@@ -386,7 +386,7 @@ bool report_exchanged_parts(ParseSession& session) {
     const std::size_t stop = std::min(text.find(';', end), text.size());
     const std::string_view first = text.substr(scan.part_begin, colon - scan.part_begin);
     const std::string_view second = text.substr(colon + 1, end - colon - 1);
-    if (!compares(second) || compares(first)) {
+    if (!is_condition(second) || is_condition(first)) {
         return false;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
@@ -399,7 +399,7 @@ bool report_exchanged_parts(ParseSession& session) {
         const SourceSpan successor = trimmed(scan.part_begin, colon);
         const SourceSpan condition = trimmed(colon + 1, stop);
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, successor,
-                                                "the successor stands before the condition");
+                                                "the successor is before the condition");
         diagnostic.labels.push_back({condition, "this is the condition"});
         if (successor.begin < successor.end && condition.begin < condition.end) {
             diagnostic.fixes.push_back(
@@ -471,7 +471,7 @@ bool report_lost_close(ParseSession& session) {
     return true;
 }
 
-/// Reports `#define f(x) ...`, which other languages have.
+/// Reports `#define f(x) ...`, a macro of other languages.
 bool report_macro(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -546,7 +546,7 @@ Token between_values(ParseSession& session) {
                     lacks_comma(text, scan.last_end, scan.begin, scan.end));
         }
         if (begins_local) {
-            scan.local_place = LocalPlace::Name;
+            scan.next_in_locals = NextInLocals::Name;
         }
         return Token(Parser::token::TOK_COMMA, place).as_inserted();
     }
@@ -769,7 +769,7 @@ void report_assignment(ParseSession& session) {
     if (session.wants(DiagnosticCode::AssignmentInExpression)) {
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::AssignmentInExpression,
-                           "`=` compares nothing: it only stands in `#n = ...;`");
+                           "`=` does not compare: it is used only in `#n = ...;`");
         add_fix(diagnostic, "compare with `==`", diagnostic.span, "==", true);
     }
 }
@@ -805,9 +805,8 @@ void report_named_argument(ParseSession& session) {
         return;
     }
     const SourceSpan name = session.scanned.span(*argument_name(session), session.scan.end);
-    Diagnostic& diagnostic =
-        session.report(DiagnosticCode::AssignmentInExpression, name,
-                       "arguments have no names: they are told apart by their order");
+    Diagnostic& diagnostic = session.report(DiagnosticCode::AssignmentInExpression, name,
+                                            "arguments have no names, only an order");
     add_fix(diagnostic, "leave the name out", name, "", false);
 }
 

@@ -43,10 +43,9 @@ void report_assignment(ParseSession& session);
 /// Whether the current `=` gives an argument a name, `F(length=2)`.
 [[nodiscard]] bool is_named_argument(const ParseSession& session);
 void report_named_argument(ParseSession& session);
-/// Reports a `#` within an expression or setting.
 /// Whether the current `%` ends a percentage, which its number has reported.
 [[nodiscard]] bool is_percent_sign(const ParseSession& session);
-/// Whether the current word is a unit of measure behind a number; reports it.
+/// Whether the current word is a unit of measure after a number; reports it.
 [[nodiscard]] bool is_unit(ParseSession& session, std::string_view word);
 /// Reports a variable or channel of another program, `$F` or `ch("angle")`; a value without meaning.
 [[nodiscard]] Token foreign_value(ParseSession& session, std::string_view text);
@@ -54,6 +53,7 @@ void report_named_argument(ParseSession& session);
 [[nodiscard]] bool is_compound_assignment(ParseSession& session);
 /// Reports a back quote in an expression.
 void report_quoted_expression(ParseSession& session);
+/// Reports a `#` within an expression or setting.
 void report_stray_hash(ParseSession& session);
 
 } // namespace lsys::lsys_grammar

@@ -52,7 +52,7 @@ bool is_closing(char c) {
     return c == ')' || c == ']' || c == '}';
 }
 
-/// The bracket that closes the one at `at`, before `end`; npos: none.
+/// The offset of the bracket that closes the one at `at`, before `end`; npos if there is none.
 std::size_t closing_of(std::string_view text, std::size_t at, std::size_t end) {
     std::size_t depth = 0;
     for (; at < end; ++at) {
@@ -64,8 +64,8 @@ std::size_t closing_of(std::string_view text, std::size_t at, std::size_t end) {
     return std::string_view::npos;
 }
 
-/// The parts of [begin, end) between `separator` outside of parentheses. Square brackets and braces
-/// count only with `with_brackets`: among modules they are modules.
+/// The parts of [begin, end) between occurrences of `separator` outside of parentheses.
+/// `with_brackets`: also outside of square brackets and braces, which among modules are modules.
 std::vector<Piece> split(
     std::string_view text, std::size_t begin, std::size_t end, char separator, bool with_brackets) {
     std::vector<Piece> pieces;
@@ -106,7 +106,7 @@ bool is_type(std::string_view word) {
     return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end();
 }
 
-/// A statement that is being searched.
+/// A statement that is searched for forms of other languages.
 class Form {
 public:
     Form(DraftText& draft, StatementText statement) : draft_(draft), statement_(statement) {
@@ -116,7 +116,7 @@ public:
         keyword_ = find_keyword(word_);
     }
 
-    /// Repairs the statement; returns where the search goes on.
+    /// Repairs the statement; returns the offset from which the search continues.
     std::size_t repair() {
         const bool has_ended = statement_.end < text().size() && char_at(statement_.end) == ';';
         const std::size_t next = statement_.end + (has_ended ? 1 : 0);
@@ -253,7 +253,7 @@ private:
         return end;
     }
 
-    /// Whether the braces at `at` hold one expression and are no random range.
+    /// Whether the braces at `at` enclose one expression and are not a random range.
     [[nodiscard]] bool is_braced_expression(std::size_t at) const {
         const std::size_t close = closing_of(text(), at, text().size());
         return close != std::string_view::npos && close - at < 256 &&
@@ -283,7 +283,7 @@ private:
                 const Piece value = trimmed(text(), rest.begin + 1, rest.end);
                 Diagnostic& diagnostic = report(rest, "parameters have no default values");
                 const std::string use = first_use(open, copy_of(draft_.text, value), number);
-                diagnostic.help.push_back("a module has all its parameters wherever it stands" +
+                diagnostic.help.push_back("a module has all its parameters at every place" +
                                           (use.empty() ? "" : ": write `" + use + "`"));
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
@@ -300,8 +300,8 @@ private:
         }
     }
 
-    /// A place where the module before the parenthesis at `open` stands with fewer parameters, with
-    /// `value` added: `A(1, 0.1)`; empty: none.
+    /// The first call, `A(1)`, of the module whose parenthesis is at `open`, with `value` added:
+    /// `A(1, 0.1)`. Empty if that call does not have `count` parameters.
     [[nodiscard]] std::string
     first_use(std::size_t open, const std::string& value, std::size_t count) const {
         std::size_t begin = open;
@@ -323,7 +323,7 @@ private:
 
     // --- curves
 
-    /// Points in parentheses, `(0, 1), (1, 2)`, or with a comma inside, `0,1 1,2`.
+    /// Points in parentheses, `(0, 1), (1, 2)`, or with a comma between coordinates, `0,1 1,2`.
     void curve() {
         const std::size_t name = skip_gaps(text(), body_);
         std::size_t begin = name + leading_word(text().substr(name)).size();
@@ -355,7 +355,7 @@ private:
         }
         const std::size_t points = numbers.size() / 2;
         const bool is_pairs = numbers.size() % 2 == 0 && points >= 2;
-        // `0 1, 1 2` has a comma less than points.
+        // The correct form, `0 1, 1 2`, has one comma fewer than points.
         if (!is_pairs || (brackets == 0 && commas + 1 == points) ||
             (brackets == 0 && commas < points) || (brackets != 0 && commas < points)) {
             return;
@@ -403,9 +403,9 @@ private:
         for (const std::string& number : numbers) {
             plain += (plain.empty() ? "" : " ") + number;
         }
-        Diagnostic& diagnostic =
-            report(all, "the numbers of a setting stand side by side, without parentheses and "
-                        "commas");
+        Diagnostic& diagnostic = report(
+            all, "the numbers of a setting are written side by side, without parentheses and "
+                 "commas");
         add_fix(diagnostic, "write `#set tropism " + plain + ";`", draft_.span(all.begin, all.end),
                 plain, false);
         static_cast<void>(draft_.replace(all.begin, all.end, plain));
@@ -460,8 +460,8 @@ private:
         }
         const std::string quoted = '"' + std::string(written.substr(1, written.size() - 2)) + '"';
         Diagnostic& diagnostic =
-            report(all, is_angled ? "the name of a file stands in quotes, not between `<` and `>`"
-                                  : "the name of a file stands in double quotes");
+            report(all, is_angled ? "the name of a file is in quotes, not between `<` and `>`"
+                                  : "the name of a file is in double quotes");
         add_fix(diagnostic, "write `#include " + quoted + ";`", draft_.span(all.begin, all.end),
                 quoted, false);
         static_cast<void>(draft_.replace(all.begin, all.end, quoted));
@@ -513,7 +513,7 @@ private:
                                       ")`");
         }
         static_cast<void>(draft_.replace(begin, close + 1, first.empty() ? "1" : first));
-        // Its uses are consequences.
+        // Uses of the table would only cause further errors.
         for (std::size_t at = text().find(word + "["); at != std::string_view::npos;
              at = text().find(word + "[", at + 1)) {
             const std::size_t open = at + word.size();
@@ -552,7 +552,7 @@ private:
         return after();
     }
 
-    /// The place of the names and types behind `let`.
+    /// Repairs the local values after `let`.
     void local_values() {
         std::size_t let = text().find("let", body_);
         while (let < statement_.end &&
@@ -583,8 +583,8 @@ private:
             }
             Diagnostic& diagnostic =
                 report({statement_.end, statement_.end + 1},
-                       is_end ? "no `;` stands behind local values"
-                              : "a `,` stands between local values, not a `;`, which ends the "
+                       is_end ? "there is no `;` after local values"
+                              : "local values are separated by `,`, not by `;`, which ends the "
                                 "statement");
             add_fix(diagnostic, is_end ? "remove it" : "write `,`",
                     draft_.span(statement_.end, statement_.end + 1), is_end ? "" : ",", false);
@@ -640,7 +640,7 @@ private:
         static_cast<void>(draft_.replace(let + 3, end, dense));
     }
 
-    /// `A(x) : x > 1 --> B` and, of Houdini, `A(x) : x > 1 = B`.
+    /// `A(x) : x > 1 --> B`, and Houdini's `A(x) : x > 1 = B`.
     void arrow(std::size_t colon) {
         const std::vector<Piece> parts = split(text(), colon + 1, statement_.end, ':', false);
         if (parts.size() != 2) {
@@ -731,7 +731,7 @@ private:
             const std::string module = inside.empty() ? word : word + "(" + inside + ")";
             if (diagnostic == nullptr) {
                 diagnostic =
-                    &report({at, close + 1}, "the name of a module stands before its parentheses");
+                    &report({at, close + 1}, "the name of a module comes before its parentheses");
             }
             const bool is_head = is_production && colons == 1;
             const bool is_value = is_head && is_number_text(inside);
@@ -859,7 +859,7 @@ private:
         }
         std::size_t end = question + 1;
         depth = 0;
-        int pending = 1; // `:` to come
+        int pending = 1; // count of `:` to come
         for (; end < statement_.end; ++end) {
             const char c = char_at(end);
             if (is_opening(c)) {
@@ -885,13 +885,13 @@ private:
                                         "there is no operator `? :`: a choice is `if(condition, "
                                         "a, b)`");
         add_fix(diagnostic, "write `" + call + "`", draft_.span(all.begin, all.end), call, false);
-        // The value does not count: the statement is in error.
+        // Any value serves, since the statement has an error.
         draft_.blank(all.begin, all.end);
         draft_.put(all.begin, '1');
         choices();
     }
 
-    /// `if(c, a, b)` for `c ? a : b`; empty: it is none.
+    /// `if(c, a, b)` for `c ? a : b`; empty for other texts.
     [[nodiscard]] std::string choice_text(Piece piece) const {
         std::string result;
         std::string closing;
@@ -940,7 +940,7 @@ private:
     DraftText& draft_;
     StatementText statement_;
     std::string_view word_;
-    std::size_t body_ = 0; // behind `#word`
+    std::size_t body_ = 0; // after `#word`
     Keyword keyword_ = Keyword::Label;
 };
 

@@ -152,7 +152,7 @@ std::optional<Keyword> nearest_keyword(std::string_view word) {
     if (word.size() < 2) {
         return std::nullopt;
     }
-    // Without keywords of one letter, which are near to every short word.
+    // Leave out keywords of one letter, which are similar to every short word.
     std::vector<std::string_view> candidates;
     for (const std::string_view candidate : kSpellings) {
         if (candidate.size() > 1) {

@@ -1,5 +1,5 @@
 // Lookahead in the text of a .lsys file without a scan: the next character, the end of a statement.
-// Linear in the bytes passed; called once per statement or mistake.
+// Each takes time linear in the bytes passed and is called once per statement or mistake.
 #pragma once
 
 #include "grammar/base/synonyms.h"
@@ -15,14 +15,15 @@ namespace lsys {
 [[nodiscard]] std::string_view leading_word(std::string_view text);
 /// The first character at or after `at` outside of blanks and comments; NUL at the end.
 [[nodiscard]] char next_character(std::string_view text, std::uint32_t at);
-/// Whether the line of `at` has only blanks before it.
+/// Whether only blanks stand before `at` on its line.
 [[nodiscard]] bool is_first_on_line(std::string_view text, std::uint32_t at);
 /// Whether the `#` at `at` is likely to begin a statement: a keyword follows, or a word and `:`, or
 /// it is the first character of its line.
 [[nodiscard]] bool begins_statement(std::string_view text, std::uint32_t at);
 /// The number of `:` between `at` and the end of the statement.
 [[nodiscard]] std::uint32_t count_colons(std::string_view text, std::uint32_t at);
-/// Whether the statement has more than `count` `:` after `at`; stops at the first one too many.
+/// Whether more than `count` `:` follow `at` in the statement; stops after the first `:` beyond
+/// `count`.
 [[nodiscard]] bool has_more_colons(std::string_view text, std::uint32_t at, std::uint32_t count);
 
 [[nodiscard]] std::string_view spelling(Keyword keyword); // without `#`; empty for a label

@@ -34,10 +34,9 @@ constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
     {'=', "in .l++ files `=(p)` sets the thickness (`!(width)`); a production is "
           "`#name : A : * : B;`"},
     {'?', "in Houdini `?` divides the width (`!(width)`), in cpfg it asks for the turtle's state"},
-    {'<',
-     "`<` stands between a left context and the predecessor; in .l files it rolls (`\\` and `/`), "
-     "in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and `-`)"},
-    {'>', "`>` stands between the predecessor and a right context; in .l files it rolls (`\\` and "
+    {'<', "`<` separates a left context from the predecessor; in .l files it rolls (`\\` and `/`), "
+          "in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and `-`)"},
+    {'>', "`>` separates the predecessor from a right context; in .l files it rolls (`\\` and "
           "`/`), in .l++ files it changes the width (`!(width)`), in .sys files it turns (`+` and "
           "`-`)"},
     {'#', "`#` begins a statement; in Houdini `#` steps the texture"},
@@ -100,7 +99,7 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
     if (before == '{') {
         if (session.wants(DiagnosticCode::BadRange)) {
             Diagnostic& diagnostic = session.report(
-                DiagnosticCode::BadRange, "a random range stands only inside parentheses");
+                DiagnosticCode::BadRange, "a random range is allowed only in parentheses");
             diagnostic.help.emplace_back(
                 "outside of them `{` and `}` are modules that make a polygon");
         }
@@ -111,7 +110,7 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::SyntaxError, "a number cannot stand among modules");
+            session.report(DiagnosticCode::SyntaxError, "a number is not a module");
         const bool after_turn =
             scan.last_end == scan.begin &&
             std::string_view("+-/\\&^!\"'").find(before) != std::string_view::npos;
@@ -119,7 +118,7 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
             add_fix(diagnostic, "put the argument in parentheses", diagnostic.span,
                     "(" + std::string(text) + ")", true);
         } else {
-            diagnostic.help.emplace_back("an argument stands in parentheses: `F(2)`, `+(30)`");
+            diagnostic.help.emplace_back("an argument is written in parentheses: `F(2)`, `+(30)`");
         }
     }
     return StrayHandling::Skip;
@@ -146,7 +145,7 @@ std::optional<std::uint32_t> comment_before(const ParseSession& session) {
 
 } // namespace
 
-bool is_behind_comment(ParseSession& session) {
+bool is_after_likely_comment(ParseSession& session) {
     const std::optional<std::uint32_t> slashes = comment_before(session);
     if (slashes && session.wants_reports()) {
         const std::string_view all = session.scanned.text;
@@ -162,7 +161,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
     const char first = text[0];
     const ScanState& scan = session.scan;
     const bool has_modules = scan.part == Part::Successor || scan.part == Part::Axiom;
-    if (has_modules && is_behind_comment(session)) {
+    if (has_modules && is_after_likely_comment(session)) {
         return StrayHandling::Skip;
     }
     if (scan.part == Part::Head) {
@@ -179,8 +178,8 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
             return StrayHandling::Discard;
         }
         if (session.wants(DiagnosticCode::SyntaxError)) {
-            Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
-                                                    "modules stand side by side, without commas");
+            Diagnostic& diagnostic = session.report(
+                DiagnosticCode::SyntaxError, "modules are written side by side, without commas");
             add_fix(diagnostic, "remove it", diagnostic.span, "", true);
         }
         return StrayHandling::Skip;
@@ -323,7 +322,7 @@ void check_quoted_text(ParseSession& session, std::string_view text) {
             const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
             session.report(DiagnosticCode::BadQuotedName,
                            session.scanned.span(begin, begin + point.length),
-                           "a control character is no module");
+                           "a control character is not a module");
             return;
         }
         at += point.length;
@@ -358,7 +357,7 @@ void report_unclosed_back_quote(ParseSession& session) {
     if (session.wants(DiagnosticCode::UnclosedQuote)) {
         Diagnostic& diagnostic = session.report(DiagnosticCode::UnclosedQuote,
                                                 "this back quote is not closed on its line");
-        diagnostic.help.emplace_back("a symbol of another program stands between two of them: "
+        diagnostic.help.emplace_back("put a symbol of another program between two of them: "
                                      "`` `;` ``");
     }
 }

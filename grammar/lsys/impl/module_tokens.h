@@ -24,8 +24,8 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
 /// The current match as the module `name`, as if in back quotes.
 Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
-/// Whether a `//` stands before the current character on its line, as a comment does; reports it.
-bool is_behind_comment(ParseSession& session);
+/// Whether a `//` before the current character on its line looks like a comment; reports it.
+bool is_after_likely_comment(ParseSession& session);
 /// Reports one or more `)` without `(`; returns their handling.
 StrayHandling report_extra_parenthesis(ParseSession& session);
 /// Whether the current `;` is a module of another program, `;(0.9)`; reports it.
@@ -38,8 +38,8 @@ NameId quoted_name(ParseSession& session, std::string_view text, SourceSpan span
 void report_unclosed_back_quote(ParseSession& session);
 Token unclosed_quote(ParseSession& session);
 
-/// Length of the run in `text`, which is a run followed by `*`. A `/` before the `*` begins a
-/// comment and is no part of the run.
+/// Length of the run at the start of `text`, before its `*`. A `/` before the `*` begins a comment
+/// and is not part of the run.
 [[nodiscard]] int run_before_star(std::string_view text);
 
 /// Reports control characters, once per sequence, and reads them as a blank.

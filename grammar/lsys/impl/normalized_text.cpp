@@ -21,10 +21,10 @@ bool is_ascii(std::string_view text) {
 
 struct Validity {
     bool has_invalid = false;
-    bool has_beyond_ascii = false; // and valid
+    bool has_beyond_ascii = false; // valid characters
 };
 
-/// Reports each run of invalid UTF-8 and replaces it by blanks in `valid_utf8`.
+/// Reports each run of invalid UTF-8 and replaces it with blanks in `valid_utf8`.
 Validity
 check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::string& valid_utf8) {
     Validity validity;
@@ -60,7 +60,7 @@ check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::st
     return validity;
 }
 
-/// Names, diagnostics and tree of a pass before the parse, all discarded.
+/// Names, diagnostics and tree of a scan before the parse, discarded after it.
 struct Scratch {
     explicit Scratch(const ParseContext& other)
         : context{other.sources, names, diagnostics, other.load} {}
@@ -110,8 +110,8 @@ void replace_strays(std::string_view valid,
 }
 
 /// Replaces the characters beyond ASCII that the scanner meets, until a scan of the normalized text
-/// meets none: a replacement may change the scan of the text after it. The scan depends on the text
-/// alone, so the parse meets none either.
+/// meets none: a replacement may change how the text after it is scanned. The scan depends only on
+/// the text, so the parse meets none either.
 void normalize_source(const ParseContext& context,
                       Diagnostics& diagnostics,
                       NormalizedText& normalized) {
@@ -286,7 +286,7 @@ void report_foreign_confusable(ParseSession& session,
         DiagnosticCode::ForeignFeature, place,
         ascii.empty() ? "an invisible character, " + what + ", cannot be a module"
         : ascii == " "
-            ? "a blank that is no plain one but " + what + " cannot be a module"
+            ? "a blank that is not a plain one but " + what + " cannot be a module"
             : "this looks like `" + ascii + "` but is " + what + ", which cannot be a module");
     add_fix(diagnostic,
             ascii.empty()  ? std::string("remove it")
@@ -316,7 +316,7 @@ int normalize_character(ParseSession& session, char* character, int length) {
     return length - size;
 }
 
-void normalize_behind_word(ParseSession& session) {
+void normalize_after_word(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::uint32_t at = session.scan.end;
     if (session.strays == nullptr || at >= text.size() ||

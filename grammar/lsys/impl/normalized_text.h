@@ -1,6 +1,6 @@
-// The step before the parse of a file: reports pasted text and forms of other languages
-// (draft_text.h), invalid UTF-8 and typographic characters, and makes the normalized text with
-// ASCII in their place. Comments and file names do not change.
+// The step before the parse of a file. It reports pasted text and forms of other languages
+// (draft_text.h), invalid UTF-8 and typographic characters, and makes a normalized text with ASCII
+// in their place. Comments and file names do not change.
 #pragma once
 
 #include "grammar/ast/text_map.h"
@@ -40,7 +40,7 @@ namespace lsys_grammar {
 int normalize_character(ParseSession& session, char* character, int length);
 /// Records a letter beyond ASCII that continues the current word, for example the ligature U+FB01
 /// (fi) in a `#define` copied from a PDF.
-void normalize_behind_word(ParseSession& session);
+void normalize_after_word(ParseSession& session);
 /// Records the confusables of the current name in back quotes. In a translation they are errors,
 /// because .lsys would read the name as a different one.
 void normalize_quoted(ParseSession& session, std::string_view text);

@@ -20,8 +20,8 @@ constexpr std::string_view kSuperscript = "superscript";
 constexpr std::string_view kFraction = "fraction";
 constexpr std::string_view kDegreeSign = "degree sign";
 
-/// The decimals of a fraction character after a whole number: `.3333333` for one third, with the
-/// digits that binary32 keeps.
+/// The decimals of a fraction character after an integer: `.3333333` for one third, with the digits
+/// that binary32 keeps.
 std::string_view decimals_of(std::string_view fraction) {
     return fraction == "(1/3)"   ? ".3333333"
            : fraction == "(2/3)" ? ".6666667"
@@ -121,7 +121,7 @@ void Normalizer::report_group() {
             : group_.name == kSuperscript ? "a power is written with `^`; this is " + what
             : group_.name == kFraction    ? "a fraction is written with digits; this is " + what
             : group_.ascii.empty() ? "an invisible character, " + what + ", has no meaning here"
-            : is_blank             ? "this is no plain blank but " + what
+            : is_blank             ? "this is not a plain blank but " + what
             : group_.ascii == ":"  ? "this is " + what + "; parts are separated by `:`"
                                    : "this looks like `" + group_.ascii + "` but is " + what;
         Diagnostic& diagnostic = diagnostics_->add(DiagnosticCode::LookAlike, span, message);
@@ -139,7 +139,7 @@ void Normalizer::report_group() {
     group_ = {};
 }
 
-/// Reports a superscript behind a module.
+/// Reports a superscript after a module.
 void Normalizer::report_power(std::uint32_t begin, const CodePoint& point) {
     report_group();
     if (diagnostics_ == nullptr || !diagnostics_->admits(DiagnosticCode::LookAlike)) {
@@ -148,7 +148,7 @@ void Normalizer::report_power(std::uint32_t begin, const CodePoint& point) {
     Diagnostic& diagnostic = diagnostics_->add(
         DiagnosticCode::LookAlike, {file_, begin, begin + point.length},
         "a module has no power; this is " + code_point_name(point.value) + " (superscript)");
-    diagnostic.help.emplace_back("write the module as often as it stands: `F F`");
+    diagnostic.help.emplace_back("repeat the module: `F F`");
 }
 
 bool Normalizer::is_word_at(std::uint32_t at) const {
@@ -162,7 +162,7 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-/// Whether a Greek letter is a word of its own; reports its first occurrence.
+/// Whether a Greek letter is a whole word; reports its first occurrence.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
         "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
@@ -194,7 +194,7 @@ bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoin
         return true;
     }
     diagnostic.help.emplace_back("names are made of the letters A to Z and a to z, digits and `_`");
-    Fix fix{"write `" + name + "`, wherever it stands", {}, false};
+    Fix fix{"write `" + name + "` at every place", {}, false};
     for (std::size_t at = begin; at != std::string_view::npos && fix.edits.size() < 32;
          at = text_.find(letter, at + letter.size())) {
         const auto place = static_cast<std::uint32_t>(at);

@@ -88,18 +88,18 @@ public:
 private:
     /// Whether an error of `code` is neither the cause nor the consequence of others.
     [[nodiscard]] static bool is_independent(DiagnosticCode code);
-    /// Whether the part of the statement has an error without a certain fix: what follows it may be
-    /// a consequence. A `:` begins a new part.
+    /// Whether the current part of the statement has an error without a certain fix; later errors
+    /// of the part may be consequences. A `:` begins a new part.
     [[nodiscard]] bool follows_doubtful_error();
-    /// Whether the line of `at` begins with `//` and is no comment only because the statement
-    /// before it has no end. Each call searches on from the last `at`. Precondition: `at` never
-    /// decreases between calls.
+    /// Whether the line of `at` begins with `//` and would be a comment if the statement before it
+    /// were complete. Precondition: `at` never decreases between calls, since each call continues
+    /// the search of the last one.
     [[nodiscard]] bool is_commented_out(std::size_t at);
     /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if it
-    /// stands behind `//`. Statements that may belong together count as one.
+    /// follows a `//`. Statements that may belong together count as one.
     void offer_doubtful_fixes();
 
-    /// Range of indices in context.diagnostics: those of statements that may belong together.
+    /// Diagnostics of statements that may belong together, as a range of context.diagnostics.
     struct CheckedDiagnostics {
         std::size_t first = 0;
         std::size_t end = 0;             // diagnostics before this index have been checked

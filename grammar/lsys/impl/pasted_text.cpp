@@ -185,7 +185,7 @@ bool is_comment(std::string_view line) {
     return line.starts_with("//") || line.starts_with("/*");
 }
 
-/// Whether a line is none of the language: it begins with neither a statement nor a comment.
+/// Whether a line is foreign: it begins with neither a statement nor a comment.
 bool is_foreign(std::string_view line) {
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0) && line[0] != ';';
 }
@@ -257,7 +257,7 @@ void repair_fences(DraftText& draft) {
         return;
     }
     Fix fix{fences.size() == 1 ? "remove the line" : "remove these lines", {}, false};
-    std::vector<const FreeLine*> prose; // before the first fence and behind the last
+    std::vector<const FreeLine*> prose; // before the first fence and after the last
     for (const FreeLine& line : lines) {
         const bool is_outside = line.begin < fences.front()->begin ||
                                 (fences.size() > 1 && line.begin > fences.back()->begin);
@@ -267,14 +267,14 @@ void repair_fences(DraftText& draft) {
     }
     Diagnostic& diagnostic = draft.report(
         DiagnosticCode::PastedText, draft.span(fences.front()->begin, fences.front()->end),
-        "this is the fence of a code block in Markdown, no part of a grammar");
+        "this is the fence of a code block in Markdown, not part of a grammar");
     for (std::size_t i = 1; i < fences.size(); ++i) {
         diagnostic.labels.push_back(
             {draft.span(fences[i]->begin, fences[i]->end), "and so is this"});
     }
     if (!prose.empty()) {
         diagnostic.labels.push_back({draft.span(prose.front()->begin, prose.front()->end),
-                                     "this text is no part of it either"});
+                                     "this text is not part of it either"});
     }
     std::vector<const FreeLine*> all = prose;
     all.insert(all.end(), fences.begin(), fences.end());
@@ -285,7 +285,7 @@ void repair_fences(DraftText& draft) {
         fix.edits.push_back({draft.span(line->begin, after), ""});
     }
     diagnostic.help.emplace_back(all.size() == 1 ? "remove the line"
-                                                 : "remove these lines, and keep what stands "
+                                                 : "remove these lines, and keep the text "
                                                    "between the fences");
     diagnostic.fixes.push_back(std::move(fix));
     for (const FreeLine* line : all) {
@@ -295,7 +295,8 @@ void repair_fences(DraftText& draft) {
 
 // --- line numbers
 
-/// The length of a line number with its sign at the start of a line: `12`, `12:`, `12 |`; 0: none.
+/// The length of a line number with its sign at the start of a line: `12`, `12:`, `12 |`; 0 if
+/// none.
 std::size_t number_length(std::string_view line, std::uint32_t& number) {
     std::size_t at = 0;
     number = 0;
@@ -354,7 +355,7 @@ void repair_line_numbers(DraftText& draft) {
     }
     Diagnostic& diagnostic =
         draft.report(DiagnosticCode::PastedText, place,
-                     "the lines begin with their numbers, which are no part of the grammar");
+                     "the lines begin with their numbers, which are not part of the grammar");
     diagnostic.fixes.push_back(std::move(fix));
 }
 
@@ -439,12 +440,12 @@ constexpr std::array<Entity, 9> kEntities{{{"&lt;", '<'},
                                            {"&#60;", '<'}}};
 
 /// Whether the `;` that ends before `at` cannot end a statement: text of the statement follows it.
-bool goes_on(std::string_view text, std::size_t at) {
+bool continues_statement(std::string_view text, std::size_t at) {
     const std::string_view line = without_blanks(text.substr(at, end_of_line(text, at) - at));
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
 }
 
-/// The entity at the start of `text`; null: none.
+/// The entity at the start of `text`; null if there is none.
 const Entity* find_entity(std::string_view text) {
     const auto* const found =
         std::find_if(kEntities.begin(), kEntities.end(),
@@ -463,7 +464,7 @@ void repair_entities(DraftText& draft) {
             end += entity->name.size();
         }
         const std::size_t line = start_of_line(text, at);
-        if (characters.empty() || !goes_on(text, end) ||
+        if (characters.empty() || !continues_statement(text, end) ||
             text.substr(line, at - line).find("//") != std::string_view::npos) {
             continue;
         }
@@ -502,7 +503,7 @@ void repair_second_copy(DraftText& draft) {
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
     Diagnostic& diagnostic =
         draft.report(DiagnosticCode::PastedText, draft.span(second, second + line.size()),
-                     "from here on the text of the file stands a second time");
+                     "from here on the text of the file is repeated");
     diagnostic.labels.push_back({draft.span(first, first + line.size()), "the first time"});
     diagnostic.fixes.push_back({"remove the second copy", {{draft.span(second, end), ""}}, false});
     draft.blank(second, end);
@@ -522,7 +523,7 @@ void repair_comment_ends(DraftText& draft) {
         if (before != std::string::npos && before < line.begin) {
             diagnostic.labels.push_back(
                 {draft.span(before, before + 2), "the comment ended here already"});
-            diagnostic.help.emplace_back("comments do not stand inside each other: remove this "
+            diagnostic.help.emplace_back("comments cannot be nested: remove this "
                                          "`*/`, or the inner comment");
         } else {
             diagnostic.help.emplace_back("remove it, or write the `/*` that it ends");
@@ -533,7 +534,7 @@ void repair_comment_ends(DraftText& draft) {
 
 // --- lines in the notation of books and other programs
 
-/// The number at the start of `text`, with its sign; empty: none.
+/// The number at the start of `text`, with its sign; empty if there is none.
 std::string_view leading_number(std::string_view text) {
     const std::size_t end =
         std::min(text.find_first_not_of("0123456789.", text.starts_with('-')), text.size());
@@ -548,10 +549,10 @@ std::string lowered(std::string_view text) {
     return lower;
 }
 
-/// The text behind `word` and one of `signs`: `6` for `n = 6`. Returns nullopt if the line does not
+/// The text after `word` and one of `signs`: `6` for `n = 6`. Returns nullopt if the line does not
 /// begin with these.
 std::optional<std::string_view>
-value_behind(std::string_view line, std::string_view word, std::string_view signs) {
+value_after(std::string_view line, std::string_view word, std::string_view signs) {
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {
         return std::nullopt;
     }
@@ -585,8 +586,8 @@ struct RuleNames {
     std::size_t count = 0;
 };
 
-/// Replaces the typographic characters of printed productions: the logical and, minus and dash
-/// signs, and delta; omits degree signs.
+/// Replaces the typographic characters of printed productions (logical and, minus, dashes, delta)
+/// and removes degree signs.
 std::string without_typography(std::string_view text) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
@@ -616,7 +617,7 @@ std::string without_typography(std::string_view text) {
 /// The statement for a rule with an arrow: `p1 : A -> B` is `#p1 : A : * : B;`.
 std::optional<std::string> production_for(std::string_view line, RuleNames& names);
 
-/// The `=` of a rule of Houdini, `A(x) : x > 3 = B`.
+/// The `=` of a Houdini rule, `A(x) : x > 3 = B`.
 Arrow find_equals(std::string_view line) {
     int depth = 0;
     for (std::size_t at = 0; at < line.size(); ++at) {
@@ -634,9 +635,9 @@ Arrow find_equals(std::string_view line) {
 
 /// The statements for `rules : (A -> B), (B -> A)`.
 std::optional<std::string> productions_for(std::string_view line, RuleNames& names) {
-    auto list = value_behind(line, "rules", ":");
+    auto list = value_after(line, "rules", ":");
     if (!list) {
-        list = value_behind(line, "rule", ":");
+        list = value_after(line, "rule", ":");
     }
     if (!list || !list->starts_with('(')) {
         return production_for(list ? *list : line, names);
@@ -703,7 +704,7 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
         successor.pop_back();
     }
     if (is_houdini) {
-        // `A = B : 0.5` gives a probability; a number alone is no successor.
+        // `A = B : 0.5` gives a probability; a number alone is not a successor.
         const std::size_t last = successor.rfind(':');
         if (last != std::string::npos &&
             !leading_number(without_blanks(std::string_view(successor).substr(last + 1))).empty()) {
@@ -727,8 +728,8 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
 
 /// The .lsys text of a line in another notation, with the name of that notation.
 struct Meaning {
-    std::string source;      // whose notation it is
-    std::string replacement; // the statements; empty: leave the line out
+    std::string source;      // the notation's name
+    std::string replacement; // .lsys statements; empty: drop the line
 };
 
 std::optional<Meaning> header_meaning(std::string_view line) {
@@ -744,7 +745,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
                                  " " + std::string(without_blanks(line.substr(body + 7))) + ";"};
     }
     for (const std::string_view word : {"derivation length", "derivation_length"}) {
-        if (const auto value = value_behind(line, word, ":=")) {
+        if (const auto value = value_after(line, word, ":=")) {
             const std::string_view number = leading_number(*value);
             return Meaning{"cpfg and L-Py",
                            number.empty() ? "" : "#n = " + std::string(number) + ";"};
@@ -752,7 +753,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
     }
     for (const std::string_view word :
          {"iterations", "generations", "generation", "recursion", "depth", "order", "steps", "n"}) {
-        const auto value = value_behind(line, word, word == "n" ? "=" : ":=");
+        const auto value = value_after(line, word, word == "n" ? "=" : ":=");
         if (!value || leading_number(*value).empty()) {
             continue;
         }
@@ -773,13 +774,13 @@ std::optional<Meaning> header_meaning(std::string_view line) {
         return Meaning{"papers", statements};
     }
     for (const std::string_view word : {"\u03b4", "delta", "angle", "turn", "angle increment"}) {
-        const auto value = value_behind(line, word, ":=");
+        const auto value = value_after(line, word, ":=");
         if (value && !leading_number(*value).empty()) {
             return Meaning{"papers", "#set angle " + std::string(leading_number(*value)) + ";"};
         }
     }
     for (const std::string_view word : {"\u03c9", "axiom", "start", "initiator", "premise"}) {
-        const auto value = value_behind(line, word, ":=");
+        const auto value = value_after(line, word, ":=");
         if (value && !value->empty()) {
             std::string modules(*value);
             while (modules.ends_with(';')) {
@@ -794,7 +795,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-/// Lines that have no meaning here.
+/// Recognises lines without an equivalent in .lsys.
 std::optional<Meaning> line_without_meaning(std::string_view line) {
     const std::string lower = lowered(line);
     for (const std::string_view word :
@@ -816,7 +817,8 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-/// Where a comment begins in a line of papers; npos: nowhere. Slashes between modules are rolls.
+/// The begin of a comment in a line of papers; npos if there is none. Slashes between modules are
+/// rolls.
 std::size_t comment_in(std::string_view line) {
     for (std::size_t at = line.find("//"); at != std::string_view::npos;
          at = line.find("//", line.find_first_not_of('/', at))) {
@@ -835,7 +837,7 @@ void repair_foreign_lines(DraftText& draft) {
     Diagnostic* diagnostic = nullptr;
     std::string source;
     Fix fix{"", {}, false};
-    // Rules without a name get one that no other has.
+    // Rules without a name get a name that no other rule has.
     const bool has_names =
         draft.text.find("p1") != std::string::npos || draft.text.find("p2") != std::string::npos;
     RuleNames names{has_names ? "rule" : "p", 0};
@@ -884,7 +886,7 @@ void repair_foreign_lines(DraftText& draft) {
     if (diagnostic != nullptr) {
         if (names.count > 1 && !has_statement && draft.text.find("names") == std::string::npos) {
             diagnostic->help.emplace_back("if each letter is a module, `#set names letters;` reads "
-                                          "them so; otherwise blanks stand between names");
+                                          "them so; otherwise put blanks between names");
         }
         fix.title = fix.edits.size() == 1 ? "write the line in this language"
                                           : "write these lines in this language";

@@ -1,9 +1,9 @@
 // The state of the .lsys scanner between tokens: its place in the statement. A character is an
-// operator in one part of a statement and a module in another, so the scanner follows the parts by
+// operator in one part of a statement and a module in another, so the scanner tracks the parts from
 // its own tokens; the parser never switches it. For safe recovery the scanner guarantees three
 // things to the parser: parentheses in a statement are balanced, a `:` follows a condition, and a
-// `;` ends a statement. It reports missing ones and inserts them (token insertion). Nothing depends
-// on the parser or on reports: every scan of a text yields the same tokens.
+// `;` ends a statement. It reports missing tokens and inserts them (token insertion). Nothing
+// depends on the parser or on reports: every scan of a text yields the same tokens.
 #pragma once
 
 #include "grammar/ast/ast_builder.h"
@@ -44,7 +44,7 @@ enum class Part : std::uint8_t {
     ObjectValue,
     Setting,
     Ignored,
-    Chance, // the probability of an axiom
+    Probability, // the probability of an axiom
     Axiom,
     Head,
     Condition,
@@ -52,15 +52,15 @@ enum class Part : std::uint8_t {
     Successor,
 };
 
-/// The place among local values, `let a = 1, b = 2`.
-enum class LocalPlace : std::uint8_t {
+/// The next token among local values, `let a = 1, b = 2`.
+enum class NextInLocals : std::uint8_t {
     Let,
     Name,
     Sign,
     Value,
 };
 
-/// The text before which the scanner inserts missing tokens.
+/// The event before which the scanner inserts missing tokens.
 enum class Insertion : std::uint8_t {
     None,
     Colon,         // a `:` inside parentheses
@@ -72,15 +72,15 @@ enum class Insertion : std::uint8_t {
 struct OpenBracket {
     enum class Kind : std::uint8_t { Module, Call, Group, Brace };
     Kind kind = Kind::Group;
-    std::uint32_t begin = 0; // of the scanned text
-    std::uint32_t chain = 0; // of the enclosing level
+    std::uint32_t begin = 0; // offset in the scanned text
+    std::uint32_t chain = 0; // ScanState::chain of the enclosing level
 };
 
 struct ScanState {
     // The current match, as offsets of the scanned text.
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::uint32_t last_end = 0; // of the last token
+    std::uint32_t last_end = 0; // end of the last token
 
     Keyword keyword = Keyword::Label;
     Part part = Part::Between;
@@ -89,14 +89,14 @@ struct ScanState {
     bool part_empty = true;          // the part has no token yet
     bool has_locals = false;         // the statement has Part::Locals
     bool skipping = false;           // to the `;` of the statement
-    bool sign_explained = false;     // the `=` behind the key is part of another message
+    bool sign_explained = false;     // another message explains the `=` after the key
     bool semicolon_inserted = false;
-    bool value_before = false;                  // the last token ends a value
-    bool name_before = false;                   // the last token is a name in an expression
-    LocalPlace local_place = LocalPlace::Value; // what is next in Part::Locals
+    bool value_before = false;                         // the last token ends a value
+    bool name_before = false;                          // the last token is a name in an expression
+    NextInLocals next_in_locals = NextInLocals::Value; // what is next in Part::Locals
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted
-    std::size_t first_diagnostic = 0;    // of the statement, as an index of the diagnostics
+    std::size_t first_diagnostic = 0;    // index of the statement's first diagnostic
     std::uint32_t part_begin = 0;
     std::uint32_t comment_begin = 0;
     std::uint32_t next_statement = 0; // first character after a missing `;`
@@ -111,7 +111,7 @@ struct ScanState {
     Insertion inserting = Insertion::None;
     SourceSpan pending_span;       // of the written `:` or `;` that follows the inserted tokens
     std::uint32_t control_end = 0; // end of the last control character
-    // Count in this text; limited by kMaxBracketSearches (bracket_search.h).
+    // Searches in this text, at most kMaxBracketSearches (bracket_search.h).
     std::uint32_t bracket_searches = 0;
 
     void enter(Part next) {
@@ -122,7 +122,7 @@ struct ScanState {
         value_before = false;
         name_before = false;
         has_locals = has_locals || next == Part::Locals;
-        local_place = next == Part::Locals ? LocalPlace::Let : LocalPlace::Value;
+        next_in_locals = next == Part::Locals ? NextInLocals::Let : NextInLocals::Value;
     }
     void end_chain() {
         depth -= chain;

@@ -148,10 +148,8 @@ bool lacks_only_semicolon(const ParseSession& session) {
 
 } // namespace
 
-std::optional<LikelyComment> comment_behind_modules(std::string_view text,
-                                                    std::uint32_t begin,
-                                                    std::uint32_t end,
-                                                    bool letters) {
+std::optional<LikelyComment>
+comment_after_modules(std::string_view text, std::uint32_t begin, std::uint32_t end, bool letters) {
     if (end - begin > kMaxSearchedStatement) {
         begin = static_cast<std::uint32_t>(end - kMaxSearchedStatement);
     }
@@ -174,8 +172,8 @@ std::optional<LikelyComment> comment_behind_modules(std::string_view text,
     if (before == std::string_view::npos || before + 1 < begin) {
         return std::nullopt;
     }
-    // Arguments and comments `/* ... */` have words that are no modules either; brackets and rows of
-    // rolls are modules.
+    // Words of arguments and of `/* ... */` are not names of modules either; brackets and several
+    // rolls, `////`, are modules.
     const std::string_view line = text.substr(comment, line_end(text, comment) - comment);
     const bool may_be_modules = line.find_first_of("()[]{}") != std::string_view::npos ||
                                 line.find("/*") != std::string_view::npos ||
@@ -192,8 +190,8 @@ void report_missing_semicolon(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     std::optional<LikelyComment> comment;
     if (scan.ended_part == Part::Successor || scan.ended_part == Part::Axiom) {
-        comment = comment_behind_modules(text, scan.part_begin, scan.last_end,
-                                         session.builder.module_names() != ModuleNames::Words);
+        comment = comment_after_modules(text, scan.part_begin, scan.last_end,
+                                        session.builder.module_names() != ModuleNames::Words);
     }
     SourceSpan place = session.insertion_place();
     if (comment) {
@@ -260,8 +258,9 @@ void report_comment_in_statement(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const SourceSpan slashes = session.match();
-    Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, slashes,
-                                            "a comment with `//` stands between statements only");
+    Diagnostic& diagnostic =
+        session.report(DiagnosticCode::SyntaxError, slashes,
+                       "a comment with `//` is allowed only between statements");
     const std::size_t end = line_end(text, scan.begin);
     const std::string_view comment = text.substr(scan.begin, end - scan.begin);
     if (comment.find("*/") != std::string_view::npos) {

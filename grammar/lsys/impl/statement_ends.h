@@ -21,7 +21,7 @@ struct LikelyComment {
 /// The comment in the last line of the modules [begin, end) of `text`. `letters`: each letter is a
 /// module.
 [[nodiscard]] std::optional<LikelyComment>
-comment_behind_modules(std::string_view text, std::uint32_t begin, std::uint32_t end, bool letters);
+comment_after_modules(std::string_view text, std::uint32_t begin, std::uint32_t end, bool letters);
 
 /// Reports the inserted `;` of a statement that the parser has accepted.
 void report_missing_semicolon(ParseSession& session);

@@ -80,7 +80,7 @@ std::uint32_t colons_of_statement(ParseSession& session) {
     return *scan.colons;
 }
 
-/// The text from behind the `;` at `at` to the `;` or the statement after it.
+/// The text after the `;` at `at`, up to the next `;` or statement.
 std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     const std::size_t begin = at + 1;
     constexpr std::size_t kMaxLength = 4096;
@@ -88,8 +88,8 @@ std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     return rest.substr(0, rest.find_first_of(";#"));
 }
 
-/// Whether the `;` at `at` stands where a `:` is meant: the text behind it has the `missing` other
-/// `:` of the production and no statement of its own.
+/// Whether the `;` at `at` is a mistyped `:`: the text after it has the `missing` other `:` of the
+/// production and begins no statement.
 bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
     const std::string_view rest = text_after_semicolon(text, at);
     const std::size_t first = rest.find_first_not_of(" \t\r\n");
@@ -117,7 +117,7 @@ Token begin_parts(ParseSession& session, std::string_view word, char next) {
     return keyword_token(session, word, span);
 }
 
-/// `#angle 30;`: reports the missing `set` and reads on after the `#`.
+/// `#angle 30;`: reports the missing `set` and continues after the `#`.
 Token setting_without_set(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     const std::uint32_t key_begin = scan.end - static_cast<std::uint32_t>(word.size());
@@ -171,11 +171,12 @@ void explain_section(const ParseSession& session, Keyword meant, Diagnostic& dia
     const std::string_view next =
         begin < end ? text.substr(begin, end - begin) : std::string_view("p : A : * : B");
     diagnostic.help.push_back("a file has no parts: remove this line, and write the productions "
-                              "behind it `" +
+                              "after it `" +
                               name + " " + std::string(next) + ";`");
 }
 
-/// Reports `#word`, which is no statement; returns the keyword that is meant, if that is sure.
+/// Reports `#word`, which is not a statement; returns the keyword that is meant, if that is
+/// certain.
 std::optional<Keyword> report_unknown_statement(ParseSession& session, std::string_view word) {
     const Synonym* const synonym = find_synonym(SynonymKind::Statement, word);
     const std::string_view setting = meant_setting(synonym);
@@ -304,13 +305,13 @@ bool is_hash_comment(ParseSession& session, std::string_view text) {
 
 Token start_statement(ParseSession& session, std::string_view text) {
     session.scan.first_diagnostic = session.context.diagnostics.all().size();
-    normalize_behind_word(session);
+    normalize_after_word(session);
     const std::size_t name_begin = text.find_first_not_of(" \t", 1);
     if (name_begin > 1) {
         const ScanState& scan = session.scan;
         if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::SplitOperator)) {
             Diagnostic& diagnostic = session.report(DiagnosticCode::SplitOperator,
-                                                    "a blank stands between `#` and its word");
+                                                    "there is a blank between `#` and its word");
             add_fix(diagnostic, "remove the blank",
                     session.scanned.span(scan.begin + 1,
                                          scan.begin + static_cast<std::uint32_t>(name_begin)),
@@ -381,8 +382,8 @@ Token opening_colon(ParseSession& session) {
         if (is_digit(next) || next == '.' || next == '(') { // cannot begin a predecessor
             if (session.wants(DiagnosticCode::SyntaxError)) {
                 const SourceSpan span = session.match();
-                Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError, span,
-                                                        "a `=` stands here, not a `:`");
+                Diagnostic& diagnostic =
+                    session.report(DiagnosticCode::SyntaxError, span, "expected `=` here, not `:`");
                 add_fix(diagnostic, "write `=`", span, "=", true);
             }
             const SourceSpan span = session.token();
@@ -427,7 +428,7 @@ Token opening_sign(ParseSession& session) {
             const SourceSpan span = session.match();
             Diagnostic& diagnostic =
                 session.report(DiagnosticCode::MissingColon, span,
-                               std::string("a `:` stands here, not a `") + sign + "`");
+                               std::string("expected `:` here, not `") + sign + "`");
             add_fix(diagnostic, "write `:`", span, ":", true);
         }
         const SourceSpan span = session.token();
@@ -499,7 +500,7 @@ bool is_doubled_colon(ParseSession& session) {
     if (session.wants(DiagnosticCode::ExtraColon)) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::ExtraColon, span, "a `:` stands twice");
+            session.report(DiagnosticCode::ExtraColon, span, "a `:` is doubled");
         add_fix(diagnostic, "remove it", span, "", true);
     }
     return true;
@@ -507,7 +508,7 @@ bool is_doubled_colon(ParseSession& session) {
 
 namespace {
 
-/// Reports `A : * : B : 0.6`, the probability at the end as in Houdini; returns whether it did.
+/// Reports `A : * : B : 0.6`, a probability at the end as in Houdini; returns whether it did.
 bool report_probability_at_end(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -535,7 +536,7 @@ bool report_probability_at_end(ParseSession& session) {
         DiagnosticCode::ExtraColon,
         session.scanned.span(scan.begin, static_cast<std::uint32_t>(end)),
         "`: " + shown(probability) +
-            "` at the end is a probability of Houdini; here it stands behind the condition");
+            "` at the end is a probability of Houdini; in .lsys it comes after the condition");
     Fix fix;
     fix.title = "write `" +
                 shown(std::string(part.substr(part.find_first_not_of(kBlanks),
@@ -564,7 +565,7 @@ Token colon_after_modules(ParseSession& session) {
     const bool ends_line = rest.find_first_not_of(" \t\r") == std::string_view::npos;
     // At the end of a line the `:` may be a mistyped `;`.
     if ((scan.part == Part::Successor || scan.part == Part::Axiom) && !ends_line &&
-        is_behind_comment(session)) {
+        is_after_likely_comment(session)) {
         return discard_statement(session);
     }
     if (session.wants(DiagnosticCode::ExtraColon) &&
@@ -579,7 +580,7 @@ Token colon_after_modules(ParseSession& session) {
             const char next = next_character(session.scanned.text, scan.end);
             if (is_digit(next) || next == '.') {
                 diagnostic.help.emplace_back(
-                    "a probability stands behind the condition: `#name : A : * ~ 0.5 : B;`");
+                    "a probability comes after the condition: `#name : A : * ~ 0.5 : B;`");
             }
         } else if (scan.part == Part::Axiom) {
             diagnostic.help.emplace_back("the axiom is `#w : modules;`");
@@ -594,7 +595,7 @@ namespace {
 Part part_after_colon(const ParseSession& session) {
     const ScanState& scan = session.scan;
     switch (scan.part) {
-    case Part::Chance:
+    case Part::Probability:
         return Part::Axiom;
     case Part::Head:
         return Part::Condition;
@@ -609,7 +610,7 @@ Part part_after_colon(const ParseSession& session) {
 
 Token colon_in_expression(ParseSession& session) {
     ScanState& scan = session.scan;
-    const bool in_production = scan.part == Part::Chance || scan.part == Part::Head ||
+    const bool in_production = scan.part == Part::Probability || scan.part == Part::Head ||
                                scan.part == Part::Condition || scan.part == Part::Locals;
     if (!scan.open.empty() && in_production) {
         return begin_insertion(session, Insertion::Colon, session.match());
@@ -623,27 +624,28 @@ Token colon_in_expression(ParseSession& session) {
 
 std::optional<Token> local_value_token(ParseSession& session, std::string_view text) {
     ScanState& scan = session.scan;
-    const LocalPlace place = scan.local_place;
-    const bool fits =
-        place == LocalPlace::Let || (place == LocalPlace::Name && is_letter(text[0])) ||
-        (place == LocalPlace::Sign && text == "=") || (place == LocalPlace::Value && text == ",");
+    const NextInLocals place = scan.next_in_locals;
+    const bool fits = place == NextInLocals::Let ||
+                      (place == NextInLocals::Name && is_letter(text[0])) ||
+                      (place == NextInLocals::Sign && text == "=") ||
+                      (place == NextInLocals::Value && text == ",");
     if (scan.part != Part::Locals || !scan.open.empty() || !fits) {
         return std::nullopt;
     }
     const SourceSpan span = session.token();
     switch (place) {
-    case LocalPlace::Let:
-        scan.local_place = LocalPlace::Name;
+    case NextInLocals::Let:
+        scan.next_in_locals = NextInLocals::Name;
         return Token(Parser::token::TOK_LET, span);
-    case LocalPlace::Name:
-        scan.local_place = LocalPlace::Sign;
+    case NextInLocals::Name:
+        scan.next_in_locals = NextInLocals::Sign;
         return Token(Parser::token::TOK_IDENTIFIER, session.builder.intern(text), span);
-    case LocalPlace::Sign:
-        scan.local_place = LocalPlace::Value;
+    case NextInLocals::Sign:
+        scan.next_in_locals = NextInLocals::Value;
         return Token(Parser::token::TOK_ASSIGN, span);
-    case LocalPlace::Value:
+    case NextInLocals::Value:
         scan.after_operator();
-        scan.local_place = LocalPlace::Name;
+        scan.next_in_locals = NextInLocals::Name;
         return Token(Parser::token::TOK_COMMA, span);
     }
     return std::nullopt;
@@ -675,7 +677,7 @@ std::optional<std::ptrdiff_t> colons_after_semicolon(const ScanState& scan) {
     }
 }
 
-/// Whether the text before the current `;` is surely a condition, so that only a successor can
+/// Whether the text before the current `;` is certainly a condition, so that only a successor can
 /// follow.
 bool has_condition_before(const ParseSession& session) {
     const ScanState& scan = session.scan;
@@ -698,7 +700,7 @@ std::optional<Token> semicolon_for_colon(ParseSession& session) {
     if (session.wants(DiagnosticCode::MissingColon)) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
-            session.report(DiagnosticCode::MissingColon, span, "a `:` stands here, not a `;`");
+            session.report(DiagnosticCode::MissingColon, span, "expected `:` here, not `;`");
         add_fix(diagnostic, "write `:`", span, ":", true);
     }
     const SourceSpan span = session.token();
@@ -814,7 +816,7 @@ void report_missing_parts(ParseSession& session) {
     if (scan.part == Part::Locals) {
         Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::MissingColon, place,
                                                  "the production ends before its successor");
-        diagnostic.help.emplace_back("local values stand between two `:`, as in `#grow : A(x) : * "
+        diagnostic.help.emplace_back("local values are between two `:`, as in `#grow : A(x) : * "
                                      ": let l = x / 2 : F(l) A(l);`");
         return;
     }
@@ -918,9 +920,9 @@ Token discard_statement(ParseSession& session) {
 
 namespace {
 
-/// Whether `text`, which stands in the place of a condition and before the character `stray` that
-/// no condition has, begins a successor: `text` is empty, or it begins with a symbol or a capital
-/// letter and compares nothing.
+/// Whether `text` begins a successor. It stands in the place of a condition, and the character
+/// `stray` after it cannot occur in one. True if `text` is empty, or if it begins with a symbol or
+/// a capital letter and compares nothing.
 bool begins_successor(std::string_view text, char stray) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
@@ -932,8 +934,8 @@ bool begins_successor(std::string_view text, char stray) {
 }
 
 /// Whether the text from `first` to the current character can only be a successor: none of its
-/// words is a parameter of the predecessor, and the current character is a symbol that no condition
-/// has, without a blank before it.
+/// words is a parameter of the predecessor, and the current character is a symbol that cannot occur
+/// in a condition, without a blank before it.
 bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -958,8 +960,8 @@ bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
            has_plain_head(session);
 }
 
-/// Reports a production of three parts, whose condition is missing. The current character is the
-/// first that cannot stand in a condition.
+/// Reports a production of three parts whose condition is missing. The current character is the
+/// first that cannot occur in a condition.
 bool report_missing_condition(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

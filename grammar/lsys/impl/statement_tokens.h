@@ -14,7 +14,8 @@ namespace lsys::lsys_grammar {
 bool is_hash_comment(ParseSession& session, std::string_view text);
 /// `#word`, between statements.
 Token start_statement(ParseSession& session, std::string_view text);
-/// The first token of a statement without `#`: at `word`, or another character if it is empty.
+/// The first token of a statement without `#`. It begins with `word`, or with a symbol if `word` is
+/// empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
 /// The current `:` after `#word`; in `#n : 4;` it is reported and read as `=`.

@@ -114,12 +114,12 @@ bool is_attribute(const ParseSession& session) {
 void explain_attribute(const ParseSession& session, Diagnostic& diagnostic) {
     const std::string_view word = leading_word(session.scanned.text.substr(session.scan.end));
     const Synonym* const synonym = find_synonym(SynonymKind::Function, word);
-    diagnostic.help.push_back(synonym != nullptr
-                                  ? help_for(*synonym, word)
-                                  : "functions stand without a `.`: `" + shown(word) + "(x)`");
+    diagnostic.help.push_back(synonym != nullptr ? help_for(*synonym, word)
+                                                 : "functions are written without a `.`: `" +
+                                                       shown(word) + "(x)`");
 }
 
-/// Reports `math.sqrt`, a function of a library that is not needed; returns whether it did.
+/// Reports `math.sqrt`, a function of a library; returns whether it did.
 bool report_library(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const ScanState& scan = session.scan;
@@ -143,7 +143,7 @@ bool report_library(ParseSession& session) {
     return true;
 }
 
-/// Offers quotes around the name of a file that the current `.` is part of.
+/// Offers quotes around the file name that contains the current `.`.
 void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
     const std::string_view text = session.scanned.text;
     constexpr std::string_view kEnds = " \t\r\n;\"";
@@ -154,7 +154,7 @@ void offer_quotes(const ParseSession& session, Diagnostic& diagnostic) {
     const auto end = static_cast<std::uint32_t>(
         std::min(text.find_first_of(kEnds, session.scan.begin), text.size()));
     const std::string name(text.substr(begin, end - begin));
-    add_fix(diagnostic, "the name of a file stands in quotes: `\"" + shown(name) + "\"`",
+    add_fix(diagnostic, "the name of a file is quoted: `\"" + shown(name) + "\"`",
             session.scanned.span(begin, end), '"' + name + '"', false);
 }
 
@@ -201,29 +201,31 @@ void report_expected(ParseSession& session, const Unexpected& error) {
         const char next = scan.end < text.size() ? text[scan.end] : '\0';
         diagnostic.help.emplace_back(
             scan.keyword == Keyword::Material
-                ? "values stand side by side without commas: `#material 3 colour 0.4 0.3 0.2;`"
-                : "values stand side by side without commas: `#set tropism 0 -1 0 0.2;`");
+                ? "values are written side by side, without commas: `#material 3 colour 0.4 0.3 "
+                  "0.2;`"
+                : "values are written side by side, without commas: `#set tropism 0 -1 0 0.2;`");
         if (is_digit(text[scan.begin - 1]) && is_digit(next)) {
             add_fix(diagnostic, "a decimal point is written `.`", error.place, ".", false);
         }
     } else if (scan.keyword == Keyword::Material && error.part == Part::Setting &&
                (error.text == "=" || error.text == ":")) {
-        diagnostic.help.emplace_back("a value stands behind its key: `#material 3 roughness 0.9;`");
+        diagnostic.help.emplace_back(
+            "a value comes right after its key: `#material 3 roughness 0.9;`");
     } else if (scan.keyword == Keyword::Material && error.part == Part::Setting &&
                error.text == ".") {
         offer_quotes(session, diagnostic);
     } else if (error.part == Part::Setting && !error.text.empty() && error.text != ";") {
-        diagnostic.help.emplace_back(
-            error.text == "\""                  ? "the words of a setting stand without quotes"
-            : scan.keyword == Keyword::Material ? "an expression stands in parentheses here: "
-                                                  "`#material (base + 1) roughness (1 / 3);`"
-                                                : "an expression stands in parentheses here: "
-                                                  "`#set angle (360 / 7);`");
+        diagnostic.help.emplace_back(error.text == "\"" ? "the words of a setting have no quotes"
+                                     : scan.keyword == Keyword::Material
+                                         ? "an expression is in parentheses here: "
+                                           "`#material (base + 1) roughness (1 / 3);`"
+                                         : "an expression is in parentheses here: "
+                                           "`#set angle (360 / 7);`");
     } else if (error.text == "." && error.part != Part::ObjectValue && is_attribute(session)) {
         explain_attribute(session, diagnostic);
     } else if (error.expects(Kind::S_NUMBER) && error.token == Kind::S_RPAREN &&
                character_before(session.scanned.text, scan.begin) == ',') {
-        diagnostic.help.emplace_back("no comma stands behind the last argument");
+        diagnostic.help.emplace_back("there is no comma after the last argument");
     } else if (error.text == "?") {
         diagnostic.help.emplace_back(
             "there is no operator `? :`: a choice is `if(condition, a, b)`");
@@ -231,11 +233,11 @@ void report_expected(ParseSession& session, const Unexpected& error) {
                error.text == ".") {
         offer_quotes(session, diagnostic);
     } else if (error.token == Kind::S_COMMA && scan.open.empty()) {
-        diagnostic.help.emplace_back("a comma stands only between arguments in parentheses");
+        diagnostic.help.emplace_back("a comma is allowed only between arguments in parentheses");
     }
 }
 
-/// Whether a `)` closes each open bracket behind the current character.
+/// Whether a `)` after the current character closes each open bracket.
 bool are_brackets_closed(const ParseSession& session) {
     const ScanState& scan = session.scan;
     std::uint32_t at = scan.end;
@@ -266,7 +268,7 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
             session.report(DiagnosticCode::UnclosedParenthesis,
                            session.scanned.span(open, open + 1), "`(` is never closed");
         diagnostic.labels.push_back(
-            {error.place, "`" + std::string(error.text) + "` is no part of an argument"});
+            {error.place, "`" + std::string(error.text) + "` is not part of an argument"});
         if (scan.open.size() == 1) {
             const std::size_t last =
                 session.scanned.text.find_last_not_of(" \t\r\n", scan.begin - 1);

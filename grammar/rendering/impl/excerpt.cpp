@@ -11,7 +11,7 @@ constexpr std::uint32_t kTabStop = 4;
 constexpr std::string_view kEllipsis = "...";
 /// Characters before the focus in an excerpt that is cut on its left.
 constexpr std::size_t kLead = 50;
-/// Bounds the work for lines full of characters without width.
+/// Bounds the work for lines with many characters of zero width.
 constexpr std::size_t kMaxCharacters = std::size_t{8} * kMaxColumns;
 
 /// Characters that terminals hide or that reorder others (Unicode category Cf, C1 controls).

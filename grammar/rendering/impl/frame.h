@@ -40,7 +40,7 @@ struct Mark {
                                              const Palette& colours,
                                              std::string& out);
 
-/// Appends the lines as they read with `fix` applied, with marks under the new text.
+/// Appends the lines that `fix` changes as they read afterwards, with marks under the new text.
 void append_fix(const Fix& fix, const SourceMap& sources, const Palette& colours, std::string& out);
 
 } // namespace lsys::rendering

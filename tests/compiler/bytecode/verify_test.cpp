@@ -95,22 +95,22 @@ TEST_CASE("code is checked") {
     const auto with = [&](std::size_t at, std::uint32_t word) {
         return said_of([&](Bytecode& b) { b.instructions[at] = word; });
     };
-    CHECK(with(condition, op(Opcode::Formal, 2)) == "instruction 10 (formal) may not stand there");
-    CHECK(with(condition, op(Opcode::Global, 1)) == "instruction 10 (global) may not stand there");
+    CHECK(with(condition, op(Opcode::Formal, 2)) == "instruction 10 (formal) is not allowed there");
+    CHECK(with(condition, op(Opcode::Global, 1)) == "instruction 10 (global) is not allowed there");
     CHECK(with(condition, op(Opcode::Global, 0)).empty());
-    CHECK(with(condition, op(Opcode::Steps)) == "instruction 10 (steps) may not stand there");
+    CHECK(with(condition, op(Opcode::Steps)) == "instruction 10 (steps) is not allowed there");
     CHECK(with(condition, 0xFF) == "instruction 10 does not exist");
     CHECK(with(condition + 3, op(Opcode::Sin)) == "the code at 10 leaves a wrong number of values");
-    CHECK(with(condition + 3, op(Opcode::Emit)) == "instruction 13 (emit) may not stand there");
+    CHECK(with(condition + 3, op(Opcode::Emit)) == "instruction 13 (emit) is not allowed there");
     CHECK(with(condition + 4, op(Opcode::Add)) == "instruction 14 (add) lacks values");
     CHECK(with(condition + 3, op(Opcode::Greater, 1)) ==
-          "instruction 13 (greater) may not stand there");
-    CHECK(with(0, op(Opcode::Global, 0)) == "instruction 0 (global) may not stand there");
+          "instruction 13 (greater) is not allowed there");
+    CHECK(with(0, op(Opcode::Global, 0)) == "instruction 0 (global) is not allowed there");
     CHECK(said_of([](Bytecode& b) { b.instructions.pop_back(); }) == "the code at 16 has no end");
     CHECK(said_of([](Bytecode& b) { b.instructions.push_back(op(Opcode::End)); }) ==
           "a table holds more than the productions use");
     CHECK(said_of([](Bytecode& b) { b.productions[0].successor.draw_count = 0; }) ==
-          "instruction 21 (range) may not stand there");
+          "instruction 21 (range) is not allowed there");
     CHECK(said_of([](Bytecode& b) { b.productions[0].successor.parameter_count = 2; }) ==
           "a successor stores 1 parameters, not 2");
 }

@@ -98,12 +98,12 @@ TEST_CASE("deterministic systems are counted exactly") {
                              1'594'318, 4'782'964, 14'348'902});
 }
 
-TEST_CASE("conditions over known parameters are decided") {
+TEST_CASE("conditions over known parameters are probabilities_known") {
     check_counts(ageing("A(12)"), {1, 10, 37, 118, 361, 1'090, 3'277, 9'838, 29'521, 88'570,
                                    265'717, 797'158, 2'391'481, 2'391'481});
 }
 
-TEST_CASE("conditions whose deeper operand is computed first are decided") {
+TEST_CASE("conditions whose deeper operand is computed first are probabilities_known") {
     std::string depth = "x"; // 1 - (1 - (... x)), which is x after an even number of levels
     for (int i = 0; i < 200; ++i) {
         depth = "(1 - " + depth + ")";
@@ -249,8 +249,8 @@ TEST_CASE("the largest fitting generation is found with the production that grow
     CHECK(limit->largest_fitting == 13);
     CHECK(to_text(limit->at_largest.modules) == "2,441,406,249");
     CHECK(to_text(limit->at_next.modules) == "12,207,031,249");
-    REQUIRE(limit->has_wanted);
-    CHECK(to_text(limit->at_wanted.modules) == "190,734,863,281,249");
+    REQUIRE(limit->has_requested);
+    CHECK(to_text(limit->at_requested.modules) == "190,734,863,281,249");
     CHECK(limit->dominant == ProductionId{0});
 
     CHECK(!find_growth_limit(koch(), 13, std::uint64_t{1} << 32));

@@ -19,22 +19,23 @@ std::string as_utf16(std::string_view text, bool big_endian) {
 } // namespace
 
 TEST_CASE("files that are no text are told from texts") {
-    CHECK(recognise_no_text("\xFF\xFE#")->what == "UTF-16 text");
-    CHECK(recognise_no_text(as_utf16("#n = 1; #w : F;", false))->what == "UTF-16 text");
-    CHECK(recognise_no_text(as_utf16("#n = 1; #w : F;", true))->what == "UTF-16 text");
-    CHECK(recognise_no_text(std::string("\xFF\xFE\0\0#\0\0\0", 8))->what == "UTF-32 text");
-    CHECK(recognise_no_text("%PDF-1.7\n")->what == "a PDF document");
-    CHECK(recognise_no_text("\x89PNG\r\n")->what == "a PNG picture");
-    CHECK(recognise_no_text(std::string(100, '\x02'))->what == "no text");
+    CHECK(recognise_non_text("\xFF\xFE#")->what == "UTF-16 text");
+    CHECK(recognise_non_text(as_utf16("#n = 1; #w : F;", false))->what == "UTF-16 text");
+    CHECK(recognise_non_text(as_utf16("#n = 1; #w : F;", true))->what == "UTF-16 text");
+    CHECK(recognise_non_text(std::string("\xFF\xFE\0\0#\0\0\0", 8))->what == "UTF-32 text");
+    CHECK(recognise_non_text("%PDF-1.7\n")->what == "a PDF document");
+    CHECK(recognise_non_text("\x89PNG\r\n")->what == "a PNG picture");
+    CHECK(recognise_non_text(std::string(100, '\x02'))->what == "binary data");
     // Big-endian UTF-16 begins with a NUL byte; this text does not, though it has UTF-16 in it.
-    CHECK(recognise_no_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what == "no text");
+    CHECK(recognise_non_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what ==
+          "binary data");
 }
 
 TEST_CASE("texts with a few odd bytes are texts") {
-    CHECK(!recognise_no_text(""));
-    CHECK(!recognise_no_text("#n = 1;\r\n\t#w : F;"));
-    CHECK(!recognise_no_text("\xEF\xBB\xBF#n = 1;"));
-    CHECK(!recognise_no_text(std::string("#w : F\0 F\0;", 11)));
-    CHECK(!recognise_no_text(std::string("\0", 1)));
-    CHECK(!recognise_no_text("/* \xE9t\xE9 */ #w : F;"));
+    CHECK(!recognise_non_text(""));
+    CHECK(!recognise_non_text("#n = 1;\r\n\t#w : F;"));
+    CHECK(!recognise_non_text("\xEF\xBB\xBF#n = 1;"));
+    CHECK(!recognise_non_text(std::string("#w : F\0 F\0;", 11)));
+    CHECK(!recognise_non_text(std::string("\0", 1)));
+    CHECK(!recognise_non_text("/* \xE9t\xE9 */ #w : F;"));
 }

@@ -238,7 +238,7 @@ TEST_CASE("heroes that share no branch have the widths of the pipe model") {
     const std::string piped = std::string("#set pipe 2 0.1;") + kShrub;
     const Outcome<GrownForest> shared = forest_of(piped, "");
     REQUIRE_FALSE(shared);
-    CHECK(says(shared, "the pipe model does not go with branches that stand for one another"));
+    CHECK(says(shared, "the pipe model cannot be used with instanced branches"));
     const Outcome<GrownForest> grown = forest_of(piped, "rho = 0\nheroes = 3\n");
     REQUIRE(grown);
     const Skeleton& heroes = grown.value().forest.species[0].stages[0].cache.skeleton;

@@ -53,17 +53,17 @@ TEST_CASE("another file drops the options about the files of the command line") 
     CHECK(options.overrides == fresh.overrides);
     CHECK(options.seed == fresh.seed);
     CHECK(options.camera.empty());
-    CHECK_FALSE(options.air);
+    CHECK_FALSE(options.visibility);
     CHECK_FALSE(options.shadows);
     use_other_file(options, "tree.lsys");
     CHECK_FALSE(options.is_forest);
 }
 
 TEST_CASE("air belongs to forests") {
-    CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).air == 2.5F);
-    CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).air == 2.5F);
+    CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).visibility == 2.5F);
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).visibility == 2.5F);
     CHECK(parsed<UsageError>({"tree.lsys", "--air", "2.5"}).message ==
-          "--air is the haze of a forest, and this is a plant");
+          "--air sets the haze of a forest, and this is a plant");
     for (const char* const wrong : {"0", "-1", "nan", "inf", "thick", "2000000"}) {
         CAPTURE(wrong);
         CHECK(parsed<UsageError>({"wood.toml", "--air", wrong}).message.find("--air") !=

@@ -115,5 +115,5 @@ TEST_CASE("a request is repeated with what the file says now") {
     loader.repeat(since);
     const LoadOutcome outcome = wait_for(loader);
     CHECK(outcome.document->plant.modules == 3);
-    CHECK(outcome.since == since);
+    CHECK(outcome.changed_at == since);
 }

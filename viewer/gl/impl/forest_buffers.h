@@ -51,7 +51,7 @@ public:
 
     /// Uploads meshes, forms, materials and pictures; releases the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
-    /// Uploads forms anew, for other trees of the same meshes. Precondition: upload() was called.
+    /// Uploads forms again, for other trees of the same meshes. Precondition: upload() was called.
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
     /// Sets the colours of the branches. Precondition: upload() was called.
     void set_colours(const ForestModel& model, BranchColours by);
@@ -119,7 +119,7 @@ private:
         Buffer trees;
         Buffer branches;
         Buffer lists;
-        std::vector<Commands> commands; // of each class unblended, then blended
+        std::vector<Commands> commands; // by class: unblended ones, then blended ones
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
     /// Makes textures of the pictures of all materials. Equal pictures share a texture; textures of

@@ -160,7 +160,8 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) const {
     while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // Centre of the shadow map: ahead of the eye, not beyond the point of the ground it looks at.
+    // Centre of the shadow map: ahead of the eye, at most as far as the ground in the middle of the
+    // view.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);

@@ -93,7 +93,7 @@ private:
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
     bool has_clusters_ = false; // the atlas has cluster impostors
-    // The cluster impostors show the previous trees until all are baked anew.
+    // The cluster impostors show the previous trees until all are baked again.
     bool has_old_clusters_ = false;
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;

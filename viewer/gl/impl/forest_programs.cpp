@@ -11,7 +11,7 @@ namespace lsys::view {
 Result<ForestPrograms>
 make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
     ForestPrograms programs;
-    struct Wanted {
+    struct ProgramSpec {
         ProgramObject* program;
         const char* vertex;
         const char* fragment;
@@ -19,7 +19,7 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
     };
     constexpr const char* kBranch = "branch.vert.glsl";
     constexpr const char* kImpostor = "impostor.vert.glsl";
-    const std::array<Wanted, 10> wanted = {
+    const std::array<ProgramSpec, 10> wanted = {
         {{&programs.branches.solid, kBranch, "branch.frag.glsl", ""},
          {&programs.branches.plain, kBranch, "leaf.frag.glsl", "#define LIT_AT_CORNERS\n"},
          {&programs.branches.cut_out, kBranch, "leaf.frag.glsl",
@@ -35,7 +35,7 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
           "#define DEPTH\n#define BLENDS\n"},
          {&programs.impostor_shadow, kImpostor, "impostor.frag.glsl", "#define SHADOW\n"}}};
     const std::string common = windy ? "#define ONE_TAP\n#define WIND\n" : "#define ONE_TAP\n";
-    for (const Wanted& one : wanted) {
+    for (const ProgramSpec& one : wanted) {
         Result<ProgramObject> made =
             make_program(device, shaders, one.vertex, one.fragment, common + one.defines);
         if (!made) {
@@ -49,7 +49,7 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
 Result<ForestPickPrograms>
 make_pick_programs(Device& device, const ShaderSource& shaders, bool windy) {
     ForestPickPrograms programs;
-    struct Wanted {
+    struct ProgramSpec {
         ProgramObject* program;
         const char* vertex;
         const char* fragment;
@@ -59,7 +59,7 @@ make_pick_programs(Device& device, const ShaderSource& shaders, bool windy) {
     constexpr const char* kPick = "pick.frag.glsl";
     constexpr const char* kImpostor = "impostor.vert.glsl";
     constexpr const char* kImpostorPick = "impostor.frag.glsl";
-    const std::array<Wanted, 6> wanted = {
+    const std::array<ProgramSpec, 6> wanted = {
         {{&programs.branch, kBranch, kPick, ""},
          {&programs.cut_out, kBranch, kPick, "#define CUT_OUT\n"},
          {&programs.blending_branch, kBranch, kPick, "#define BLENDS\n"},
@@ -69,7 +69,7 @@ make_pick_programs(Device& device, const ShaderSource& shaders, bool windy) {
           "#define DEPTH\n#define BLENDS\n"}}};
     const std::string common =
         windy ? "#define PICK\n#define ONE_TAP\n#define WIND\n" : "#define PICK\n#define ONE_TAP\n";
-    for (const Wanted& one : wanted) {
+    for (const ProgramSpec& one : wanted) {
         Result<ProgramObject> made =
             make_program(device, shaders, one.vertex, one.fragment, common + one.defines);
         if (!made) {

@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// Part of the light from behind that passes through, in 1/256. `is_thin`: the half passes where the
-/// material does not say.
+/// Part of the light from behind that passes through, in 1/256. `is_thin`: if the material sets no
+/// translucency, half of the light passes.
 [[nodiscard]] int translucency_step(const Material& material, bool is_thin);
 
 class MaterialTextures {
