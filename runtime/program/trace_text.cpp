@@ -22,8 +22,8 @@ namespace {
 /// Max numbers of items shown, so that the report of a module fits one screen.
 constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
-constexpr std::size_t kMaxLater = 8; // modules of later passes
-constexpr std::size_t kMaxMet = 6;   // modules that a context met
+constexpr std::size_t kMaxLater = 8;   // modules of later passes
+constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
 /// With more productions to show than these, those that do not apply take one line each.
 constexpr std::size_t kMaxFrames = 4;
 constexpr std::size_t kMaxReasons = 4; // operations in such a line
@@ -139,15 +139,15 @@ private:
 
     // --- productions that were tried
 
-    /// The text of a label with the modules that a context met.
-    [[nodiscard]] std::string met_text(const ContextTrace& context) const {
+    /// The text of a label with the modules that a context search visited.
+    [[nodiscard]] std::string visited_text(const ContextTrace& context) const {
         std::string text;
-        const std::size_t shown = std::min(context.met.size(), kMaxMet);
+        const std::size_t shown = std::min(context.visited.size(), kMaxVisited);
         for (std::size_t i = 0; i < shown; ++i) {
             text += fmt::format("{}{} at {}", i == 0 ? "" : ", then ",
-                                module(context.met[i].module), context.met[i].position);
+                                module(context.visited[i].module), context.visited[i].position);
         }
-        text += context.met.size() > shown ? ", ..." : "";
+        text += context.visited.size() > shown ? ", ..." : "";
         return text;
     }
     [[nodiscard]] static std::string passed_text(const ContextTrace& context) {
@@ -175,22 +175,23 @@ private:
         const std::string passed = passed_text(context);
         switch (context.end) {
         case ContextEnd::Fits:
-            return (context.met.empty() ? std::string("a branch") : met_text(context)) + passed;
+            return (context.visited.empty() ? std::string("a branch") : visited_text(context)) +
+                   passed;
         case ContextEnd::OtherModule:
-            return fmt::format("{}, not {}{}", met_text(context),
+            return fmt::format("{}, not {}{}", visited_text(context),
                                pattern_text(pattern, context.item), passed);
         case ContextEnd::EndOfPath: {
-            const std::string met =
-                context.met.empty() ? std::string() : met_text(context) + ", then ";
-            return fmt::format("{}{}, not {}{}", met,
+            const std::string visited =
+                context.visited.empty() ? std::string() : visited_text(context) + ", then ";
+            return fmt::format("{}{}, not {}{}", visited,
                                is_left ? "the beginning of the word"
                                        : "the end of the branch or of the word",
                                pattern_text(pattern, context.item), passed);
         }
         case ContextEnd::NoBranch: {
-            const std::string met =
-                context.met.empty() ? std::string() : met_text(context) + ", then ";
-            return met + "no branch" + passed;
+            const std::string visited =
+                context.visited.empty() ? std::string() : visited_text(context) + ", then ";
+            return visited + "no branch" + passed;
         }
         case ContextEnd::NotSearched:
             break;
@@ -269,9 +270,9 @@ private:
 
     [[nodiscard]] std::string followed_text(const Attempt& attempt, const TracedModule& own) const {
         std::string text;
-        for (const MetModule& met : attempt.predecessor) {
-            text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(met.module),
-                                met.position);
+        for (const VisitedModule& visited : attempt.predecessor) {
+            text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(visited.module),
+                                visited.position);
         }
         return fmt::format("{} is followed by {}", module(own),
                            text.empty() ? "the end of the word" : text);
@@ -465,7 +466,7 @@ private:
         std::string text;
         for (const ChoiceTrace::Alternative& each : choice.alternatives) {
             text += fmt::format("{}{} below {}", text.empty() ? "" : ", ", name(each.production),
-                                value_text(each.running));
+                                value_text(each.cumulative));
         }
         line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
     }
@@ -480,10 +481,10 @@ private:
         for (std::size_t i = 0; i < choice.alternatives.size(); ++i) {
             const auto& each = choice.alternatives[i];
             line("  {} {:<{}}   weight {}, sum {}{}", i == choice.taken ? '>' : ' ', name_of(each),
-                 width, value_text(each.weight), value_text(each.running),
-                 i != choice.taken            ? ""
-                 : each.running > choice.unit ? ", the first above u"
-                                              : ", the last");
+                 width, value_text(each.weight), value_text(each.cumulative),
+                 i != choice.taken               ? ""
+                 : each.cumulative > choice.unit ? ", the first above u"
+                                                 : ", the last");
         }
     }
     /// The number of a draw. Later passes of a generation have numbers from a multiple of 4,096 on
