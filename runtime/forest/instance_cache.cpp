@@ -46,7 +46,7 @@ public:
         const std::uint32_t index = slot_of(branch);
         InstanceSlot& slot = cache_.slots[index];
         std::vector<std::uint32_t>& variants = variants_[index];
-        if (!branch.take) {
+        if (!branch.has_instance) {
             ++slot.recorded;
             if (options_.cap != 0 && variants.size() >= options_.cap) {
                 ++slot.dropped;
