@@ -277,12 +277,13 @@ double size_of(const Skeleton& plant) {
 double max_distance(const Skeleton& plant,
                     std::span<const SegmentPlace> a,
                     std::span<const SegmentPlace> b) {
-    double most = 0.0;
+    double max_displacement = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Segment& segment = plant.segments[i];
-        most = std::max(most, glm::length(end_of(segment, a[i]) - end_of(segment, b[i])));
+        max_displacement =
+            std::max(max_displacement, glm::length(end_of(segment, a[i]) - end_of(segment, b[i])));
     }
-    return most;
+    return max_displacement;
 }
 
 /// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are

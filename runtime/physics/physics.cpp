@@ -205,13 +205,13 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
         if (!(size > 0.0) || !std::isfinite(size)) {
             return start;
         }
-        const double most = glm::length(centre) * glm::length(force);
+        const double max_torque = glm::length(centre) * glm::length(force);
         const double whole = std::atan2(size, glm::dot(centre, force));
         double low = 0.0;
         double high = whole;
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (low + high);
-            (body.spring * middle < most * std::sin(whole - middle) ? low : high) = middle;
+            (body.spring * middle < max_torque * std::sin(whole - middle) ? low : high) = middle;
         }
         turn = glm::normalize(rotation_of(low / size * torque) * start);
     }
@@ -417,8 +417,8 @@ struct PlantPhysics::State {
             plant = plant_of(stage.bodies);
             plant.poses = coarse_poses(stage, poses);
             update_energy();
-            const std::size_t most = kStageWork * whole.poses.size() / plant.poses.size();
-            Rounds rounds{.left = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
+            const std::size_t max_rounds = kStageWork * whole.poses.size() / plant.poses.size();
+            Rounds rounds{.left = static_cast<std::uint32_t>(std::min(max_rounds, kMaxStageRounds)),
                           .starts_from_stage = &stage != &stages.front()};
             make_rounds(current_forces, tolerance, rounds);
             spread_poses(stage, plant.poses, poses);

@@ -161,7 +161,7 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
         return 1.0;
     }
     const bool widens = way == Stiffening::Widths;
-    const double most = widens ? 1e3 : kMaxFactor;
+    const double max_factor = widens ? 1e3 : kMaxFactor;
     const double buckling = stability_of(rest, options).load_factor;
     double low = 1.0;
     if (buckling > 0.0 && buckling < 1.0) { // the plant buckles with any smaller factor
@@ -172,7 +172,7 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
     while (!stands(high)) {
         low = high;
         high *= growth;
-        if (!(high <= most)) {
+        if (!(high <= max_factor)) {
             return std::nullopt;
         }
     }
