@@ -350,9 +350,9 @@ private:
         }
     }
 
-    /// Prints a production that was tried. `is_later`: the module was written in this step, so that
-    /// little is said. `is_brief`: one line if the production does not apply. `written`: a label for
-    /// a module of the successor of the production that applies.
+    /// Prints a production that was tried. `is_later`: the module was written in this step, which
+    /// shortens the text. `is_brief`: one line if the production does not apply. `written`: a label
+    /// for a module of the successor of the production that applies.
     void attempt(const ModuleTrace& trace,
                  const Attempt& attempt,
                  bool is_later,
@@ -364,7 +364,7 @@ private:
         switch (attempt.verdict) {
         case Verdict::Applies:
             if (is_later && !framed_.insert(attempt.production).second) {
-                return; // traces() says so in the title
+                return; // the title of traces() contains this
             }
             line("{} {}{}", who, marked("applies"), trace.choice ? ", chosen by chance" : "");
             explain(attempt, trace.module, written);
@@ -470,8 +470,8 @@ private:
         }
         line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
     }
-    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of
-    /// one.
+    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of an
+    /// alternative.
     template <typename Choice, typename Name>
     void alternatives(const Choice& choice, const Name& name_of) {
         std::size_t width = 0;
@@ -549,7 +549,7 @@ private:
         }
     }
 
-    /// Prints what became of the module in this pass. `word`: names the word that the positions
+    /// Prints the outcome of the module in this pass. `word`: names the word that the positions
     /// refer to, such as " of generation 3"; empty: without positions.
     void outcome(const ModuleTrace& trace, const std::string& word) {
         switch (trace.fate) {
@@ -684,7 +684,7 @@ private:
         }
     }
 
-    /// Whether the trace is that of a match which used up the traced module as a later part of its
+    /// Whether the trace belongs to a match that consumed the traced module as a later module of its
     /// predecessor.
     [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
                                        const ModuleTrace& trace) {
@@ -726,7 +726,7 @@ private:
 
     void written(const TracedPlace& place) {
         if (place.back.empty() && grammar_.is_module_file && !trace_.axiom) {
-            return; // the head says all
+            return; // the heading is sufficient
         }
         out_ += '\n';
         if (!place.back.empty() && !place.back.back().steps.empty()) {
