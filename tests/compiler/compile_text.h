@@ -1,4 +1,4 @@
-// Parses and compiles grammars from text, for tests of the diagnostics and their places.
+// Parses and compiles grammars from text, for tests of diagnostics and their places.
 #pragma once
 
 #include "compiler/compile.h"

@@ -26,8 +26,8 @@ constexpr bool kInstrumented = true;
 constexpr bool kInstrumented = false;
 #endif
 constexpr double kMaxSeconds = 20.0;
-// With sanitizers, runs take about three times as long; most still keep the limit. Twice the limit
-// suffices for the others, also on a busy machine.
+// With sanitizers, runs take about three times as long; most still stay within the limit. Twice the
+// limit suffices for the others, also on a busy machine.
 constexpr double kInstrumentedFactor = 2.0;
 
 struct ProcessResult {

@@ -1,4 +1,4 @@
-// `lsview --pick` and `--colours`: the text about the part that a pixel shows.
+// `lsview --pick` and `--colours`: the text about the part of the plant at a pixel.
 #include "runtime/program/host.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
@@ -61,7 +61,7 @@ std::vector<std::string> with_front(const std::string& file, std::vector<std::st
 
 } // namespace
 
-TEST_CASE("a pixel of a plant tells the module, its production, place and generation") {
+TEST_CASE("--pick on a plant prints the module with its production, place and generation") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -81,7 +81,7 @@ TEST_CASE("a pixel of a plant tells the module, its production, place and genera
     CHECK(at(1.2, 3.0).lines == std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("a pixel of a plant that moves shows it where it is") {
+TEST_CASE("--pick on a moving plant uses its pose") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -105,7 +105,7 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
 }
 
-TEST_CASE("a pixel with --why tells what lsc trace does") {
+TEST_CASE("--pick with --why prints the text of lsc trace") {
     const ScratchFolder folder;
     const std::string file = folder / "bud.lsys";
     write_text(file, "#n = 2;\n"
@@ -146,7 +146,7 @@ TEST_CASE("a pixel with --why tells what lsc trace does") {
           std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("a moment of growth with --why tells of its word") {
+TEST_CASE("--why at a moment of growth traces the word of that moment") {
     const ScratchFolder folder;
     const std::string file = folder / "two.lsys";
     write_text(file, "#n = 3;\n#w : !(0.4) A;\n#up : A : step() < steps() - 1 : F(2) A;\n");
@@ -162,7 +162,7 @@ TEST_CASE("a moment of growth with --why tells of its word") {
     CHECK(says("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
 }
 
-TEST_CASE("a pixel of a forest tells the branch and how often it stands there") {
+TEST_CASE("--pick on a forest prints the branch and its number of instances") {
     const ScratchFolder folder;
     const std::string file = folder / "bush.lsys";
     write_text(file, "#n = 4;\n#set names letters;\n#set angle 25;\n#set width 0.3;\n#w : A;\n"
@@ -251,7 +251,7 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
     CHECK(told.value().hint.find("open its grammar alone") != std::string::npos);
 }
 
-TEST_CASE("mistakes of --pick and --colours are told") {
+TEST_CASE("invalid arguments of --pick and --colours are reported") {
     const auto said = [](std::vector<std::string> arguments) {
         const LscRun run = run_lsview(arguments);
         CHECK(run.status == 2);
@@ -276,7 +276,7 @@ TEST_CASE("mistakes of --pick and --colours are told") {
               .find("--colours") != std::string::npos);
 }
 
-TEST_CASE("a plant that falls is told beside its picture") {
+TEST_CASE("a message beside the picture says that a plant falls") {
     const ScratchFolder folder;
     const std::string file = folder / "stalk.lsys";
     write_text(file, "#n = 1;\n#set width 0.02;\n#w : F(2) +(10) F(4) F(4);\n");

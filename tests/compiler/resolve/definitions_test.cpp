@@ -6,7 +6,7 @@ using namespace lsys;
 using test::compile_text;
 using Said = std::vector<std::string>;
 
-TEST_CASE("generations are a whole number in range") {
+TEST_CASE("the number of generations is a whole number in range") {
     const auto generations = [](const std::string& value) {
         const test::Compiled c = compile_text("#n = " + value + ";\n#w : F;\n");
         return c.outcome.program ? c.outcome.program->generations : std::nullopt;
@@ -26,7 +26,7 @@ TEST_CASE("generations are a whole number in range") {
     CHECK(compile_text("#n = 0;\n#w : F;\n").said() == Said{"zero-generations 1:6"});
 }
 
-TEST_CASE("a missing axiom or number of generations is told at the end of the text") {
+TEST_CASE("a missing axiom or number of generations is reported at the end of the text") {
     CompileOptions options;
     const auto without = [](const std::string& text) {
         SourceMap sources;
@@ -52,7 +52,7 @@ TEST_CASE("a missing axiom or number of generations is told at the end of the te
     CHECK(compile_text("#w : F;\n").said().empty()); // -n is given
 }
 
-TEST_CASE("what may stand once is an error the second time") {
+TEST_CASE("a second definition of the same name or statement is an error") {
     CHECK(compile_text("#n = 1;\n#n = 2;\n#w : F;\n").said() == Said{"duplicate-statement 2:1"});
     CHECK(compile_text("#w : F;\n#w : f;\n").said() == Said{"duplicate-statement 2:1"});
     CHECK(compile_text("#define a 1;\n#define a 2;\n#w : F(a);\n").said() ==
@@ -88,7 +88,7 @@ TEST_CASE("a definition of the command line replaces the expression") {
     CHECK(c.outcome.unknown_definitions.empty());
 }
 
-TEST_CASE("names of the command line that nothing defines are handed out") {
+TEST_CASE("names of -D that the grammar does not define are returned") {
     CompileOptions options;
     options.definitions = {{"a", 5.0F}, {"F", 1.0F}, {"no", 2.0F}};
     const test::Compiled c = compile_text("#define a 1;\n#w : F(a);\n", options);
@@ -96,7 +96,7 @@ TEST_CASE("names of the command line that nothing defines are handed out") {
     CHECK(c.said().empty());
 }
 
-TEST_CASE("a parameter keeps to its bounds") {
+TEST_CASE("a parameter must be within its bounds") {
     CHECK(compile_text("#param a 2 {1, 3};\n#w : F(a);\n").said().empty());
     CHECK(compile_text("#param a 4 {1, 3};\n#w : F(a);\n").said() ==
           Said{"bad-parameter-bounds 1:10"});
@@ -133,7 +133,7 @@ TEST_CASE("ranges of definitions and axiom are numbered in the order of the text
     CHECK(globals[2].draw_count == 0);
 }
 
-TEST_CASE("settings are read, whatever their order") {
+TEST_CASE("settings are read in any order") {
     const test::Compiled c = compile_text("#define a 30;\n"
                                           "#set angle a;\n"
                                           "#set step -2.5;\n"
@@ -163,7 +163,7 @@ TEST_CASE("settings are read, whatever their order") {
     CHECK(s.turtle == TurtleProfile::Abop);
 }
 
-TEST_CASE("unknown keys and values name the nearest") {
+TEST_CASE("messages about unknown keys and values name the most similar one") {
     const auto help = [](const std::string& text, DiagnosticCode code) {
         const test::Compiled c = compile_text(text + "\n#w : F;\n");
         const Diagnostic* found = c.find(code);

@@ -37,7 +37,7 @@ TEST_CASE("constants are folded with the usual precedence") {
     CHECK(folded("0.1 + 0.2") == 0.1F + 0.2F);
 }
 
-TEST_CASE("a constant expression leaves nothing to do at run time") {
+TEST_CASE("a constant expression needs no instructions at run time") {
     const test::Compiled c = compile_text("#define a 30;\n"
                                           "#define b a * 2;\n"
                                           "#w : F(b / 4) F(15);\n");
@@ -47,14 +47,14 @@ TEST_CASE("a constant expression leaves nothing to do at run time") {
     CHECK(c.outcome.bytecode->instructions.empty());
 }
 
-TEST_CASE("an unknown name is reported where it stands, with the nearest") {
+TEST_CASE("an unknown name is reported at its place, with the most similar name") {
     const test::Compiled c = compile_text("#define length 2;\n"
                                           "#w : F(lenght);\n");
     CHECK(c.errors() == Said{"unknown-name 2:8"});
     CHECK(c.find(DiagnosticCode::UnknownName)->help == Said{"did you mean `length`?"});
 }
 
-TEST_CASE("thesis 2.6: `w` where the only parameter is `x`") {
+TEST_CASE("Crankshaw 2019, 2.6: `w` is used, but the only parameter is `x`") {
     const test::Compiled c = compile_text("#w : F(1);\n"
                                           "#p1 : F(x) : * : F(w) + F(w);\n");
     CHECK(c.errors() == Said{"unknown-name 2:20"}); // reported once per statement
@@ -70,7 +70,7 @@ TEST_CASE("a constant must precede its use") {
     CHECK(c.find(DiagnosticCode::UsedBeforeDefinition)->labels.size() == 1);
 }
 
-TEST_CASE("a use of a definition in error keeps quiet") {
+TEST_CASE("a use of an incorrect definition is no further error") {
     CHECK(compile_text("#define a b;\n#define c a + 1;\n#w : F(a) F(c);\n").errors() ==
           Said{"unknown-name 1:11"});
     CHECK(compile_text("#define a 1 1;\n#w : F(a);\n").errors().size() == 1);
@@ -91,7 +91,7 @@ TEST_CASE("functions are known by name and number of arguments") {
           Said{"functions take parentheses: `sin(x)`"});
 }
 
-TEST_CASE("names of functions are reserved before a parenthesis only") {
+TEST_CASE("names of functions are reserved only before a parenthesis") {
     const test::Compiled c =
         compile_text("#define sin 2;\n"
                      "#w : F(sin);\n"
@@ -112,7 +112,7 @@ TEST_CASE("step and steps have values in conditions and successors only") {
         compile_text("#w : F(1);\n#p : F(x) : step() < 2 : F;\n").outcome.bytecode->uses_steps);
 }
 
-TEST_CASE("random ranges stand where they can be drawn") {
+TEST_CASE("random ranges are allowed where they can be drawn") {
     CHECK(compile_text("#n = {1, 2};\n#w : F;\n").errors() == Said{"range-not-allowed 1:6"});
     CHECK(compile_text("#set angle ({1, 2});\n#w : F;\n").errors() ==
           Said{"range-not-allowed 1:13"});
@@ -131,7 +131,7 @@ TEST_CASE("random ranges stand where they can be drawn") {
     CHECK(compile_text(drawn + "#w : F(r);\n#p : F(x) : x < r : F(x + r);\n").errors().empty());
 }
 
-TEST_CASE("a range may stand in the bounds of a range") {
+TEST_CASE("the bounds of a range may contain ranges") {
     const test::Compiled c =
         compile_text("#w : F({0, {1, 2}});\n"
                      "#p : F(x) : * : F({{-2, -1}, {x, {x, x + 1} + {0, 1}}});\n");
@@ -152,7 +152,7 @@ TEST_CASE("the bounds of a constant range are checked") {
     CHECK(once.said() == Said{"drawn-once 1:8"});
 }
 
-TEST_CASE("a parameter or condition that can never be finite is reported at its cause") {
+TEST_CASE("the cause is reported if a parameter or condition can never be finite") {
     CHECK(compile_text("#w : F(1 + 2 / 0);").errors() == Said{"not-finite 1:16"});
     CHECK(compile_text("#w : F(2 * 0 ^ -1);").errors() == Said{"not-finite 1:14"});
     CHECK(compile_text("#w : F((-2) ^ 0.5);").errors() == Said{"not-finite 1:13"});

@@ -21,7 +21,7 @@ TEST_CASE("a local value is computed once and may stand anywhere in the successo
     CHECK(verify(bytecode) == std::nullopt);
 }
 
-TEST_CASE("a local value that is a literal or a name stands in its uses") {
+TEST_CASE("a local value that is a literal or a name replaces its uses") {
     const test::Compiled c = compile_text("#n = 1;\n"
                                           "#w : A(8);\n"
                                           "#p : A(x) : * : let l = x, m = 2 : F(l) A(m);\n");
@@ -31,7 +31,7 @@ TEST_CASE("a local value that is a literal or a name stands in its uses") {
     CHECK(c.outcome.bytecode->local_count == 0);
 }
 
-TEST_CASE("`let` is a name of modules and formals where no local value follows") {
+TEST_CASE("`let` may name modules and formals where no local value follows") {
     const test::Compiled c = compile_text("#n = 1;\n"
                                           "#w : let A(1);\n"
                                           "#p : let : * : let let;\n"
@@ -40,7 +40,7 @@ TEST_CASE("`let` is a name of modules and formals where no local value follows")
     CHECK(c.outcome.bytecode);
 }
 
-TEST_CASE("a local value has a name of its own") {
+TEST_CASE("the name of a local value must not be in use") {
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let x = 1 : F(x);\n").errors() ==
           Said{"duplicate-local 2:21"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x, y = 2 : F(y);\n").errors() ==
@@ -60,7 +60,7 @@ TEST_CASE("a local value is known after its definition, in the successor") {
     CHECK(unused.said() == Said{"unused-local 3:21"});
 }
 
-TEST_CASE("parts around local values that lack a sign are named") {
+TEST_CASE("missing signs around local values are reported") {
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x F(y);\n").errors() ==
           Said{"missing-colon 2:27"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x;\n").errors() ==

@@ -34,7 +34,7 @@ TEST_CASE("a module is known by name and number of parameters") {
     CHECK(c.outcome.program->symbols.size() == 3);
 }
 
-TEST_CASE("an unknown name that is a row of known names is read split") {
+TEST_CASE("an unknown name that consists of known names is split") {
     const std::string known = "#module B;\n#p : A : * : F;\n";
     const test::Compiled c = compile_text("#w : ABA(1) FFA;\n" + known);
     CHECK(axiom(c) == "A B A/1 F F A");
@@ -45,7 +45,7 @@ TEST_CASE("an unknown name that is a row of known names is read split") {
     CHECK(c.fixed(DiagnosticCode::SplitName).starts_with("#w : A B A(1) F F A;"));
 }
 
-TEST_CASE("thesis 7.3: the last part may be a name that stands alone elsewhere") {
+TEST_CASE("Crankshaw 2019, 7.3: the last part may be a name that is used alone elsewhere") {
     const std::string rest = "#p : A : * : F S(1);\n";
     CHECK(axiom(compile_text("#w : AS(1);\n" + rest)) == "A S/1");
     CHECK(axiom(compile_text("#w : AS;\n" + rest)) == "AS"); // S without parameters is not used
@@ -56,7 +56,7 @@ TEST_CASE("thesis 7.3: the last part may be a name that stands alone elsewhere")
           "AS/1"); // S(1) must stand alone in the same file
 }
 
-TEST_CASE("a name that is known, quoted or splits in two ways is taken whole") {
+TEST_CASE("a name that is known, quoted or can be split in two ways is not split") {
     CHECK(axiom(compile_text("#w : AB;\n#p : A : * : F;\n#q : B : * : F;\n#module AB;\n")) == "AB");
     CHECK(axiom(compile_text("#w : `AB`;\n#p : A : * : F;\n#q : B : * : F;\n")) == "AB");
     CHECK(axiom(compile_text("#w : ABC;\n#module A; #module AB; #module BC; #module C;\n")) ==
@@ -129,7 +129,7 @@ TEST_CASE("modules get their meaning from the profile and from #object") {
     CHECK(operation("#object A \"leaf.obj\";", "A") == MeshFile);
 }
 
-TEST_CASE("a picture bound to `{` is one of its polygons") {
+TEST_CASE("a picture bound to `{` is drawn on its polygons") {
     const test::Compiled c = compile_text("#object { \"a leaf.PNG\";\n#w : { . . . };\n");
     CAPTURE(c.said());
     REQUIRE(c.outcome.program);
@@ -146,7 +146,7 @@ TEST_CASE("a picture bound to `{` is one of its polygons") {
     }
 }
 
-TEST_CASE("declarations say what they are about") {
+TEST_CASE("invalid declarations are reported at their place") {
     const auto errors = [](const std::string& text) {
         return compile_text(text + "\n#w : F;\n").errors();
     };
@@ -165,13 +165,13 @@ TEST_CASE("declarations say what they are about") {
     CHECK(c.find(DiagnosticCode::UnknownObject)->help == Said{"did you mean `BRANCH`?"});
 }
 
-TEST_CASE("modules that take no parameters get none") {
+TEST_CASE("parameters of modules that take none are an error") {
     CHECK(compile_text("#w : F [(1) ];").errors() == Said{"unexpected-parameters 1:9"});
     CHECK(compile_text("#w : F |(180);").errors() == Said{"unexpected-parameters 1:9"});
     CHECK(compile_text("#w : F |();").errors().empty());
 }
 
-TEST_CASE("a turtle command reads so many parameters and no more") {
+TEST_CASE("parameters that a turtle command does not read are reported") {
     const test::Compiled c = compile_text("#w : +(1, 2, 3) +(3, 4, 5) F(1, 2, 3);");
     CHECK(c.at(DiagnosticCode::ExtraParameters) == "2, 3");
     CHECK(c.said() == Said{"extra-parameters 1:11"});
@@ -179,7 +179,7 @@ TEST_CASE("a turtle command reads so many parameters and no more") {
               .find(DiagnosticCode::ExtraParameters) == nullptr);
 }
 
-TEST_CASE("a polygon that rewriting may put into another is a warning only") {
+TEST_CASE("a polygon that rewriting may put into another is only a warning") {
     const test::Compiled c =
         compile_text("#set turtle carey;\n#w : A;\n#p : A : * : { F A F F };\n");
     CHECK(c.said() == Said{"nested-polygon 3:14"});

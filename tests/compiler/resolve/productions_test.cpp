@@ -22,7 +22,7 @@ TEST_CASE("formals are numbered over left context, predecessor and right context
     CHECK(p.right.items[2].kind == PatternKind::Close);
 }
 
-TEST_CASE("heads in error are reported once, and the rest of the production keeps quiet") {
+TEST_CASE("an incorrect head is reported once, and the rest of the production is not reported") {
     CHECK(compile_text("#w : A(2);\n#p : A(2) : * : F(x);\n").errors() ==
           Said{"expression-in-head 2:8"});
     CHECK(compile_text("#w : A(2);\n#p : A(x + 1) : * : F(x);\n").errors() ==
@@ -47,7 +47,7 @@ TEST_CASE("heads in error are reported once, and the rest of the production keep
     CHECK(compile_text("#w : A F [ ];\n#p : A > F [ ] : * : F;\n").errors().empty());
 }
 
-TEST_CASE("a value in a head can be put into the condition") {
+TEST_CASE("a value in a head can be moved into the condition") {
     const test::Compiled c = compile_text("#w : A(2);\n#p : A(2) : * ~ 1 : F;\n");
     CHECK(c.fixed(DiagnosticCode::ExpressionInHead) == "#w : A(2);\n#p : A(x) : x == 2 ~ 1 : F;\n");
     const test::Compiled chance = compile_text("#w : A(2);\n#p : A(2) : ~ 1 : F;\n");
@@ -76,7 +76,8 @@ TEST_CASE("a parameter hides a constant of its name") {
     CHECK(hidden == 1); // only `x` hides a constant: `#define y` comes after the production
 }
 
-TEST_CASE("rules go by predecessor, groups by contexts as well, by first appearance") {
+TEST_CASE(
+    "rules differ by predecessor, groups also by contexts, and both have the order of the text") {
     const test::Compiled c = compile_text("#w : A B A(1);\n"
                                           "#p0 : B : * : F;\n"
                                           "#p1 : A : * ~ 0.5 : F;\n"
@@ -136,7 +137,7 @@ TEST_CASE("unconditional probabilities of a choice sum to 1") {
               .empty());
 }
 
-TEST_CASE("alternatives that name their parameters differently are noted") {
+TEST_CASE("a note mentions alternatives that name their parameters differently") {
     const test::Compiled c = compile_text("#w : F(1);\n"
                                           "#a : F(x) : * ~ 0.5 : F(x);\n"
                                           "#b : F(y) : * ~ 0.5 : F(y + 1);\n");
