@@ -35,11 +35,11 @@ constexpr int kRuns = 7;
 /// Minimum over some runs of `run`, which returns its time in s. Not the median: if a virtual machine
 /// gives free memory back to its host, some runs get pages that take twenty times as long.
 double least_of(const std::function<double()>& run) {
-    double least = run();
+    double min_time = run();
     for (int i = 1; i < kRuns; ++i) {
-        least = std::min(least, run());
+        min_time = std::min(min_time, run());
     }
-    return least;
+    return min_time;
 }
 
 struct Plant {

@@ -240,13 +240,13 @@ double kolmogorov_smirnov(std::vector<double> a, std::vector<double> b) {
                                    values.begin()) /
                static_cast<double>(values.size());
     };
-    double most = 0.0;
+    double max_difference = 0.0;
     for (const std::vector<double>* values : {&a, &b}) {
         for (const double at : *values) {
-            most = std::max(most, std::abs(part(a, at) - part(b, at)));
+            max_difference = std::max(max_difference, std::abs(part(a, at) - part(b, at)));
         }
     }
-    return most;
+    return max_difference;
 }
 
 } // namespace

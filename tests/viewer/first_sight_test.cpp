@@ -41,11 +41,12 @@ PictureContrast sight_of(const Picture& picture, const Picture& bare) {
         const double luma = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
         sum += luma;
         squares += luma * luma;
-        int most = 0;
+        int max_difference = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            most = std::max(most, std::abs(int{picture.texels[i + c]} - int{bare.texels[i + c]}));
+            max_difference = std::max(
+                max_difference, std::abs(int{picture.texels[i + c]} - int{bare.texels[i + c]}));
         }
-        changed += most > kTreeDifference ? 1.0 : 0.0;
+        changed += max_difference > kTreeDifference ? 1.0 : 0.0;
         count += 1.0;
     }
     const double mean = sum / count;

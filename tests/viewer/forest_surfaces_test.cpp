@@ -150,22 +150,22 @@ TEST_CASE("far away the ground has the mean colour of its picture") {
     const Surfaces files("colour = \"ground.png\"\ntile = 0.25");
     const Picture picture = files.picture("eye 10,40,10.01 target 10,0,10 fov 4");
     // Each pixel is the mean of red and blue.
-    std::array<int, 3> least{255, 255, 255};
-    std::array<int, 3> most{};
+    std::array<int, 3> darkest{255, 255, 255};
+    std::array<int, 3> brightest{};
     for (std::uint32_t y = 0; y < 64; y += 4) {
         for (std::uint32_t x = 0; x < 64; x += 4) {
             const std::array<int, 3> at = texel(picture, x, y);
             for (std::size_t c = 0; c < 3; ++c) {
-                least[c] = std::min(least[c], at[c]);
-                most[c] = std::max(most[c], at[c]);
+                darkest[c] = std::min(darkest[c], at[c]);
+                brightest[c] = std::max(brightest[c], at[c]);
             }
         }
     }
     for (std::size_t c = 0; c < 3; ++c) {
-        CHECK(most[c] - least[c] <= 4);
+        CHECK(brightest[c] - darkest[c] <= 4);
     }
-    CHECK(least[0] > 2 * most[1]);
-    CHECK(least[2] > 2 * most[1]);
+    CHECK(darkest[0] > 2 * brightest[1]);
+    CHECK(darkest[2] > 2 * brightest[1]);
 }
 
 TEST_CASE("the normal map of the ground changes its shading") {
@@ -205,7 +205,7 @@ TEST_CASE("a picture of the ground needs no draw call, and no picture changes no
 
 TEST_CASE("a picture of the ground that cannot be shown is an error at its place") {
     const Surfaces files(kPictured);
-    const auto said = [&] {
+    const auto messages = [&] {
         const LscRun view = run_lsview({files.folder / "wood.toml", "--screenshot", "-"});
         CHECK(view.status == 2);
         const LscRun check = run_lsc({"forest", files.folder / "wood.toml", "--check"}, "");
@@ -214,9 +214,9 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         return view.err;
     };
     std::filesystem::remove(files.folder / "ground.png");
-    CHECK(said().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
+    CHECK(reports().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
     write_text(files.folder / "ground.png", "GIF89a and so on");
-    CHECK(said().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
+    CHECK(reports().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
     // An IHDR of 20,000 by 20,000 pixels.
     std::string large = encode_png(halves(kRed, kBlue));
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
@@ -224,7 +224,7 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         large[at + 3] = '\x20';
     }
     write_text(files.folder / "ground.png", large);
-    CHECK(said().find("ground.png") != std::string::npos);
+    CHECK(reports().find("ground.png") != std::string::npos);
 }
 
 TEST_CASE("exported files of a forest have the pictures of its ground") {

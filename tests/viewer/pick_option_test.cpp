@@ -154,12 +154,12 @@ TEST_CASE("--why at a moment of growth traces the word of that moment") {
         picked(with_front(file, {"--grow", "--frames", "4", "--why", "written"}), pixel(0.0, 1.0));
     CAPTURE(grown.run.err, grown.run.out);
     REQUIRE(grown.run.status == 0);
-    const auto says = [&](const char* text) {
+    const auto prints = [&](const char* text) {
         return grown.run.out.find(text) != std::string::npos;
     };
-    CHECK(says("F(2) at position 1 of generation 1, written by `up`"));
-    CHECK(says("F(2) at position 1 of generation 2, written by `up`"));
-    CHECK(says("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
+    CHECK(prints("F(2) at position 1 of generation 1, written by `up`"));
+    CHECK(prints("F(2) at position 1 of generation 2, written by `up`"));
+    CHECK(prints("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
 }
 
 TEST_CASE("--pick on a forest prints the branch and its number of instances") {
@@ -244,35 +244,38 @@ TEST_CASE("--pick on a forest prints the branch and its number of instances") {
     Picked branch;
     branch.kind = PickedKind::Branch;
     branch.tree = document.grown.forest.trees.front();
-    const Outcome<view::Description> told =
+    const Outcome<view::Description> described =
         view::describe(branch, {}, document, file, make_project(console, options.run));
-    REQUIRE(told);
-    CHECK_FALSE(told.value().module); // nothing to trace, and the window says why
-    CHECK(told.value().hint.find("open its grammar alone") != std::string::npos);
+    REQUIRE(described);
+    CHECK_FALSE(described.value().module); // nothing to trace, and the window says why
+    CHECK(described.value().hint.find("open its grammar alone") != std::string::npos);
 }
 
 TEST_CASE("invalid arguments of --pick and --colours are reported") {
-    const auto said = [](std::vector<std::string> arguments) {
+    const auto message_of = [](std::vector<std::string> arguments) {
         const LscRun run = run_lsview(arguments);
         CHECK(run.status == 2);
         CHECK(run.out.empty());
         return run.err;
     };
     const std::string plant = sample("abop-1-24a");
-    CHECK(said({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") != std::string::npos);
-    CHECK(said({plant, "--pick", "3", "--screenshot", "a.png"}).find("no pixel of a picture") !=
+    CHECK(message_of({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") !=
           std::string::npos);
-    CHECK(said({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
+    CHECK(
+        message_of({plant, "--pick", "3", "--screenshot", "a.png"}).find("no pixel of a picture") !=
+        std::string::npos);
+    CHECK(message_of({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
               .find("outside of the picture of 32 x 24 pixels") != std::string::npos);
-    CHECK(said({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=
+    CHECK(message_of({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=
           std::string::npos);
-    CHECK(said({plant, "--why", "back", "--screenshot", "a.png"}).find("add `--pick X,Y`") !=
+    CHECK(message_of({plant, "--why", "back", "--screenshot", "a.png"}).find("add `--pick X,Y`") !=
           std::string::npos);
-    CHECK(said({plant, "--count", "3", "--why", "back", "--pick", "3,3", "--screenshot", "a.png"})
+    CHECK(message_of(
+              {plant, "--count", "3", "--why", "back", "--pick", "3,3", "--screenshot", "a.png"})
               .find("show its grammar alone") != std::string::npos);
-    CHECK(said({plant, "--colours", "id", "--screenshot", "a.png"}).find("`--count 1`") !=
+    CHECK(message_of({plant, "--colours", "id", "--screenshot", "a.png"}).find("`--count 1`") !=
           std::string::npos);
-    CHECK(said({plant, "--colours", "order", "--count", "3", "--screenshot", "a.png"})
+    CHECK(message_of({plant, "--colours", "order", "--count", "3", "--screenshot", "a.png"})
               .find("--colours") != std::string::npos);
 }
 

@@ -110,7 +110,7 @@ TEST_CASE("conditions with a deeper right operand, computed first, are decided")
     }
     const test::Compiled c =
         test::compile_text("#w : A(3);\n#p : A(x) : " + depth + " > 0 : A(x - 1) F;\n");
-    CAPTURE(c.said());
+    CAPTURE(c.reports());
     REQUIRE(c.outcome.bytecode);
     const std::vector<std::uint32_t>& code = c.outcome.bytecode->instructions;
     REQUIRE(std::find(code.begin(), code.end(), encode(Opcode::Swap, 0)) != code.end());
@@ -134,17 +134,17 @@ TEST_CASE("stochastic systems have bounds that are reached, and an expected valu
     CHECK(prediction.expected_modules[10] == Approx(1'078'326).epsilon(1e-3));
     // The smallest word arises if every choice takes F[+F]F: 3^g F, and one + [ ] for each F that
     // was rewritten.
-    std::uint64_t least = 1;
-    std::uint64_t most = 1;
+    std::uint64_t min_modules = 1;
+    std::uint64_t max_modules = 1;
     std::uint64_t least_f = 1;
     std::uint64_t most_f = 1;
     for (std::uint32_t g = 0; g <= 10; ++g) {
         INFO("generation " << g);
-        CHECK(to_text(prediction.low[g].modules) == to_text(exactly(least)));
-        CHECK(to_text(prediction.high[g].modules) == to_text(exactly(most)));
-        least += 2 * least_f + 3 * least_f;
+        CHECK(to_text(prediction.low[g].modules) == to_text(exactly(min_modules)));
+        CHECK(to_text(prediction.high[g].modules) == to_text(exactly(max_modules)));
+        min_modules += 2 * least_f + 3 * least_f;
         least_f *= 3;
-        most += 4 * most_f + 6 * most_f;
+        max_modules += 4 * most_f + 6 * most_f;
         most_f *= 5;
     }
 }

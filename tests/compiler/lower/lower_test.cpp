@@ -13,7 +13,7 @@ namespace {
 
 Bytecode lowered(const std::string& text) {
     test::Compiled c = compile_text(text);
-    CAPTURE(text, c.said());
+    CAPTURE(text, c.reports());
     REQUIRE(c.outcome.bytecode);
     CHECK(verify(*c.outcome.bytecode) == std::nullopt);
     return *std::move(c.outcome.bytecode);

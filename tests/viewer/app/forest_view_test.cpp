@@ -166,9 +166,9 @@ TEST_CASE("a scene or grammar with errors does not change the picture") {
     wait_for_watch();
     write_text(files.scene, wood(100) + "colour = 3\n");
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
-    const LscRun said = run_lsc({"forest", files.scene, "--check"}, "");
-    CHECK(said.status == 1);
-    CHECK(viewed.forest().messages() == said.err);
+    const LscRun checked = run_lsc({"forest", files.scene, "--check"}, "");
+    CHECK(checked.status == 1);
+    CHECK(viewed.forest().messages() == checked.err);
     CHECK(viewed.picture() == before);
     write_text(files.scene, wood(100));
     REQUIRE(viewed.until([&] { return !viewed.forest().failed(); }));

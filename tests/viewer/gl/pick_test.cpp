@@ -254,14 +254,14 @@ TEST_CASE("a pixel of a branch has the colour of its id, age or hero") {
                     return glm::normalize(colour - 0.8F * std::min({colour.r, colour.g, colour.b}));
                 };
                 std::uint32_t nearest = 0;
-                float least = 9.0F;
+                float min_difference = 9.0F;
                 for (const LegendEntry& entry : legend) {
                     const float apart =
                         glm::distance(hue(shown), hue(glm::vec3(std::sqrt(entry.colour.r),
                                                                 std::sqrt(entry.colour.g),
                                                                 std::sqrt(entry.colour.b))));
-                    if (apart < least) {
-                        least = apart;
+                    if (apart < min_difference) {
+                        min_difference = apart;
                         nearest = entry.value;
                     }
                 }

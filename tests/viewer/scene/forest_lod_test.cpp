@@ -140,7 +140,7 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
     ForestLod lod(wood->model);
     constexpr float kStep = 1.004F;
     const LodOptions options = wood_lod();
-    const float most = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
+    const float max_change = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
     std::map<std::uint32_t, float> branches_before;
     float horizon_before = 0.0F;
     float largest = 0.0F;
@@ -162,10 +162,10 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
         for (std::uint32_t tree = 0; tree < lod.trees().size() && !is_first; ++tree) {
             const float change = std::abs(branches[tree] - branches_before[tree]);
             largest = std::max(largest, change);
-            REQUIRE(change <= most);
+            REQUIRE(change <= max_change);
         }
         if (!is_first) {
-            REQUIRE(std::abs(horizon - horizon_before) <= most);
+            REQUIRE(std::abs(horizon - horizon_before) <= max_change);
         }
         branches_before = std::move(branches);
         horizon_before = horizon;
@@ -302,7 +302,7 @@ TEST_CASE("spans of a pool never overlap and are reused") {
     ForestLod lod(wood->model);
     LodOptions options = wood_lod();
     options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
-    std::uint64_t most = 0;
+    std::uint64_t max_used = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
         const float along = static_cast<float>(step % 100);
         const DrawLists& lists = lod.select(
@@ -320,12 +320,12 @@ TEST_CASE("spans of a pool never overlap and are reused") {
         }
         REQUIRE(end <= lod.pool().branches().size());
         REQUIRE(used == lod.pool().used());
-        most = std::max(most, used);
+        max_used = std::max(max_used, used);
         for (const BranchEntry branch : lists.branches) {
             REQUIRE(branch.slot() < end);
         }
     }
-    CHECK(lod.pool().branches().size() < 2 * most);
+    CHECK(lod.pool().branches().size() < 2 * max_used);
 }
 
 TEST_CASE("a full pool evicts unused spans, then refuses new ones") {

@@ -15,7 +15,7 @@ using namespace lsys::view;
 namespace {
 
 std::optional<double>
-meets(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+intersect(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 ab = b - a;
     const glm::dvec3 ac = c - a;
     const glm::dvec3 p = glm::cross(ray.direction, ac);
@@ -48,7 +48,7 @@ slow_pick(const HeightField& field, const Region& region, const Ray& ray) {
             const glm::dvec3 b = at(column + 1, row);
             const glm::dvec3 c = at(column, row + 1);
             const glm::dvec3 d = at(column + 1, row + 1);
-            for (const auto& t : {meets(ray, a, b, d), meets(ray, a, d, c)}) {
+            for (const auto& t : {intersect(ray, a, b, d), intersect(ray, a, d, c)}) {
                 if (t && (!nearest || *t < *nearest)) {
                     nearest = t;
                 }
