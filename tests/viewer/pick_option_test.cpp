@@ -283,14 +283,14 @@ TEST_CASE("a message beside the picture says that a plant falls") {
     const ScratchFolder folder;
     const std::string file = folder / "stalk.lsys";
     write_text(file, "#n = 1;\n#set width 0.02;\n#w : F(2) +(10) F(4) F(4);\n");
-    const auto said = [&](std::vector<std::string> more) {
+    const auto shown = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments = {file, "--size", "32x24", "--screenshot",
                                               folder / "a.png"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_lsview(arguments);
     };
-    CHECK(said({}).err.empty());
-    const LscRun fallen = said({"--gravity", "9.81"});
+    CHECK(shown({}).err.empty());
+    const LscRun fallen = shown({"--gravity", "9.81"});
     CHECK(fallen.status == 0);
     CAPTURE(fallen.err);
     CHECK(fallen.err.find("under 9.81 m/s2 [weak-stem]") != std::string::npos);

@@ -337,7 +337,7 @@ TEST_CASE("a forest of domination grows year by year in a series") {
 
 TEST_CASE("a message says that nothing moves in a series") {
     const ScratchFolder folder;
-    const auto said = [&folder](std::vector<std::string> more) {
+    const auto messages = [&folder](std::vector<std::string> more) {
         std::vector<std::string> arguments = {
             sample("abop-1-24a"), "-n", "1", "--size", "32x24", "--frames", "2", "--screenshot",
             folder / "a.png"};
@@ -346,10 +346,10 @@ TEST_CASE("a message says that nothing moves in a series") {
         CHECK(run.status == 0);
         return run.err;
     };
-    CHECK(said({}).find("nothing moves") != std::string::npos);
-    CHECK(said({"--grow"}).empty());
-    CHECK(said({"--turntable"}).empty());
-    CHECK(said({"--wind", "9,0,0"}).empty());
+    CHECK(messages({}).find("nothing moves") != std::string::npos);
+    CHECK(messages({"--grow"}).empty());
+    CHECK(messages({"--turntable"}).empty());
+    CHECK(messages({"--wind", "9,0,0"}).empty());
 }
 
 TEST_CASE("wind moves a plant, and without wind it does not move") {

@@ -38,11 +38,11 @@ TEST_CASE("a missing axiom or number of generations is reported at the end of th
         };
         Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
         static_cast<void>(compile(std::move(ast), names, sources, {}, diagnostics));
-        Reports said;
+        Reports codes;
         for (const Diagnostic& d : diagnostics.all()) {
-            said.emplace_back(info(d.code).name);
+            codes.emplace_back(info(d.code).name);
         }
-        return said;
+        return codes;
     };
     CHECK(without("#w : F;\n") == Reports{"missing-generations"});
     CHECK(without("#n = 1;\n#p : F : * : F;\n") == Reports{"missing-axiom"});
