@@ -1,9 +1,9 @@
-# Every library as its folder, and the folders that it may include. The build links libraries by this
-# table (LsysTargets.cmake), and the test of include rules reads it (tests/layering/check_includes.cmake).
+# Every library, named by its folder, and the folders that the library may include. The build links libraries by
+# this table (LsysTargets.cmake), and the test of include rules reads it (tests/layering/check_includes.cmake).
 #
 # One folder is one library. Headers directly in the folder are public; headers in its sub-folders
 # (impl/, engine/, a dialect's name) are private. A line is `folder: folders it may include`. A folder
-# stands below all folders that it includes, so the table has no cycle.
+# is listed after all folders that it includes, so the table has no cycle.
 set(LSYS_LAYERS
   "grammar/base:"
   "grammar/rendering: grammar/base"

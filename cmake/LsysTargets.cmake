@@ -1,5 +1,5 @@
 # Two interface targets that every target of the project links: lsys_options has the compiler options,
-# lsys_warnings the warnings. Functions below make libraries.
+# lsys_warnings the warnings. The functions below make libraries.
 
 # Floating-point results are the same on every machine: no contraction to fused multiply-add, no optimisation that
 # changes values.
@@ -36,7 +36,7 @@ target_compile_options(lsys_warnings INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-Wconditional-uninitialized>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
 
-# lsys_shareable(TARGET): objects of a library may be part of the shared library, which exports what its headers mark
+# lsys_shareable(TARGET): objects of a library may be part of the shared library, which exports the declarations marked
 # with LSYS_API. Precompiled headers need the same options as their users.
 function(lsys_shareable target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
@@ -62,12 +62,12 @@ endfunction()
 # lsys_unity(TARGETS...): compiles the sources of the targets in batches of six (unity build), because headers and
 # templates take most of the time of a source. Names in unnamed namespaces must be unique within such a target.
 # Libraries whose speed the benchmarks measure are not compiled in batches. LSYS_UNITY=OFF compiles each source alone,
-# as clang-tidy, coverage and the search for missing includes need.
+# which clang-tidy, coverage and the search for missing includes need.
 option(LSYS_UNITY "Compile sources of tests and programs in batches" OFF)
 function(lsys_unity)
   set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${LSYS_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   if(LSYS_UNITY)
-    # g++ treats an unnamed namespace in a source of a batch as one in a header, and warns.
+    # g++ warns about unnamed namespaces in a batch, because it takes the sources for headers.
     foreach(target ${ARGN})
       target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     endforeach()

@@ -12,7 +12,7 @@ constexpr int kDiscardedWords = 310;
 
 GlibcRandom::GlibcRandom(std::uint32_t seed) {
     words_[0] = seed == 0 ? 1 : seed;
-    for (std::size_t i = 1; i < kWords; ++i) {
+    for (std::size_t i = 1; i < kLongLag; ++i) {
         // The previous word as a signed number; a negative remainder is brought into range.
         const std::int64_t previous = static_cast<std::int32_t>(words_[i - 1]);
         const std::int64_t remainder = kMultiplier * previous % kModulus;
@@ -24,9 +24,9 @@ GlibcRandom::GlibcRandom(std::uint32_t seed) {
 }
 
 std::uint32_t GlibcRandom::next_word() {
-    const std::uint32_t word = words_[at_] + words_[(at_ + kWords - kDistance) % kWords];
+    const std::uint32_t word = words_[at_] + words_[(at_ + kLongLag - kShortLag) % kLongLag];
     words_[at_] = word;
-    at_ = (at_ + 1) % kWords;
+    at_ = (at_ + 1) % kLongLag;
     return word;
 }
 

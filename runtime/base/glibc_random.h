@@ -20,13 +20,13 @@ public:
     [[nodiscard]] std::uint32_t next();
 
 private:
-    static constexpr std::size_t kWords = 31;
-    static constexpr std::size_t kDistance = 3;
+    static constexpr std::size_t kLongLag = 31;
+    static constexpr std::size_t kShortLag = 3;
 
     std::uint32_t next_word();
 
-    std::array<std::uint32_t, kWords> words_{}; // ring buffer of the last words
-    std::size_t at_ = kDistance;                // index of the word that next_word() replaces
+    std::array<std::uint32_t, kLongLag> words_{}; // ring buffer of the last words
+    std::size_t at_ = kShortLag;                  // index of the word that next_word() replaces
 };
 
 } // namespace lsys

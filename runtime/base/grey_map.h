@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Max pixels of a map, such as 11,585 by 11,585.
+/// Max pixels of a map: 2^27, about 11,585 by 11,585.
 inline constexpr std::uint64_t kMaxMapPixels = std::uint64_t{1} << 27;
 
 struct GreyMap {
@@ -24,7 +24,7 @@ struct GreyMap {
     }
 };
 
-/// Reads a PNG file of 1 to 16 bits per sample; a sample b of 8 bits becomes 257 b. Gamma and
+/// Reads a PNG file of 1 to 16 bits per sample; an 8-bit sample b becomes 257 * b. Gamma and
 /// opacity are ignored. Errors: a pixel with a colour, a damaged file, more than kMaxMapPixels,
 /// more than `max_bytes` of memory needed in addition to `bytes`.
 [[nodiscard]] Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes);

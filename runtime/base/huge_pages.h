@@ -7,8 +7,8 @@ namespace lsys {
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20; // bytes
 
-/// Requests huge pages for the whole huge pages within `bytes` from `address` on. If the system
-/// refuses, the memory is only slower. Precondition: `address` is a multiple of kHugePage.
+/// Requests huge pages for every complete huge page within the `bytes` bytes at `address`. If the
+/// system refuses, the memory is only slower. Precondition: `address` is a multiple of kHugePage.
 void advise_huge_pages(void* address, std::size_t bytes);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// Texels of JPEG files (ITU-T T.81), read by stb_image. Its plain code, without instructions of some
-// processors only, decodes a file to the same bytes on every machine.
+// Texels of JPEG files (ITU-T T.81), read by stb_image without SIMD instructions, so that a file
+// decodes to the same bytes on every machine.
 #pragma once
 
 #include "grammar/base/result.h"

@@ -22,7 +22,7 @@ struct PngInput {
     std::array<char, 128> reason{};
 };
 
-// libpng ends a failed call by longjmp: no function between setjmp and longjmp owns anything.
+// libpng ends a failed call by longjmp, so no function between setjmp and longjmp owns memory.
 
 [[noreturn]] void fail_to_read(png_structp png, png_const_charp message) {
     auto* const input = static_cast<PngInput*>(png_get_error_ptr(png));

@@ -51,8 +51,8 @@ inline constexpr std::uint32_t kStartGeneration = 0xFFFFFFFFu;
                       {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
 }
 
-/// The part of a draw's key that many positions share: seed, generation, block, and which of the
-/// four words of the block.
+/// The part of a draw's key that many positions share: seed, generation, block, and the index of
+/// the word in the block, 0 to 3.
 struct DrawKey {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
@@ -67,8 +67,8 @@ void draw_units(const DrawKey& key,
                 std::size_t count,
                 float* units);
 
-/// Writes the draws of a whole block at `count` positions: those of its word w from
-/// `units` + w * `stride` on. `key.word` is ignored.
+/// Writes all four draws of a block at `count` positions: the draws of word w begin at
+/// `units` + w * `stride`. `key.word` is ignored.
 void draw_all_units(const DrawKey& key,
                     const std::uint64_t* positions,
                     std::size_t count,

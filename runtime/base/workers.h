@@ -23,9 +23,9 @@ public:
     /// Starts the threads now, so that the first for_each() need not.
     void start();
     /// Calls `piece` for 0 ... pieces - 1, begun in that order, and returns when all are done. With
-    /// one worker or one piece, the work runs on the calling thread; if the system starts fewer
-    /// threads than requested, on those. A piece may wait for a piece of a lower number, which has
-    /// been begun, and for no other. A piece that no other waits for may throw std::bad_alloc or
+    /// one worker or one piece, the work runs on the calling thread. If the system starts fewer
+    /// threads than requested, these do all the work. A piece may wait for pieces of lower numbers
+    /// only, which have already begun. A piece that no other waits for may throw std::bad_alloc or
     /// std::length_error; for_each() then throws one of the two when all threads have left their
     /// pieces, and some pieces may not have run.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);

@@ -94,7 +94,7 @@ bool has_balanced_modules(std::string_view text) {
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether a number follows `place`, where a comma was added. Then no `*` can be missing there.
+/// Whether a number follows `place`, where a comma was added. If so, no `*` can be missing at `place`.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&

@@ -50,7 +50,7 @@ struct Export {
     DetailLevels levels;                 // of the plant; empty if only the finest level is needed
     std::set<std::string> pictures;      // names of the written pictures, shared by all frames
     std::optional<glm::vec3> pivot = {}; // for all frames of a growth: pivot of the last plant
-    bool is_placed = false;              // pivot and unit have been applied to the mesh
+    bool is_placed = false;              // whether pivot and unit have been applied to the mesh
     std::vector<Mesh>* collected = nullptr; // if not null, receives the meshes in place of files
     const PlantVariants* variants = nullptr;
 };
@@ -106,8 +106,8 @@ bool is_regular(const std::string& path) {
                            kind == std::filesystem::file_type::regular);
 }
 
-/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures to what the
-/// format and the output allow.
+/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures if the format
+/// and the output allow pictures.
 ExitStatus plan_levels(Export& run, const Skeleton& skeleton, DetailChain chain) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
@@ -125,7 +125,7 @@ ExitStatus plan_levels(Export& run, const Skeleton& skeleton, DetailChain chain)
                             run.levels);
 }
 
-/// Meshes the level of detail of `skeleton` that `--level` asks for, or the coarsest level.
+/// Meshes the level of detail of `skeleton` given by `--level`, at most the coarsest level.
 ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOptions& options) {
     const std::uint32_t wanted = run.command.mesh.level;
     if (wanted == 0) {
@@ -162,7 +162,7 @@ ExportInfo export_info(const Export& run) {
     return info;
 }
 
-/// Pivot and unit of the plant in its files. The pivot is that of the plant at rest.
+/// Pivot and unit of the plant in its files. The pivot is a point of the plant at rest.
 PlantPlacement placement_of(const Export& run, const Skeleton& skeleton) {
     if (run.is_placed) {
         return {};
@@ -522,7 +522,7 @@ pose_growth(const Export& run, PlantGrowth& growth, const GrowthMoment& moment, 
                                      : run.console.take(growth.pose(moment, run.project, grown));
 }
 
-/// Sets the pivot of all frames to that of the last plant. Derives nothing if the pivot is the
+/// Sets the pivot of all frames to the pivot of the last plant. Derives nothing if the pivot is the
 /// origin.
 ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
     if (run.command.pivot == PlantPivot::Origin) {
@@ -534,7 +534,7 @@ ExitStatus find_growth_pivot(Export& run, PlantGrowth& growth) {
         run.console.show(posed.messages());
         return status_of(posed.stop());
     }
-    run.pivot = pivot_of(last, run.command.pivot); // writing the last frame shows the messages
+    run.pivot = pivot_of(last, run.command.pivot); // writing the last frame prints the messages
     return ExitStatus::Ok;
 }
 
@@ -546,8 +546,8 @@ ExitStatus write_growth(Export& run, PlantGrowth& growth, Skeleton& grown) {
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
     }
-    // Growth starts at the last generation that draws nothing. That moment has no file, since there
-    // is nothing to write: the first frame is one step later.
+    // Growth starts at the last generation that draws nothing. This generation has no file, since it is
+    // empty: the first frame is one step later.
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {
@@ -780,7 +780,7 @@ struct VariantPlant {
     Plant plant;
 };
 
-/// Takes the value of an outcome and shows its messages, unless equal messages have been shown.
+/// Moves the value out of an outcome and prints its messages, unless equal ones have been printed.
 template <typename T>
 ExitStatus
 take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::string>& shown) {
@@ -885,7 +885,7 @@ ExitStatus export_growth(const ExportCommand& command,
 
 namespace {
 
-/// The name of an output with two letters of its ending exchanged, or one wrong; empty: none.
+/// The output name corrected by exchanging two letters of its extension or replacing one; empty: none.
 std::string nearest_output(const std::string& output) {
     const std::size_t dot = output.rfind('.');
     if (dot == std::string::npos || output.find('/', dot) != std::string::npos) {
@@ -954,7 +954,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (status != ExitStatus::Ok || !command.stats) {
         return status;
     }
-    if (bends) { // the rest of the time is physics
+    if (bends) { // the remaining time is physics
         run.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }

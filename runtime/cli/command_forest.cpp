@@ -69,7 +69,7 @@ Result<OutputTarget> target_of(const ForestCommand& command) {
     return OutputTarget{OutputKind::Instances, *format};
 }
 
-/// A message about --collision, --unit or --pivot if one does not fit the output; empty if all do.
+/// A message if --collision, --unit or --pivot does not fit the output; empty if all fit.
 std::string find_option_conflict(const ForestCommand& command, const OutputTarget& target) {
     const bool has_format = target.kind == OutputKind::Instances || target.kind == OutputKind::Mesh;
     if (command.collision != CollisionKind::None) {
@@ -183,7 +183,7 @@ ExitStatus make_meshes(Run& run) {
         ground.rows = kGroundCells;
         ground.threads = run.command.run.threads;
         ground.pictures = run.grown.ground;
-        // A baked mesh has tangents only if all its parts do.
+        // A baked mesh has tangents only if all its parts have tangents.
         ground.tangents =
             run.grown.ground.normals != nullptr || run.target.kind == OutputKind::Mesh;
         Result<Mesh> made = make_terrain_mesh(*run.grown.terrain, ground);

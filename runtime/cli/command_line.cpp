@@ -634,8 +634,7 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-/// The format of a command's output, as the command itself decides it; null if the name of the
-/// output decides none.
+/// The format of the output of a command; null if the name of the output has no known format.
 const FormatTraits* format_of(const ExportCommand& command) {
     const std::optional<ExportFormat> format =
         command.format ? command.format : format_of_path(command.output);

@@ -254,8 +254,7 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
                    : ExitStatus::Ok;
     };
     if (command.output == "-" && heroes > 1) {
-        // Written output cannot be taken back, so a first run checks that all heroes can be
-        // derived.
+        // Written output cannot be undone, so a first run checks that all heroes can be derived.
         for (std::uint32_t hero = 0; hero < heroes; ++hero) {
             std::optional<Derivation> derivation;
             if (const ExitStatus status = derive_hero(hero, derivation); status != ExitStatus::Ok) {

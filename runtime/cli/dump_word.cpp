@@ -208,7 +208,7 @@ ExitStatus dump_stored(const DumpCommand& command,
     const Bytecode& bytecode = grammar.bytecode;
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
-        // Written output cannot be taken back, so a first run checks that the derivation succeeds.
+        // Written output cannot be undone, so a first run checks that the derivation succeeds.
         Derivation trial(bytecode, plan.derive);
         const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {

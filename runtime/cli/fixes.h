@@ -11,9 +11,9 @@
 // 5. A bracket or comma is repaired only if each alternative gives errors, the same meaning or more
 //    warnings (alternative_repairs.h).
 //
-// With FixChoice::Offered the first repair of every message is applied, certain or not. Of the
-// rules only 3 holds, and repairs that cause new errors are undone. A place is repaired at most
-// once for each code.
+// With FixChoice::Offered the first repair of every message is applied, certain or not. Only rule 3
+// applies, and repairs that cause new errors are undone. A place is repaired at most once for each
+// code.
 //
 // Fixes that are not applied become offers: shown as help, and not machine-applicable in JSON.
 #pragma once

@@ -1,5 +1,5 @@
-// Files of levels of detail: their names, the distance and screen coverage at which each is shown,
-// and the list of the files as JSON, which scripts/engines read.
+// Files of levels of detail: their names, the distance and screen coverage at which a level is shown,
+// and the list of the files as JSON, which the importers in scripts/engines read.
 #pragma once
 
 #include "runtime/export/export.h"

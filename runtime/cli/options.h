@@ -80,7 +80,7 @@ enum class BufferPlace : std::uint8_t {
     Separate, // files beside the output
 };
 
-/// Options for files of meshes that not all formats take.
+/// Options of mesh files that only some formats accept.
 struct SurfaceOptions {
     UpAxis up = UpAxis::Y;
     bool both_sides = false;
@@ -117,7 +117,7 @@ struct ExportCommand {
     /// Max number of joints of a skin. 0: one per segment that moves. Default: 128.
     std::optional<std::uint32_t> bones;
     bool wind_data = false;   // add vertex attributes for wind shaders
-    bool loop = false;        // the motion ends as it begins
+    bool loop = false;        // the last frame of the motion equals the first
     bool grow = false;        // the frames show the growth through the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: only the plant at rest
     float frames_per_second = 24.0F;

@@ -1,5 +1,5 @@
-// Presets: sets of options for the program that a file is made for. A preset only adds options to
-// the command line: an option that the user gives wins.
+// Presets: sets of options for the program that will read a file. A preset only adds options to the
+// command line: options given by the user have priority.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -21,17 +21,17 @@ struct PresetOption {
     PresetCommand command = PresetCommand::Export;
     std::string_view name;  // such as `--unit`
     std::string_view value; // empty for a flag
-    /// Options with which this one is not set, separated by blanks; `--output=-`: only with this
-    /// value.
+    /// Options that prevent this option, separated by blanks; `--output=-`: only this value prevents
+    /// it.
     std::string_view unless;
-    /// Whether a format takes the option. Null: all formats of the preset do.
+    /// Whether a format accepts the option. Null: all formats of the preset accept it.
     bool (*takes)(const FormatTraits& format) = nullptr;
 };
 
 /// A row of presets.def.
 struct Preset {
     std::string_view name;
-    std::string_view use;     // the programs that the files are for
+    std::string_view use;     // programs that read the files
     std::string_view plants;  // names of formats for `lsc export`, separated by blanks
     std::string_view forests; // names of formats for `lsc forest`; empty: none
 };

@@ -1,4 +1,4 @@
-// Checks options of mesh files that not all formats take.
+// Checks options of mesh files that only some formats accept.
 #pragma once
 
 #include "runtime/cli/options.h"
@@ -7,7 +7,7 @@
 
 namespace lsys::lsc {
 
-/// A message about options that `format` does not take; empty if it takes all.
+/// A message about options that `format` does not accept; empty if it accepts all.
 [[nodiscard]] std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat format);
 
 } // namespace lsys::lsc

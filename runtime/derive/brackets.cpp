@@ -6,7 +6,7 @@ namespace lsys {
 
 namespace {
 
-/// The change of the number of open brackets whose closing one has the kind `close`.
+/// The change that a module makes to the number of open brackets closed by `close`: 1, -1 or 0.
 int change_of(SymbolKind kind, SymbolKind close) {
     const SymbolKind open =
         close == SymbolKind::BranchClose ? SymbolKind::BranchOpen : SymbolKind::PolygonOpen;

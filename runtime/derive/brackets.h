@@ -75,8 +75,8 @@ private:
 };
 
 /// The production that must have written an unmatched module of the kind `close`, BranchClose or
-/// PolygonClose: the only one whose successor closes what it does not open, if the axiom closes
-/// none. kNoProduction if several could have.
+/// PolygonClose: the only production whose successor has an unmatched one, while the axiom has
+/// none. kNoProduction if there are several candidates.
 [[nodiscard]] ProductionId only_unbalanced_production(const Bytecode& bytecode, SymbolKind close);
 
 /// The error of a `]` without its `[`, or a `}` without its `{`, at `position` of a word of age

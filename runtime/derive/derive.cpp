@@ -68,8 +68,8 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Makes all words keep origins, or none of them, by the option. Returns false if there is no
-    /// memory.
+    /// Makes all words keep origins, or none, as DeriveOptions::origins says. Returns false if there
+    /// is no memory.
     [[nodiscard]] bool apply_origin_option() {
         for (Word* const each : {&word, &next, &spare}) {
             if (!options.origins) {
@@ -231,7 +231,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Removes what `%` modules cut, before anything is rewritten.
+    /// Removes the modules that `%` modules cut, before any module is rewritten.
     [[nodiscard]] std::optional<Stop> prune(const Word*& current) {
         if (!pruner.can_cut()) {
             return std::nullopt;

@@ -72,9 +72,9 @@ struct DeriveOptions {
     /// Called after each generation, and several times during a long one; from any thread, but
     /// never from two at once.
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
-    /// Called before and after each pass. Before it, origins of `in` become the indexes of its
-    /// modules, so that those of `out` say which module of `in` each comes from. Passes that cannot
-    /// change the word are left out. Precondition: `origins`; words of fewer than 2^32 modules.
+    /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
+    /// its module, so the origins in `out` name the modules of `in` that were rewritten. Passes that
+    /// cannot change the word are left out. Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 
@@ -108,10 +108,10 @@ public:
     /// Applies the productions of `#interpret` to the word, which becomes the one that is drawn. No
     /// step() may follow. Interpretation does the same without storing words.
     [[nodiscard]] std::optional<Stop> interpret();
-    /// Follows the modules of the word: the origin of each becomes its index, with kFollowed and
-    /// age(). After step() the origin of a module names the module of the former word that it was
-    /// copied from, or, with the new age, rewritten from. Returns false if the word has more than
-    /// 2^32 - 1 modules. Precondition: DeriveOptions::origins.
+    /// Starts to follow the modules of the word: sets each origin to the index of its module, with
+    /// age() and the bit kFollowed as generation. After step() an origin names the module of the
+    /// former word that was copied or, if the generation is the new age, rewritten. Returns false if
+    /// the word has more than 2^32 - 1 modules. Precondition: DeriveOptions::origins.
     [[nodiscard]] bool follow();
     /// Checks that every `]` of the word has its `[`. Commands call it on the last word. The error
     /// names the production that wrote the `]` if only one can have.

@@ -12,8 +12,8 @@
 namespace lsys {
 
 /// The program with folded modules: all modules with arguments known in advance that `generations`
-/// generations can write from the axiom. It derives the same words with codes of its own. Returns
-/// nothing if there is nothing to fold, or if the codes need a greater width.
+/// generations can write from the axiom. It derives the same words with different codes. Returns
+/// nothing if no module can be folded, or if the codes need a greater width.
 [[nodiscard]] std::optional<Bytecode>
 fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generations);
 

@@ -1,5 +1,5 @@
-// Interpretation: applies the productions of `#interpret` to a derived word in passes, and hands on
-// the modules to draw. No word of a pass is stored.
+// Interpretation: applies the productions of `#interpret` to a derived word in passes, and gives the
+// modules to draw to a sink. No word of a pass is stored.
 #pragma once
 
 #include "runtime/derive/derive.h"

@@ -1,6 +1,6 @@
 // Origin: the place in the program that wrote a module of a word. A module keeps its origin until
-// it is rewritten. Derivations keep origins on request (DeriveOptions::origins); the turtle hands
-// them on to the segments, objects and polygons it draws.
+// it is rewritten. Derivations keep origins on request (DeriveOptions::origins); the turtle gives
+// each segment, object and polygon the origin of the module that drew it.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

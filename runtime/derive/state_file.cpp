@@ -130,8 +130,8 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (version != kStateFileVersion) {
         return other_version("its format", version, kStateFileVersion);
     }
-    // The version is compared before the digest: digests may differ between versions, and their
-    // message would speak of another program.
+    // The version is compared before the digest: digests may differ between versions, and a wrong
+    // digest is reported as a state of another program.
     if (bytecode_version != kModuleFileVersion) {
         return other_version("its bytecode", bytecode_version, kModuleFileVersion);
     }

@@ -15,7 +15,7 @@ namespace lsys {
 
 // Version history.
 //   1  The first format. Its digest left out the source of random numbers.
-//   2  The version of the bytecode (kModuleFileVersion) beside the digest, which depends on it.
+//   2  Adds the version of the bytecode (kModuleFileVersion), on which the digest depends.
 inline constexpr std::uint32_t kStateFileVersion = 2;
 
 struct StateHeader {

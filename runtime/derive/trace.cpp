@@ -68,14 +68,14 @@ std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t se
     for (const BytecodeAxiom& axiom : bytecode.axioms) {
         sum += axiom.weight;
     }
-    float running = 0.0F;
+    float cumulative = 0.0F;
     std::optional<std::size_t> taken;
     for (const BytecodeAxiom& axiom : bytecode.axioms) {
-        running += axiom.weight / sum;
-        if (!taken && running > trace.unit) {
+        cumulative += axiom.weight / sum;
+        if (!taken && cumulative > trace.unit) {
             taken = trace.alternatives.size();
         }
-        trace.alternatives.push_back({axiom.site, axiom.weight, running});
+        trace.alternatives.push_back({axiom.site, axiom.weight, cumulative});
     }
     trace.taken = taken.value_or(trace.alternatives.size() - 1);
     return trace;
@@ -149,9 +149,9 @@ struct StepTracer::State {
         }
     }
 
-    /// With predecessors of several modules, a match may begin before a tracked module and use it
-    /// up. Reads the word from its start, as the pass does; the place of a module that is used up
-    /// becomes that of the match.
+    /// With predecessors of several modules, a match may begin before a tracked module and consume
+    /// it. Reads the word from its start, as the pass does; the place of a consumed module becomes
+    /// the place of the match.
     void begin_matches(const TracedPass& pass) {
         const std::vector<Place> tracked = std::exchange(places, {});
         trace_of_place.clear();
@@ -185,7 +185,7 @@ struct StepTracer::State {
         }
     }
 
-    /// The trace of a module that `match` uses up.
+    /// The trace of a module that `match` consumes.
     [[nodiscard]] static ModuleTrace
     consumed(const TracedPass& pass, std::uint64_t position, const ModuleTrace& match) {
         ModuleTrace trace;
@@ -330,7 +330,7 @@ void StepTracer::finish() {
             }
         }
         state.ok = state.ok && trace.agrees;
-        // A root's own trace comes before those of what it became.
+        // The trace of a root comes before the traces of its successors.
         for (ModuleTrace& other : state.traces) {
             if (other.parent != kNoTrace) {
                 ++other.parent;

@@ -1,6 +1,6 @@
-// Trace: why one step of a derivation wrote what it wrote for some modules. A direct evaluator
-// reads docs/language.md sections 5 and 6 sentence by sentence, without the tables of engine/, and
-// compares each successor with the one that the engine wrote in its place.
+// Trace: explains how one step of a derivation rewrote some modules. A direct evaluator follows
+// docs/language.md sections 5 and 6 sentence by sentence, without the tables of engine/, and
+// compares each successor with the successor that the engine wrote.
 //
 //     Derivation ─ DeriveOptions::on_pass ─→ StepTracer ─→ ModuleTrace ...
 #pragma once
@@ -30,13 +30,13 @@ struct TracedModule {
 /// Whether the symbols are equal and the values have the same bits.
 [[nodiscard]] bool same_module(const TracedModule& first, const TracedModule& second);
 
-/// A module as words show it: `A(3, 0.5)`.
+/// A module as printed in words: `A(3, 0.5)`.
 [[nodiscard]] std::string module_text(const Bytecode& bytecode, const TracedModule& module);
 [[nodiscard]] std::string
 module_text(const Bytecode& bytecode, std::string_view name, const std::vector<float>& values);
 
-/// A module that a context search came to.
-struct MetModule {
+/// A module that a context search visited.
+struct VisitedModule {
     std::uint64_t position = 0; // in the word read
     std::uint32_t item = 0;     // of the pattern that the module was compared with
     TracedModule module;
@@ -44,7 +44,7 @@ struct MetModule {
 
 LSYS_COUNTED_ENUM(ContextEnd,
                   Fits,
-                  OtherModule, // the last module met is not the one of the pattern
+                  OtherModule, // the last module visited is not the one of the pattern
                   EndOfPath,   // there is no further module
                   NoBranch,    // there is no branch where the pattern has `[`
                   NotSearched);
@@ -52,10 +52,10 @@ LSYS_COUNTED_ENUM(ContextEnd,
 /// The search for a context, in its order: from the module outwards.
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
-    std::vector<MetModule> met;
+    std::vector<VisitedModule> visited;
     std::uint32_t item = 0;     // of the pattern, where the search ended without fitting
-    std::uint64_t ignored = 0;  // modules passed over because of #ignore or #consider
-    std::uint64_t branches = 0; // branches passed over
+    std::uint64_t ignored = 0;  // modules skipped because of #ignore or #consider
+    std::uint64_t branches = 0; // branches skipped
 };
 
 /// An operation of an expression with its value.
@@ -79,7 +79,7 @@ struct TracedRange {
 /// A local value.
 struct TracedLocal {
     std::string name;
-    std::string text; // of its expression; of `if` the chosen side
+    std::string text; // of its expression; for `if`, of the chosen side
     float value = 0.0F;
     std::vector<std::string> choices; // conditions of `if` in it: "x > 2 is true"
 };
@@ -109,7 +109,8 @@ LSYS_COUNTED_ENUM(Verdict,
 struct Attempt {
     ProductionId production = kNoProduction;
     Verdict verdict = Verdict::NotTried;
-    std::vector<MetModule> predecessor; // of several modules: those after the first that were met
+    std::vector<VisitedModule>
+        predecessor; // modules compared with the predecessor after the first one
     ContextTrace left;
     ContextTrace right;
     std::optional<ExpressionTrace> condition; // if it was evaluated
@@ -121,7 +122,7 @@ struct ChoiceTrace {
     struct Alternative {
         ProductionId production = kNoProduction;
         float weight = 0.0F;
-        float running = 0.0F; // sum of normalised weights up to this one
+        float cumulative = 0.0F; // sum of normalised weights up to this one
     };
     std::vector<Alternative> alternatives; // in file order; more than one
     bool by_generation = false;            // `choice generation`: one draw for all modules
@@ -138,7 +139,7 @@ struct AxiomTrace {
     struct Alternative {
         std::uint32_t site = kNone; // index in Bytecode::sites
         float weight = 0.0F;
-        float running = 0.0F; // sum of normalised weights up to this one
+        float cumulative = 0.0F; // sum of normalised weights up to this one
     };
     std::vector<Alternative> alternatives; // in file order
     float unit = 0.0F;
@@ -150,7 +151,7 @@ struct AxiomTrace {
 LSYS_COUNTED_ENUM(Fate,
                   Copied,    // no production matches
                   Rewritten, // by a production
-                  Cut,       // taken out with the rest of its branch
+                  Cut,       // removed with the rest of its branch
                   Consumed,  // by a match that begins before it
                   Failed);   // a value is not finite, or a range cannot be drawn from
 
@@ -160,7 +161,7 @@ struct ModuleTrace {
     std::uint32_t rule = kNone; // the only one of the pass
     std::uint32_t pass = 0;     // number among those of its kind
     std::uint32_t generation = 0;
-    bool was_run = true; // false: the engine left the pass out, which could change no module
+    bool was_run = true; // false: the engine skipped the pass, which could change no module
 
     std::size_t root = 0;          // index of the start module in StepTracer::begin()
     std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
@@ -172,18 +173,18 @@ struct ModuleTrace {
     std::uint64_t other_names = 0; // productions of the pass for modules of other names
     std::optional<ChoiceTrace> choice;
     Fate fate = Fate::Copied;
-    ProductionId production = kNoProduction; // if rewritten or used up
-    /// Position of the cut, or of the match that used the module up.
+    ProductionId production = kNoProduction; // if rewritten or consumed
+    /// Position of the cut, or of the match that consumed the module.
     std::uint64_t cause = 0;
     std::uint32_t replaced = 1; // modules that the match replaced
 
     std::vector<TracedLocal> locals;
     std::vector<TracedRange> ranges;
-    std::string fault;                 // what is wrong in the successor; empty: nothing
+    std::string fault;                 // error in the successor; empty: none
     std::vector<TracedModule> written; // the module itself if it was copied
     std::uint64_t first_written = 0;   // position in the word written
-    bool is_checked = false;           // compared with what the engine wrote
-    bool agrees = false;               // the engine has written the same
+    bool is_checked = false;           // compared with the successor that the engine wrote
+    bool agrees = false;               // the engine wrote an equal successor
 };
 
 /// Names of a production's formals and local values, for texts.
@@ -242,7 +243,7 @@ public:
         std::uint64_t position = 0;
         std::size_t root = 0;
         std::size_t parent = kNoTrace; // the trace that wrote it
-        std::uint64_t offset = 0;      // in what the trace wrote
+        std::uint64_t offset = 0;      // in ModuleTrace::written of the parent
     };
     /// The modules that the last pass has written for the modules of begin().
     [[nodiscard]] const std::vector<Place>& places() const;

@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::uint64_t byte_count() const {
         return module_count_ * code_width_ + parameter_count_ * sizeof(float);
     }
-    /// Bytes held from the system.
+    /// Bytes obtained from the system.
     [[nodiscard]] std::uint64_t held_bytes() const {
         return codes_.used() + parameters_.used() + origins_.used();
     }

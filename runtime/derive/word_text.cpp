@@ -62,7 +62,8 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
             text = one_text_ ? "``" : "````";
         }
         if (characters && !one_text_ && text.front() == '`') {
-            text.insert(0, 1, ' '); // without it two adjacent back quotes would read as one text
+            text.insert(0, 1,
+                        ' '); // separates two adjacent back quotes, which would read as one text
         }
         const bool identifier = !letters && is_identifier(text);
         spelling.starts_identifier = identifier;

@@ -18,7 +18,7 @@ namespace lsys {
 /// A name as written in a list of modules: in back quotes unless it is a symbol of the language, an
 /// identifier or, with `names letters`, a single letter.
 [[nodiscard]] std::string spelled_name(std::string_view name, bool letters);
-/// Appends a number as words show it: the shortest text that reads back equal.
+/// Appends a number as printed in words: the shortest text that reads back equal.
 void append_number(float value, std::string& out);
 
 /// Prints the modules of one word in order; the word may come in pieces.

@@ -1,7 +1,7 @@
-// Export: a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a sink in
-// pieces and in order, large arrays straight from memory; no file is held as a whole. Made from the
-// results of make_mesh() and the turtle; used by the command line, which owns the files. Metres;
-// +Y up, or +Z if asked for. Same input, same bytes.
+// Export: writes a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a
+// sink in pieces and in order, large arrays straight from memory; no file is held in memory as a
+// whole. Input are the results of make_mesh() and the turtle; the command line owns the files.
+// Metres; +Y up, or +Z if requested. The same input gives the same bytes.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -27,7 +27,7 @@ enum class ExportFormat : std::uint8_t {
 #undef LSYS_EXPORT_FORMAT
 };
 
-/// Place of the textures of a format's materials.
+/// Where a format stores the textures of materials.
 enum class ExportPictures : std::uint8_t {
     None,
     Inside,           // embedded in the file; readers multiply them by the colour of the material
@@ -39,7 +39,7 @@ enum class ExportPictures : std::uint8_t {
 /// at (x, -z, y).
 enum class UpAxis : std::uint8_t { Y, Z };
 
-/// Shapes of trunk and boughs for the physics of engines, as nodes of glTF beside the plant.
+/// Collision shapes of trunk and boughs for game engines, as nodes of glTF beside the plant.
 enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
 /// Names by which importers recognise the nodes of collision shapes: `UCP_tree_00`, `UCX_tree_00`;
 /// `tree_00-convcolonly`; `tree_collider_00`.
@@ -90,7 +90,7 @@ struct FormatTraits {
 [[nodiscard]] std::string format_names(std::string_view conjunction,
                                        const std::function<bool(const FormatTraits&)>& is_listed);
 
-/// Takes the next bytes; returns false to stop the export.
+/// Receives the next bytes; returns false to stop the export.
 using ByteSink = std::function<bool(std::string_view)>;
 
 /// Max count of moving joints of a skin: glTF numbers joints in 16 bits, and joint 0 stands still.
@@ -114,11 +114,11 @@ struct CoarserMesh {
     double coverage = 0.0;
 };
 
-/// Plants of which a reader shows one: the mesh of the file, which is the default, or one of
-/// `others`.
+/// Alternative plants in one file. A reader shows one of them: the mesh of the file, which is the
+/// default, or one of `others`.
 struct PlantVariants {
     std::string set;                // name of the variant set
-    std::vector<std::string> names; // of the mesh of the file, then of `others`
+    std::vector<std::string> names; // names of the mesh of the file, then of `others`
     std::vector<Mesh> others;
 };
 
@@ -137,8 +137,8 @@ struct ExportInfo {
     std::string picture_prefix;
     /// Form of the arrays of vertices and indices, for FormatTraits::compresses.
     ExportCompression compression = ExportCompression::None;
-    /// Name of the file of write_gltf_buffer() beside a glTF; pictures then lie beside it too, with
-    /// `picture_prefix`. Empty: the file holds its buffer and pictures. For
+    /// Name of the file of write_gltf_buffer() beside a glTF; pictures are then files with
+    /// `picture_prefix`. Empty: the glTF holds its buffer and pictures. For
     /// FormatTraits::separates.
     std::string buffer_name = {};
     bool textures = true;      // pictures for textured materials, where the format has pictures
@@ -151,21 +151,21 @@ struct ExportInfo {
     /// Frames with different meshes, in formats with films. Preconditions: the mesh is that of the
     /// film; no animation, compression or wind data.
     const MeshFilm* film = nullptr;
-    /// Max count of joints of the skin, 2 to kMaxJoints: a skeleton of few joints with smooth
+    /// Max count of joints of the skin, 2 to kMaxJoints; makes a skeleton of few joints with smooth
     /// weights (impl/bones.h). 0: a joint for each segment that moves.
     std::uint32_t max_joints = 0;
     /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
     /// FormatTraits::wind_data. Precondition: Mesh::segments has an item for each vertex.
     bool wind_data = false;
     UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
-    /// Triangles of two-sided materials are written a second time, reversed, with normals of their
+    /// Write the triangles of two-sided materials a second time, reversed, with normals of their
     /// own, for readers that draw front faces only; for FormatTraits::back_faces.
     bool both_sides = false;
-    /// Shapes of collision of the plant at rest, in glTF files.
+    /// Collision shapes of the plant at rest, in glTF files.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
-    /// Levels of detail after the mesh itself, from the finest on, in formats with `lods`; null:
-    /// none. Not together with an animation.
+    /// Levels of detail after the mesh itself, the finest first, in formats with `lods`; null: none.
+    /// Not together with an animation.
     const std::vector<CoarserMesh>* coarser = nullptr;
     /// Other plants in the file, for FormatTraits::variants; null: none. Not together with an
     /// animation or `coarser`.
@@ -180,7 +180,7 @@ Outcome<void> export_mesh(const Mesh& mesh,
                           ExportFormat format,
                           const ExportInfo& info,
                           const ByteSink& sink);
-/// Writes the buffer of a glTF, for its `info.buffer_name`. Stops as export_mesh().
+/// Writes the buffer of a glTF, the file `info.buffer_name`. Stops as export_mesh().
 Outcome<void> write_gltf_buffer(const Mesh& mesh,
                                 const Skeleton& skeleton,
                                 const ExportInfo& info,
@@ -190,7 +190,7 @@ struct PictureFile {
     std::string name;
     std::string bytes;
 };
-/// The pictures that lie beside a file of the format. Stops: OutOfMemory.
+/// The picture files to write beside a file of the format. Stops: OutOfMemory.
 Outcome<std::vector<PictureFile>>
 make_picture_files(const Mesh& mesh, ExportFormat format, const ExportInfo& info);
 Outcome<void> write_picture_file(const PictureFile& picture, const ByteSink& sink);

@@ -1,6 +1,6 @@
 // Export of forests: trees as instances of shared surfaces, as nodes, or as one mesh. Bytes go to a
-// sink in pieces; memory holds the trees of a part of one cell of the ground. Metres, +Y up. Same
-// forest, same bytes, for any number of threads.
+// sink in pieces; memory holds only some trees of one cell of the ground. Metres, +Y up. The same
+// forest gives the same bytes, for any number of threads.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -22,7 +22,7 @@ struct ForestScene {
 };
 
 enum class ForestForm : std::uint8_t {
-    Instanced, // EXT_mesh_gpu_instancing, which readers must know; 40 bytes per instance, or less
+    Instanced, // EXT_mesh_gpu_instancing, which readers must support; 40 bytes per instance, or less
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
 /// Max count of branch instances of ForestForm::Expanded. Each takes about 200 bytes of the file.
@@ -41,10 +41,10 @@ struct ForestExportInfo {
     std::uint32_t threads = 0;            // 0: as many as the machine has
     UpAxis up = UpAxis::Y;                // for FormatTraits::up_axes
     LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
-    /// Shapes of collision of each hero at rest, in glTF of whole trees; named after its mesh.
+    /// Collision shapes of each hero at rest, named after its mesh, in glTF of whole trees.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
-    glm::vec3 pivot{0.0F}; // m, the place of the scene that is the origin of the file
+    glm::vec3 pivot{0.0F}; // m, the point of the scene that becomes the origin of the file
     /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
@@ -59,13 +59,13 @@ Outcome<void> export_forest(const ForestScene& scene,
                             ForestForm form,
                             const ForestExportInfo& info,
                             const ByteSink& sink);
-/// The pictures that lie beside a file of export_forest(). Stops: OutOfMemory.
+/// The picture files to write beside a file of export_forest(). Stops: OutOfMemory.
 Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& scene,
                                                             ExportFormat format,
                                                             const ForestExportInfo& info);
 
-/// One mesh of all triangles in world coordinates. Parts are in the order of materials: those of
-/// the species, then those of the ground. Texture coordinates, tangents and colours are kept only
+/// One mesh of all triangles in world coordinates. Parts are in the order of materials: first the
+/// materials of the species, then of the ground. Texture coordinates, tangents and colours are kept only
 /// if every surface has them. Stops: Limit for more than `max_bytes`, checked before the memory is
 /// allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);

@@ -14,10 +14,10 @@ namespace lsys {
 struct MeshFilm;
 struct PlantAnimation;
 
-/// Point of a plant that is the origin of its file.
+/// The point of a plant that becomes the origin of its file.
 enum class PlantPivot : std::uint8_t {
     Origin, // the start of the turtle
-    Base,   // the base of the first segment; without one the middle of the underside
+    Base,   // the base of the first segment; without segments, the middle of the underside
     Centre, // the middle of the box around the plant
 };
 
@@ -34,7 +34,7 @@ struct PlantPlacement {
 
 /// Moves and scales positions, lengths and radii. Springs and masses stay as they are.
 void place(const PlantPlacement& placement, Mesh& mesh);
-/// The mesh of the film and all its frames.
+/// Moves and scales the mesh of the film and all its frames.
 void place(const PlantPlacement& placement, MeshFilm& film);
 void place(const PlantPlacement& placement, Skeleton& skeleton);
 void place(const PlantPlacement& placement, PlantAnimation& animation);

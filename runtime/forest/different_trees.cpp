@@ -13,8 +13,8 @@ namespace {
 
 /// Moments of the points that an instance draws, in the coordinates of its entry. Weights: half the
 /// length of the segment for an end of a segment, the size for an object, 1 for a corner of a
-/// polygon. The sum over the instances of a tree does not depend on how the tree is divided into
-/// them.
+/// polygon. The sum over the instances of a tree does not depend on the division of the tree into
+/// instances.
 struct Moments {
     std::uint64_t items = 0; // segments, objects and corners
     double total_weight = 0.0;
@@ -191,7 +191,7 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
-    MomentsOfCaches of_caches; // caches of these trees only: a forest may have many species
+    MomentsOfCaches of_caches; // only caches of these trees, since a forest may have many species
     std::vector<TreeLook> looks;
     for (const Tree& tree : trees) {
         const InstanceCache& cache = forest.cache_of(tree);

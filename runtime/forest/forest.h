@@ -1,5 +1,5 @@
 // Forest: species with their instance caches, and trees as small records. Branches of a tree are
-// made on demand and not stored.
+// computed on demand and not stored.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -22,7 +22,7 @@ struct ForestStage {
 
 struct ForestSpecies {
     std::string name;
-    std::vector<ForestStage> stages; // by rising generations; at least one
+    std::vector<ForestStage> stages; // by ascending generations; at least one
     /// Years between two stages; 0: all plants have the last stage.
     float years_of_stage = 0.0F;
     /// Height in m of tree 0 of the last stage at scale 1, from the grammar's `#set height`; 0: not

@@ -46,7 +46,7 @@ public:
         const std::uint32_t index = slot_of(branch);
         InstanceSlot& slot = cache_.slots[index];
         std::vector<std::uint32_t>& variants = variants_[index];
-        if (!branch.take) {
+        if (!branch.has_instance) {
             ++slot.recorded;
             if (options_.cap != 0 && variants.size() >= options_.cap) {
                 ++slot.dropped;
@@ -64,7 +64,7 @@ public:
             }
             return false;
         }
-        // The drawing from here on belongs to none of the enclosing instances.
+        // The drawing of this branch belongs to none of the enclosing instances.
         ++slot.misses;
         for (std::size_t i = suspended_; i < active_.size(); ++i) {
             end_range(active_[i], branch.drawn);
@@ -79,7 +79,7 @@ public:
 
     void end(const DrawnCounts& drawn) override { close(drawn); }
 
-    /// Fills the lists of the cache, after all heroes.
+    /// Fills the lists of the cache. Called after the last hero.
     void finish() {
         for (std::size_t i = 0; i < cache_.instances.size(); ++i) {
             Instance& instance = cache_.instances[i];
@@ -246,7 +246,7 @@ private:
     std::vector<Active> active_;
     std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    // Absolute value that was met first, by id and part of the key.
+    // First absolute value seen, by id and part of the key.
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;
     std::uint32_t part_ = 0;

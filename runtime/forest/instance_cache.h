@@ -1,7 +1,7 @@
-// InstanceCache: the branches of a few hero plants of an instanced system, from which any number of
-// distinct plants are put together (Kenwood, Gain and Marais 2014; docs/language.md section 9). An
-// instance is a part of the heroes' common skeleton with an entry, and exits where other instances
-// continue. Instances with one key can replace each other; a slot lists them.
+// InstanceCache: the branches of a few hero plants of an instanced system. Any number of distinct
+// plants can be assembled from them (Kenwood, Gain and Marais 2014; docs/language.md section 9). An
+// instance is a part of the common skeleton of the heroes with an entry, and exits where other
+// instances continue. Instances with the same key can replace each other; a slot lists them.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -22,7 +22,7 @@
 
 namespace lsys {
 
-/// Place where another instance continues, relative to the entry of the instance that has the exit.
+/// Place where another instance continues, relative to the entry of the instance with the exit.
 struct InstanceExit {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 position{}; // m
@@ -37,7 +37,7 @@ struct DrawnRange {
 };
 
 /// A segment of the heroes at whose tip a branch is not drawn, because a recorded instance replaces
-/// it.
+/// the branch.
 struct InstanceFork {
     std::uint32_t segment = 0;
     std::uint32_t slot = 0; // of the branch
@@ -62,14 +62,14 @@ struct InstanceSlot {
     std::uint32_t age = 0;           // of the branch, in generations
     std::uint32_t first_variant = 0; // in InstanceCache::variants
     std::uint32_t variant_count = 0;
-    // In the instanced system `<` takes a recorded branch, `@` records one.
+    // In the instanced system `<` uses a recorded branch, `@` records a branch.
     std::uint64_t hits = 0;     // branches `<` that a recorded instance replaced
     std::uint64_t misses = 0;   // branches `<` that were recorded because the slot was empty
     std::uint64_t recorded = 0; // branches `@`, dropped ones included
     std::uint64_t dropped = 0;  // branches `@` that were not kept because of CacheOptions::cap
 };
 
-/// The values of a key besides id and age, as the first branch of the key has them.
+/// The values of a key besides id and age, from the first branch with this key.
 struct InstanceKey {
     std::vector<float> formals; // used in the text of the branch, by position in the predecessor
     TurtlePlace place;          // position, frame and order are not part of the key
@@ -81,11 +81,11 @@ struct InstanceKey {
 struct InstanceCache {
     Skeleton skeleton; // of all heroes, one after the other
     std::vector<Instance> instances;
-    std::vector<InstanceSlot> slots;     // 0: of whole plants
+    std::vector<InstanceSlot> slots;     // slot 0: whole plants
     std::vector<std::uint32_t> variants; // numbers of instances, slot by slot
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
-    std::vector<InstanceFork> forks; // where the skeleton lacks a branch
+    std::vector<InstanceFork> forks; // places where the skeleton lacks a branch
     std::vector<InstanceKey> keys;   // by slot; empty unless CacheOptions::keep_keys
     std::uint32_t heroes = 0;
     /// Origin of the `[` of each instance, kNone for whole plants; empty unless
@@ -105,8 +105,8 @@ struct CacheOptions {
     std::uint32_t generations = 0;
     std::uint64_t seed = 0; // hero k has seed + k
     std::uint32_t cap = 0;  // max instances per key; 0: any number
-    /// Step to which the values in keys are rounded, as a fraction of the first value recorded at
-    /// the same place of a key; 0: exact values.
+    /// Rounding step of the values in keys, as a fraction of the first value recorded at the same
+    /// place of a key; 0: exact values.
     float tolerance = 0.0F;
     /// Per id: whether the drawing depends on the up direction, which is then part of the key.
     std::vector<bool> depends_on_vertical;
@@ -124,14 +124,13 @@ struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
     DerivationEnd derivation_end;
     DrawingEnd drawing_end; // with the faults of all heroes
-    std::uint32_t hero = 0; // the hero begun last
+    std::uint32_t hero = 0; // the last hero that was begun
 
     [[nodiscard]] bool ok() const { return !derivation_end.stop && !drawing_end.stop; }
 };
 
-/// Derives and draws the heroes. `bytecode` is that of an instanced system
-/// (compiler/instancing/impl/instancing_pass.h); that of another system gives a cache of whole
-/// plants.
+/// Derives and draws the heroes. `bytecode` is an instanced system
+/// (compiler/instancing/impl/instancing_pass.h); with another system the cache has whole plants only.
 [[nodiscard]] CacheOutcome make_instance_cache(const Bytecode& bytecode,
                                                const CacheOptions& options);
 
@@ -141,7 +140,7 @@ struct BranchInstance {
     glm::vec3 position{}; // m
     float scale = 1.0F;
     std::uint32_t instance = 0;
-    std::uint32_t order = 0; // of the branch: brackets around it, its own included
+    std::uint32_t order = 0; // number of brackets around the branch, its own included
 };
 
 /// Expands trees into instances. Use one for each thread.
@@ -150,8 +149,8 @@ public:
     /// `key`: the forest's key. `cache` outlives the expander.
     TreeExpander(const InstanceCache& cache, std::uint64_t key) : cache_(cache), key_(key) {}
 
-    /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in their
-    /// order. Depends on cache, key and tree alone. Returns the number of instances.
+    /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in order.
+    /// Depends only on cache, key and tree. Returns the number of instances.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
@@ -170,8 +169,8 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
-    /// Items still to visit, the next one last. Memory doubles when it is full, since most
-    /// instances add only one or two items.
+    /// Stack of items to visit. Its capacity doubles when it is full, since most instances add only
+    /// one or two items.
     template <typename T>
     class Stack {
     public:

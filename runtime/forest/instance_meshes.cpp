@@ -60,8 +60,7 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// Per slot: whether its instances begin with a segment of their own or of an instance at one of
-/// their exits.
+/// Per slot: whether its instances begin with a segment, of their own or of an instance at an exit.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
     // Repeats until nothing changes: exits at the entry of their instance form chains, which are
@@ -248,7 +247,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
             }
         });
     };
-    // By instance and part: first the number of indices, later the index of the first in `listed`.
+    // By instance and part: first the number of indices, later the place of the first in `listed`.
     LargeVector<std::uint64_t> index_offsets;
     index_offsets.assign(cache.instances.size() * hero_part_count, 0);
     const auto offsets_of = [&](std::uint64_t instance) {

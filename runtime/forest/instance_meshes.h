@@ -1,6 +1,6 @@
-// InstanceMeshes: the surfaces of a cache's instances. The heroes' common skeleton is meshed once;
-// an instance is a list of its triangles, so that nested instances share vertices. Made by
-// make_instance_meshes(); used by exporters and viewers of forests.
+// InstanceMeshes: the surfaces of the instances of a cache. The common skeleton of the heroes is
+// meshed once; an instance is a list of triangles of this mesh, so nested instances share vertices.
+// Made by make_instance_meshes(); used by exporters and viewers of forests.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
@@ -17,7 +17,7 @@ namespace lsys {
 
 struct InstanceMeshes {
     /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
-    /// Parts: those of the first instance by rising material, then of the next one.
+    /// Parts: the parts of the first instance by ascending material, then of the next instance.
     Mesh mesh;
     std::vector<std::uint32_t> first_part; // by instance, then the number of parts
 
@@ -42,10 +42,10 @@ struct InstanceMeshes {
 
 /// Makes the surfaces of all instances of a cache. A triangle belongs to all instances that contain
 /// its segment, object or polygon. A segment at whose tip a branch is left out ends as if the
-/// branch were there. Leaves droop and bark noise runs as on the heroes. Boxes are joined within an
-/// instance; where an instance begins they are cut, and the closed surface of the branch begins
-/// within its parent. MeshOptions::segments is ignored; max_bytes limits the result. Returns as
-/// make_mesh() does.
+/// branch were drawn. Drooping leaves and bark noise are the same as on the heroes. Boxes are joined
+/// within an instance; where an instance begins they are cut, and the closed surface of the branch
+/// begins within its parent. MeshOptions::segments is ignored; max_bytes limits the result. Returns
+/// the same Stop as make_mesh().
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

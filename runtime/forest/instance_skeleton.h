@@ -1,4 +1,4 @@
-// The skeleton of one instance of a cache, with its own numbering of segments.
+// The skeleton of one instance of a cache, with segments numbered from 0.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
@@ -6,7 +6,7 @@
 namespace lsys {
 
 /// The part of the heroes' skeleton that an instance draws, in the coordinates of the heroes.
-/// Parents outside of it become kNoSegment.
+/// Parents outside of the instance become kNoSegment.
 [[nodiscard]] Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance);
 
 } // namespace lsys

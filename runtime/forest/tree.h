@@ -1,6 +1,6 @@
-// Tree: a plant of a forest as a small record. Its shape is a function of the record, its species'
-// instance cache and the forest's key (docs/language.md section 9); so a forest is an array of
-// trees.
+// Tree: a plant of a forest as a small record. Its shape is a function of the record, the instance
+// cache of its species and the key of the forest (docs/language.md section 9). A forest is an array
+// of trees.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,6 +17,6 @@ struct Tree {
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: last stage of its species
 };
-static_assert(sizeof(Tree) == 28); // without padding: a forest has millions, and bytes are compared
+static_assert(sizeof(Tree) == 28); // no padding, to save memory and since bytes are compared
 
 } // namespace lsys

@@ -1,4 +1,4 @@
-// Trees of a growing forest between two of its years.
+// Trees of a growing forest between two consecutive years.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -12,12 +12,12 @@ namespace lsys {
 /// Height of a tree of scale 1 with the species and age of `tree`, m; 0: unknown.
 using TreeHeight = std::function<float(const Tree& tree)>;
 
-/// The trees at fraction `part` of the way from one year to the next: exactly `before` at 0,
-/// exactly `after` at 1. In between, a tree of both years keeps its age, and its scale changes
-/// linearly to that of the next year; if the next age has another stage, to the scale at which both
-/// stages are equally high, so that only the branches change at the year. New trees grow from scale
-/// 0 and dead trees shrink to 0, both eased by a smoothstep. `before`, `after` and the result are
-/// sorted by Tree::number.
+/// The trees at fraction `part` between two years: exactly `before` at 0, exactly `after` at 1. In
+/// between, a tree that exists in both years keeps its age, and its scale changes linearly to its
+/// scale in the next year. If the next year has another stage, the scale changes to the value at
+/// which both stages are equally high, so that only branches change at the turn of the year. New
+/// trees grow from scale 0 and dead trees shrink to 0, both eased by a smoothstep. `before`, `after`
+/// and the result are sorted by Tree::number.
 [[nodiscard]] LargeVector<Tree> trees_between(std::span<const Tree> before,
                                               std::span<const Tree> after,
                                               double part,

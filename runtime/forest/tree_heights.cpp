@@ -160,8 +160,8 @@ std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
     const auto add = [&](const Part& part) {
         add_points(cache_, part.instance, part.up, part.offset, extent);
     };
-    // The parts with the highest and the lowest box come first, so that the points of few others
-    // have to be read.
+    // The parts with the highest and the lowest box come first, so that few other parts have to be
+    // read.
     add(*std::max_element(parts_.begin(), parts_.end(),
                           [](const Part& a, const Part& b) { return a.high < b.high; }));
     add(*std::min_element(parts_.begin(), parts_.end(),
@@ -223,7 +223,7 @@ size_trees(std::span<const double> heights, std::uint32_t threads, Forest& fores
 }
 
 double tallest_tree(const Forest& forest, std::uint32_t threads) {
-    // Tables of all stages, since a young tree has the height of its own stage.
+    // Tables of all stages, because a young tree has the height of its own stage.
     std::vector<std::vector<HeightTable>> tables;
     for (const ForestSpecies& species : forest.species) {
         std::vector<HeightTable>& stages = tables.emplace_back();

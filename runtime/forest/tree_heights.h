@@ -1,6 +1,6 @@
-// Heights of the trees of a forest: measures of trees that are put together from instances, and the
-// scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
-// after the placement; every height depends on the cache, the forest's key and the tree alone.
+// Heights of the trees of a forest: measures trees that are assembled from instances, and computes
+// the scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
+// after the placement. A height depends only on the cache, the key of the forest and the tree.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -20,7 +20,7 @@ struct HeightTable {
     std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
     /// Heights in m of whole plants without exits; none for other instances.
     std::vector<std::optional<double>> whole;
-    double min_height = 0.0; // m: a lower tree counts as flat
+    double min_height = 0.0; // m; a lower tree counts as flat
 };
 [[nodiscard]] HeightTable make_height_table(const InstanceCache& cache);
 
@@ -32,8 +32,8 @@ public:
         : cache_(cache), table_(table), expander_(cache, key) {}
 
     /// Height in m of tree `number` from its lowest to its highest point: axes of segments, places
-    /// of objects, corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads
-    /// points only of instances whose boxes reach beyond the points known so far.
+    /// of objects, corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads the
+    /// points of an instance only if its box reaches beyond the known points.
     [[nodiscard]] std::optional<double> height_of(std::uint32_t number);
 
 private:
@@ -51,14 +51,13 @@ private:
     std::vector<Part> parts_;
 };
 
-/// Scales a cache: its skeleton, entries and exits. Masses and springs follow as in
-/// scale_plant().
+/// Scales the skeleton, entries and exits of a cache, with masses and springs as in scale_plant().
 void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache);
 
-/// Multiplies the scale of every tree of species s by heights[s] / its height at scale 1, so that
-/// it is scale * heights[s] metres high. Younger trees use the height of their species' last stage.
-/// Scales stay for heights[s] = 0, and for trees that are flat or draw nothing. Returns the first
-/// species with a flat tree, or nullopt. 0 threads: as many as the machine has.
+/// Multiplies the scale of every tree of species s by heights[s] / (height of the tree at scale 1), so
+/// that a tree is scale * heights[s] metres high. Younger trees use the height of the last stage of
+/// their species. Scales stay if heights[s] is 0, and for trees that are flat or draw nothing. Returns
+/// the first species with a flat tree, or nullopt. 0 threads: as many as the machine has.
 [[nodiscard]] std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);
 

@@ -1,4 +1,4 @@
-// The C interface, on top of the C++ one. No exception passes it.
+// The C interface, implemented by the C++ interface. It lets no exception through.
 #include <cstddef>
 #include <lsys.h>
 #include <lsys/export.h>
@@ -111,8 +111,8 @@ void hand_over(const api::Messages& messages, lsys_messages** to) {
     }
 }
 
-/// Calls `work`, hands over its value as a handle, and its messages. Exceptions are a lack of memory:
-/// the library has no others, and functions of C throw none.
+/// Calls `work`; returns its value as a handle, and its messages. Every exception means a lack of
+/// memory: the library throws no other exceptions, and functions of C throw none.
 template <typename Handle, typename Work>
 lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noexcept {
     *value = nullptr;
@@ -131,7 +131,7 @@ lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noe
     }
 }
 
-/// A function of C that takes pieces as one of C++.
+/// Wraps a C function that receives pieces as a C++ function.
 auto piece_writer(int (*write)(void* user, const char* piece, std::size_t size), void* user) {
     return [write, user](std::string_view piece) {
         return write(user, piece.data(), piece.size()) == 0;

@@ -22,7 +22,7 @@ std::optional<ExportFormat> find_format(std::string_view name) {
     return std::nullopt;
 }
 
-/// Why `traits` does not take the options; empty if it does.
+/// The reason why a format does not accept the options; empty if it accepts them.
 std::string find_conflict(const FormatTraits& traits, const ExportOptions& options) {
     if (options.compression != Compression::None && !traits.compresses) {
         return fmt::format("the format {} has no compression", traits.name);

@@ -67,7 +67,7 @@ Diagnostic public_diagnostic(const ::lsys::Diagnostic& diagnostic, const SourceM
     return out;
 }
 
-/// Adds the diagnostics of a message; the help of an error is added to the error.
+/// Adds the diagnostics of a message. The help of an error becomes part of the error.
 void add_message(const Message& message, std::vector<Diagnostic>& all) {
     Diagnostic text;
     text.message = message.text;

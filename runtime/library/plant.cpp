@@ -15,7 +15,7 @@ namespace lsys::v0 {
 
 namespace {
 
-/// A public array is the array of the pipeline, so that nothing is copied.
+/// Views an array of the pipeline as an array of the public type, without a copy.
 template <typename Public, typename Inner>
 std::span<const Public> as(std::span<const Inner> items) {
     static_assert(sizeof(Public) == sizeof(Inner) && alignof(Public) == alignof(Inner));
@@ -24,8 +24,8 @@ std::span<const Public> as(std::span<const Inner> items) {
     return {reinterpret_cast<const Public*>(items.data()), items.size()};
 }
 
-// The layouts of glm and of the skeleton, as plant.h has them. The flags of a segment are bit
-// fields, whose place a test checks.
+// The layouts of glm and of the skeleton must equal the layouts in plant.h. The flags of a segment are
+// bit fields, whose position a test checks.
 static_assert(offsetof(glm::quat, x) == offsetof(Quaternion, x));
 static_assert(offsetof(glm::quat, w) == offsetof(Quaternion, w));
 static_assert(offsetof(::lsys::Segment, frame) == offsetof(Segment, frame));
@@ -88,7 +88,7 @@ Material public_material(const ::lsys::Material& material) {
     return out;
 }
 
-/// Writes the items `first` to `end`, of `size` bytes each, at a distance of `stride` bytes.
+/// Writes the items `first` to `end`, of `size` bytes each, one every `stride` bytes.
 void write_items(const void* from,
                  std::size_t size,
                  std::uint64_t first,

@@ -31,7 +31,7 @@ constexpr double kSafeFactor = 1.04; // margin within both bounds, where possibl
 constexpr double kMaxFactorOfBoxes = 4.5;
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
-constexpr double kEnough = 0.96;           // fraction of the wanted triangles that ends that search
+constexpr double kEnough = 0.96;           // fraction of the wanted triangles that ends the search
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
 constexpr double kAreaWeight = 0.1;   // of the covered area in Planner::difference()
@@ -49,18 +49,18 @@ constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
 constexpr double kLastTriangles = 45.0; // aimed at for the last level, without impostors
 constexpr double kLastCardTriangles = 24.0; // aimed at for the last level, with impostors
-// Max triangles of a level that impostors may follow because the next mesh would look poor.
+// Max triangles of a level that an impostor may follow if the next mesh would look poor.
 constexpr std::uint64_t kMaxBeforePoor = 450;
 // A mesh looks poor if left-out wood lies, on average, more pixels than this from its parent.
 constexpr double kPoorPixels = 0.8;
 constexpr std::uint64_t kMaxBeforeCards = 100; // max triangles of a mesh that only cards may follow
 constexpr std::uint64_t kMinBeforeCards = 20;  // a mesh of at most this many triangles is the last
-constexpr std::uint64_t kMinBeforeFewer = 40;  // the same for cards
+constexpr std::uint64_t kMinBeforeFewer = 40;  // cards of at most this many triangles are the last
 constexpr double kMaxOfCards = 400.0;          // max triangles of an impostor
-constexpr double kCloseCount = 0.04; // relative difference from the planned triangles that is kept
+constexpr double kCloseCount = 0.04; // accepted relative difference from the planned triangles
 constexpr double kNearMax = 1.35; // see Planner::coarser(): ratio to the max triangles of a level
 constexpr int kMaxEqualSteps = 3; // max levels before the end of the chain with equal ratios
-// Multiples of the wanted triangles that are aimed at, one after the other.
+// Factors of the wanted number of triangles, tried one after the other.
 constexpr std::array<double, 6> kParts{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
 constexpr int kRootSteps = 40;
 constexpr int kSeekSteps = 8;
@@ -69,8 +69,8 @@ constexpr int kMaxStraightenings = 48;
 constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
 constexpr int kRestoringTries = 14;
 constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds for their joints
-constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels that get such paths
-constexpr double kFairCount = 0.1;      // kCloseCount with such paths
+constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels to which restore() adds paths
+constexpr double kFairCount = 0.1;      // kCloseCount with added paths
 constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
@@ -110,7 +110,7 @@ bool has_plain_parts(const Mesh& mesh) {
     return true;
 }
 
-/// Gives materials the colours of a level, which then replace those of vertices.
+/// Gives materials the colours of a level, which then replace the colours of vertices.
 void colour_materials(const DetailLevel& level, Mesh& mesh) {
     if ((level.tint == glm::vec3(1.0F) && !level.colour) || !has_plain_parts(mesh)) {
         return;
@@ -197,8 +197,8 @@ public:
         }
         meter_.emplace(mesh_, foliage_mesh_, frame_, options_.threads);
         areas_ = meter_->measure(mesh_, foliage_mesh_, &third_);
-        // From the coarsest level on, since fitting a level needs the unfitted plan of the next
-        // finer one.
+        // Starts with the coarsest level, because fitting a level needs the unfitted plan of the
+        // next finer level.
         for (std::size_t k = levels.levels.size(); --k > 0 && !stop_;) {
             DetailLevel& level = levels.levels[k];
             if (!which[k]) {
@@ -233,9 +233,9 @@ private:
         measure_polygons();
     }
 
-    /// Sets mean_distances_: for each number of paths that stay, the distance in m from wood that is left
-    /// out to its parent, as a mean over all wood. Each path counts as a quarter of its length
-    /// away.
+    /// Sets mean_distances_: for each number of paths that stay, an estimate of the mean distance in m
+    /// of all wood from the wood that stays. The wood of a path that is left out counts with a quarter
+    /// of the length of the path.
     void measure_paths() {
         std::vector<double> areas(order_.path_count());
         std::vector<double> lengths(order_.path_count());
@@ -344,7 +344,7 @@ private:
 
     /// Scales wood and foliage until they cover the same areas as at the finest level, by Broyden's
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
-    /// the areas that they cover. `finer`: the next finer level.
+    /// the covered areas. `finer`: the next finer level.
     VisibleAreas fit_areas(const DetailLevel& finer, DetailLevel& level) {
         const bool is_fixed = !level.thinned && (level.options.method != MeshMethod::Tubes ||
                                                  skeleton_.l3d_compatible_surface);
@@ -358,7 +358,7 @@ private:
         // widths, that of foliage as the square of its size.
         glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
-        bool third = !is_fixed; // measures a third of the views until it is close
+        bool third = !is_fixed; // measures a third of the views until the areas are close
         for (int i = 0; i < kFittingSteps && !stop_; ++i) {
             third = third && i + 2 < kFittingSteps;
             tried.wood_scale = static_cast<float>(scales.x);
@@ -405,9 +405,9 @@ private:
         }
         return result;
     }
-    /// Seeks the axis_error with which `tried` has `wanted` triangles. A try that is nearer than
-    /// `least` becomes `best`, and `least` its difference.
-    void seek_joints(double wanted, double& least, DetailLevel tried, DetailLevel& best) {
+    /// Searches the axis_error with which `tried` has `wanted` triangles. A try that is nearer than
+    /// `min_difference` is stored in `best`, and its difference in `min_difference`.
+    void seek_joints(double wanted, double& min_difference, DetailLevel tried, DetailLevel& best) {
         float low = 0.0F; // an error that leaves too many triangles; `high`: too few
         float high = std::numeric_limits<float>::infinity();
         float& error = tried.options.axis_error;
@@ -415,8 +415,8 @@ private:
             tried.triangles = exact_triangles(tried);
             const auto now = static_cast<double>(tried.triangles);
             const double off = std::abs(now - wanted);
-            if (off < least) {
-                least = off;
+            if (off < min_difference) {
+                min_difference = off;
                 best = tried;
             }
             if (off <= kCloseCount * wanted || !(error > 0.0F)) {
@@ -430,9 +430,9 @@ private:
         }
     }
 
-    /// Restores about the planned number of triangles. Wood loses joints when it is widened, since
-    /// thicker wood may be off by more. It gets them back or, in their place, paths and foliage up
-    /// to those of the level `before`.
+    /// Restores about the planned number of triangles. Widened wood has fewer joints, since thicker
+    /// wood may be off by more. This function adds joints again or, instead of joints, paths and
+    /// foliage up to the numbers of the level `before`.
     void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
@@ -441,16 +441,16 @@ private:
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
-        // Branches that are alike lose their joints at the same error, so some more paths are
-        // tried.
-        const std::uint64_t most =
+        // Equal branches lose their joints at the same error, so adding some paths is tried too.
+        const std::uint64_t max_paths =
             std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
-        double least = std::numeric_limits<double>::infinity();
+        double min_difference = std::numeric_limits<double>::infinity();
         DetailLevel tried = level;
-        for (; tried.paths <= most && !stop_; ++tried.paths) {
+        for (; tried.paths <= max_paths && !stop_; ++tried.paths) {
             tried.options.axis_error = planned.options.axis_error;
-            seek_joints(wanted, least, tried, level);
-            if (least <= (tried.paths == planned.paths ? kCloseCount : kFairCount) * wanted ||
+            seek_joints(wanted, min_difference, tried, level);
+            if (min_difference <=
+                    (tried.paths == planned.paths ? kCloseCount : kFairCount) * wanted ||
                 wanted > kMaxOfPaths) {
                 break;
             }
@@ -527,8 +527,8 @@ private:
         const glm::dvec3 off = glm::abs(tint - 1.0);
         return std::max({off.x, off.y, off.z}) < kCloseTint ? glm::vec3(1.0F) : glm::vec3(tint);
     }
-    /// Difference of two measures: that of the share of wood, which decides the colour, and with
-    /// less weight that of the covered area.
+    /// Difference of two measures: the difference of the share of wood, which decides the colour,
+    /// plus, with less weight, the difference of the covered area.
     static double difference(const VisibleAreas& now, const VisibleAreas& wanted) {
         const double all = std::max(wanted.all(), 1.0);
         return std::abs(now.wood / std::max(now.all(), 1.0) - wanted.wood / all) +
@@ -586,27 +586,27 @@ private:
         return level;
     }
 
-    /// The factor by which the ratio of triangles from a level to the next is beyond its bounds,
-    /// less 1: 0 within them. `safe`: margin within the bounds.
+    /// The factor, minus 1, by which the ratio of triangles from a level to the next exceeds its
+    /// bounds; 0 within the bounds. `safe`: margin within the bounds.
     static double
     ratio_excess(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
-        const double most =
+        const double max_factor =
             before.options.method == MeshMethod::Boxes ? kMaxFactorOfBoxes : kMaxFactor;
         const double factor = static_cast<double>(before.triangles) /
                               std::max(static_cast<double>(next.triangles), 1.0);
-        return std::max({safe * kLowFactor / factor, safe * factor / most, 1.0}) - 1.0;
+        return std::max({safe * kLowFactor / factor, safe * factor / max_factor, 1.0}) - 1.0;
     }
 
     /// The ratio of triangles to the next level with which equal steps lead to the last level.
     double factor_from(double triangles) const {
         const double all = triangles / last_;
         int steps = 1;
-        double most = kMaxFactor; // max ratio of that many steps
+        double max_ratio = kMaxFactor; // max ratio of this many steps
         double usual =
             kUsualFactor * kRootFactor; // above it, one step more is nearer to kUsualFactor
-        while (most < all || usual < all) {
+        while (max_ratio < all || usual < all) {
             ++steps;
-            most *= kMaxFactor;
+            max_ratio *= kMaxFactor;
             usual *= kUsualFactor;
         }
         if (steps > kMaxEqualSteps) {
@@ -658,15 +658,15 @@ private:
                 return rounder;
             }
             wood = static_cast<double>(wood_triangles(base));
-            // Both leave too many triangles: straight wood loses most of its joints at once, so
-            // that no error leaves a part of them. Go on with the smaller of the two.
+            // Both leave too many triangles, because straight wood loses nearly all joints at one
+            // error. Continue with the smaller of the two.
             const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
             if (rounder_wood < wood) {
                 base = rounder;
                 wood = rounder_wood;
             }
         }
-        // Fewer sides of all branches, as long as that alone does not leave too few triangles.
+        // Fewer sides of all branches, unless this alone leaves too few triangles.
         for (std::uint32_t sides = before.options.level;
              sides <= options_.level + kMaxSideLevel && !stop_; ++sides) {
             DetailLevel level = base;
@@ -700,12 +700,12 @@ private:
             make_plain(tubes.options);
             return coarser(tubes);
         }
-        // Items of foliage and branches differ in size, so several numbers of triangles are aimed
-        // at: the first level within the bounds is taken, else the nearest. If little has to be
-        // left out, the aim is the max.
+        // Items of foliage and branches differ in size, so several numbers of triangles are tried:
+        // the first level within the bounds is taken, else the nearest one. If little has to be
+        // left out, the first number tried is the max.
         const double aim = wood + foliage <= kNearMax * max ? max : wanted;
         DetailLevel best = before;
-        double least = std::numeric_limits<double>::infinity();
+        double min_difference = std::numeric_limits<double>::infinity();
         for (const bool fewer_sides : {false, true}) {
             for (const double part : kParts) {
                 DetailLevel level = base;
@@ -713,11 +713,11 @@ private:
                 level = thinner(level, wood, foliage, part * aim);
                 level.triangles = exact_triangles(level);
                 const double off = ratio_excess(before, level, kSafeFactor);
-                if (off < least) {
-                    least = off;
+                if (off < min_difference) {
+                    min_difference = off;
                     best = level;
                 }
-                if (stop_ || least == 0.0) {
+                if (stop_ || min_difference == 0.0) {
                     return best;
                 }
             }
@@ -725,8 +725,8 @@ private:
         return best;
     }
 
-    /// Bisects an option between `low` and `high`, of which larger values leave fewer triangles of
-    /// wood, until these are `min` to `max`. If that fails, they are more.
+    /// Bisects an option between `low` and `high` until wood has `min` to `max` triangles; larger
+    /// values leave fewer triangles. If no value fits, wood has more than `max`.
     void seek(float MeshOptions::*option,
               float low,
               float high,
@@ -783,8 +783,8 @@ private:
         return level;
     }
 
-    /// Leaves out more joints, so that more paths stay, as long as that lowers the mean distance of
-    /// the drawn wood from the plant.
+    /// Leaves out more joints so that more paths stay, while this lowers the mean distance of the
+    /// drawn wood from the plant.
     void straighten_for_paths(DetailLevel& level, double wanted) {
         const auto cost = [this](const DetailLevel& of) {
             return mean_distances_[of.paths] +
@@ -804,7 +804,7 @@ private:
         }
     }
 
-    /// Sets the largest number of paths that have at most `wanted` triangles, at least one.
+    /// Sets the largest number of paths, at least one, that have at most `wanted` triangles.
     void thin_paths(DetailLevel& level, double wanted) {
         std::uint64_t high = level.paths;
         std::uint64_t high_count = wood_triangles(level);
@@ -837,7 +837,7 @@ private:
             straighten(level, wanted);
             return;
         }
-        // The number of paths whose triangles have the ratio to `wanted` that is nearer to 1.
+        // Take the number of paths for which triangles / `wanted` is nearer to 1.
         const bool is_high =
             static_cast<double>(low_count) * static_cast<double>(high_count) < wanted * wanted;
         level.paths = is_high ? high : low;
@@ -869,7 +869,7 @@ private:
     std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_; // of the finest level
-    VisibleAreas third_; // the same by AreaMeter::measure_third()
+    VisibleAreas third_; // of the finest level, by AreaMeter::measure_third()
     Bounds frame_;
     std::uint64_t finest_ = 0;       // triangles
     double last_ = 1.0;              // triangles at the end of the chain
@@ -915,8 +915,8 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
         });
 }
 
-/// Keeps `count` levels, at least 2: the first, the last, and those nearest to equal steps in
-/// between.
+/// Keeps `count` levels, at least 2: the first, the last, and the levels nearest to equal steps
+/// between them.
 void spread_levels(std::size_t count, std::vector<DetailLevel>& levels) {
     if (levels.size() <= count) {
         return;

@@ -1,8 +1,8 @@
 // DetailLevels: a chain of meshes of one plant, each with a half to a third of the triangles of the
 // one before, down to kMinDetailTriangles. The first steps have fewer sides and joints
-// (MeshOptions::level); where these end, whole twigs and leaves are left out and the others
-// enlarged; the last are crossed cards. All that a level keeps, finer levels keep too. Made from
-// the skeleton at rest; the same levels then fit every pose of it.
+// (MeshOptions::level); coarser levels leave out whole twigs and leaves and enlarge the others; the
+// last levels are crossed cards. A finer level keeps every part that a coarser level keeps. Made
+// from the skeleton at rest; the same levels then fit every pose of this skeleton.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -29,14 +29,14 @@ struct DetailLevel {
     MeshOptions options;
     bool thinned = false;      // drawn from a thinned skeleton
     bool impostor = false;     // drawn as cards with pictures of the finest level
-    double cover = 1.0;        // of impostors: area of opaque texels / area of the plant
-    std::uint64_t paths = 0;   // of thinned levels: paths of wood that stay
-    std::uint64_t foliage = 0; // of thinned levels: objects and polygons that stay
-    /// Of thinned levels: factors of the widths of wood and the size of foliage, with which both
-    /// cover what they cover at level 0.
+    double cover = 1.0;        // impostors: area of opaque texels / area of the plant
+    std::uint64_t paths = 0;   // thinned levels: number of paths of wood that stay
+    std::uint64_t foliage = 0; // thinned levels: number of objects and polygons that stay
+    /// Thinned levels: factors of the widths of wood and of the size of foliage. With these factors
+    /// wood and foliage cover the same area of a picture as at level 0.
     float wood_scale = 1.0F;
     float foliage_scale = 1.0F;
-    /// Factor of the linear colours of materials, or of the impostor's picture, that gives the
+    /// Factor of the linear colours of materials, or of the picture of the impostor, that gives the
     /// level the mean colour of level 0. 1 unless DetailChain::pictures is set and each part has
     /// one colour.
     glm::vec3 tint{1.0F};
@@ -44,10 +44,10 @@ struct DetailLevel {
     /// colour of level 0 with a moderate tint.
     std::optional<glm::vec3> colour = std::nullopt;
     std::uint64_t triangles = 0;
-    /// Max size on screen for this level, in pixels of the plant's largest extent. Axes of branches
-    /// may be off by half a pixel then.
+    /// Max size on screen for this level, in pixels of the plant's largest extent. At this size the
+    /// axes of branches may be off by half a pixel.
     float pixels = kFinestPixels;
-    float error = 0.0F; // that half pixel in metres; 0 for the finest level
+    float error = 0.0F; // half a pixel at this size, in metres; 0 for the finest level
 };
 
 inline constexpr std::uint32_t kNoDetailLevel = ~std::uint32_t{0};
@@ -58,12 +58,12 @@ struct DetailChain {
     /// For formats with pictures: the chain ends with an impostor, crossed cards with one picture
     /// and its normals, and materials of coarser levels have colours of their own.
     bool pictures = false;
-    /// Levels from this one on, and the last one, get scales and tints, which takes most of the
-    /// time. kNoDetailLevel: no level does, and fit_detail_levels() has to be called before they
-    /// are meshed.
+    /// Levels from this number on, and the last level, get scales and tints, which takes most of the
+    /// time. kNoDetailLevel: no level gets any, and fit_detail_levels() must be called before the
+    /// levels are meshed.
     std::uint32_t first_fitted = 0;
     /// Max number of levels. A longer chain keeps the finest, the coarsest, and others in about
-    /// equal steps between; one level: the finest.
+    /// equal steps between. 1: the finest level only.
     std::uint32_t count = kMaxDetailLevel + 1;
 };
 
@@ -75,8 +75,8 @@ struct DetailLevels {
 };
 
 /// Plans the levels of `chain`. `options` are those of level 0; no level has a smaller
-/// MeshOptions::level. MeshMethod::Solid has level 0 only. Returns nothing when it is done, else
-/// the Stop of make_mesh().
+/// MeshOptions::level. MeshMethod::Solid has level 0 only. Returns the Stop of make_mesh() on
+/// failure.
 [[nodiscard]] std::optional<Stop> plan_detail_levels(const Skeleton& skeleton,
                                                      const std::vector<UserMesh>& user_meshes,
                                                      const MeshOptions& options,
@@ -93,9 +93,9 @@ struct DetailLevels {
                                                     const std::vector<bool>& which,
                                                     DetailLevels& levels);
 
-/// Makes the mesh of one level from `skeleton`: the planned one or a pose of it. Mesh::segments
-/// refer to `skeleton`. Of `options` only arrays, threads and max_bytes are used; the level sets
-/// the rest. Precondition: number < levels.levels.size().
+/// Makes the mesh of one level from `skeleton`, which is the planned skeleton or a pose of it.
+/// Mesh::segments refers to `skeleton`. Uses only arrays, threads and max_bytes of `options`; the
+/// level sets the rest. Precondition: number < levels.levels.size().
 [[nodiscard]] std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const DetailLevels& levels,

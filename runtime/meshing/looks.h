@@ -15,7 +15,7 @@ namespace lsys {
 struct Texture; // runtime/meshing/texture.h
 struct Material;
 
-/// Of a colour index; what is not set keeps the built-in look.
+/// The look of a colour index. Unset members keep the built-in look.
 struct Look {
     std::optional<glm::vec3> colour;                  // linear
     std::shared_ptr<const Texture> picture = nullptr; // multiplied by the colour
@@ -27,7 +27,7 @@ struct Look {
 
 struct Looks {
     std::map<ItemColour, Look> of_index;
-    std::map<ItemColour, glm::vec3> plain; // colours without pictures: those times mean texels
+    std::map<ItemColour, glm::vec3> plain; // colour times mean texel, for output without pictures
 
     [[nodiscard]] const Look* find(ItemColour colour) const {
         const auto found = of_index.find(colour);
@@ -37,11 +37,12 @@ struct Looks {
 
 /// Adds the look of a colour index.
 void add_look(ItemColour index, Look look, Looks& looks);
-/// Linear value of a part of an sRGB colour, 0 to 1 (IEC 61966-2-1).
+/// Linear value of one component of an sRGB colour, 0 to 1 (IEC 61966-2-1).
 [[nodiscard]] float linear_of_srgb(float part);
 /// The linear colour of an item in formats without pictures, and of vertices. `looks` may be null.
 [[nodiscard]] glm::vec3 plain_colour(const Looks* looks, ItemColour colour);
-/// A colour that looks the same without `looks`, to 1/255 of each part; an index without a look stays.
+/// A colour that looks the same without `looks`, to 1/255 per component; an index without a look
+/// stays.
 [[nodiscard]] ItemColour without_look(const Looks* looks, ItemColour colour);
 /// Gives a material the look of its colour; `looks` may be null.
 void apply_look(const Looks* looks, ItemColour colour, Material& material);

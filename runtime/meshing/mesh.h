@@ -24,7 +24,7 @@ struct Texture; // runtime/meshing/texture.h
 
 enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
 inline constexpr float kBarkRoughness = 0.95F; // of MaterialKind::Bark
-inline constexpr float kRoughness = 0.7F;      // of others
+inline constexpr float kRoughness = 0.7F;      // of the other kinds
 
 /// Appearance of a part of a mesh. Colours are linear RGBA, 0 to 1.
 struct Material {
@@ -36,11 +36,11 @@ struct Material {
     bool textured = false; // by `picture` or, if that is null, material_texture(kind)
     std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
     std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
-    std::optional<float> roughness = std::nullopt;    // not set: that of the kind
-    std::optional<float> translucency = std::nullopt; // 0 to 1; not set: the viewer's by kind
+    std::optional<float> roughness = std::nullopt;    // unset: the roughness of the kind
+    std::optional<float> translucency = std::nullopt; // 0 to 1; unset: the viewer chooses by kind
 };
 
-/// The roughness of a material, or that of its kind.
+/// The roughness of a material, or of its kind if unset.
 [[nodiscard]] inline float roughness_of(const Material& material) {
     return material.roughness.value_or(material.kind == MaterialKind::Bark ? kBarkRoughness
                                                                            : kRoughness);
@@ -59,10 +59,10 @@ using VertexSegments = std::array<std::uint32_t, 2>;
 struct Mesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec3> normals;             // unit length
-    LargeVector<glm::vec2> texture_coordinates; // empty if not asked for
-    LargeVector<glm::vec4> tangents;            // empty if not asked for; w: sign of the bitangent
-    LargeVector<ItemColour> colours;            // of each vertex; empty if not asked for
-    LargeVector<VertexSegments> segments;       // empty if not asked for
+    LargeVector<glm::vec2> texture_coordinates; // empty unless requested
+    LargeVector<glm::vec4> tangents;            // empty unless requested; w: sign of the bitangent
+    LargeVector<ItemColour> colours;            // of each vertex; empty unless requested
+    LargeVector<VertexSegments> segments;       // empty unless requested
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
@@ -79,7 +79,7 @@ struct Mesh {
 
 enum class MeshMethod : std::uint8_t {
     Default,   // Boxes for Skeleton::box_segments, else Tubes
-    Tubes,     // linked tubes along axes, joints shared
+    Tubes,     // tubes along axes with shared rings at joints
     Cylinders, // one closed cylinder per segment (Crankshaw 2019)
     Boxes,     // boxes joined and smoothed by Catmull-Clark subdivision (docs/documents.md, S)
     Solid,     // one closed surface around the union of all parts, for printing
@@ -95,11 +95,11 @@ struct MeshOptions {
     std::uint32_t level = 0;
     /// Sides of every cross-section; 0: those of the skeleton.
     std::uint32_t sides = 0;
-    /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides that
-    /// keep it, at most those of their level. 0: rings have the sides of their level.
+    /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides within
+    /// this distance, at most the sides of their level. 0: rings have the sides of their level.
     float deviation = 0.0F;
-    /// Tubes: metres by which the edge that replaces several joints may miss them, whatever their
-    /// radius. 0: by `level` alone.
+    /// Tubes: max distance in metres of joints from the edge that replaces them, for any radius.
+    /// 0: joints are left out by `level` only.
     float axis_error = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
@@ -108,14 +108,14 @@ struct MeshOptions {
     /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
     /// none.
     float bark_noise = 0.0F;
-    /// Depth of grooves along the stem, as a part of the radius; 0: none. Tubes without `sides`
-    /// then have kGrooveSides, boxes without `subdivisions` kGrooveSubdivisions. A tube has a
-    /// groove for each four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box with fewer
-    /// than two vertices per groove is as thick as grooves leave it on average.
+    /// Depth of grooves along the stem, as a fraction of the radius; 0: none. With grooves, tubes
+    /// without `sides` have kGrooveSides sides, boxes without `subdivisions` kGrooveSubdivisions. A
+    /// tube has one groove per four sides, 3 to 16; a box 2^subdivisions, 4 to 16. A ring or box
+    /// with fewer than two vertices per groove gets the mean thickness of a grooved one.
     float grooves = 0.0F;
     /// Tubes: axes bend along smooth curves through their joints.
     bool smooth_joints = false;
-    /// Bending of leaves by gravity, 0 (none) to 1 (they hang); not set: that of the skeleton.
+    /// Bending of leaves by gravity, 0 (none) to 1 (hanging); unset: Skeleton::leaf_droop.
     std::optional<float> droop = std::nullopt;
     /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for
     /// Skeleton::box_segments and kSubdivisions for others.
@@ -155,8 +155,8 @@ struct UserMesh {
 [[nodiscard]] MeshOptions resolved(const MeshOptions& options, const Skeleton& skeleton);
 
 /// Makes `mesh` from `skeleton`. `user_meshes`: meshes of Skeleton::mesh_files, in order. The
-/// result does not depend on the number of threads. Returns nothing when it is done, else the
-/// reason why the mesh is empty. Limit: more than `max_bytes`; Failed: more than 2^32 - 1 vertices.
+/// result does not depend on the number of threads. On failure returns the reason, and the mesh is
+/// empty. Limit: more than `max_bytes`; Failed: more than 2^32 - 1 vertices.
 [[nodiscard]] std::optional<Stop> make_mesh(const Skeleton& skeleton,
                                             const std::vector<UserMesh>& user_meshes,
                                             const MeshOptions& options,
@@ -167,9 +167,9 @@ struct UserMesh {
 /// Precondition: line < line_count().
 void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
 
-/// Colour of an item (linear RGB) without a `#material`. Of an index: 0 bark, 1 leaf green, 2 to 15 lighter and lighter
-/// greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; then again
-/// from 2.
+/// Linear RGB colour of an item without a `#material`. Indexes: 0 bark, 1 leaf green, 2 to 15 ever
+/// lighter greens, 16 to 24 light brown, red, amber, cream, pink, violet, blue, teal, grey; from 25
+/// on the colours repeat from 2.
 [[nodiscard]] glm::vec3 palette_colour(std::uint32_t index);
 
 } // namespace lsys

@@ -21,9 +21,9 @@ struct SkeletonItem {
 /// item of each vertex. Items are numbered from 0: segments, then polygons, then objects.
 void number_items(Skeleton& skeleton);
 
-/// The item that triangle number `triangle` of make_mesh(skeleton, user_meshes, options) shows; a
-/// triangle between two segments belongs to the segment that carries all its corners. Makes the
-/// mesh again. nullopt: no such triangle, or no memory.
+/// The item of triangle number `triangle` of make_mesh(skeleton, user_meshes, options); a triangle
+/// between two segments belongs to the segment that carries all its corners. Makes the mesh again.
+/// Returns nullopt if there is no such triangle, or no memory.
 [[nodiscard]] std::optional<SkeletonItem> item_of_triangle(const Skeleton& skeleton,
                                                            const std::vector<UserMesh>& user_meshes,
                                                            const MeshOptions& options,

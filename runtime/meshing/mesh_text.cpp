@@ -88,7 +88,7 @@ void append_line(const Mesh& mesh, std::uint64_t line, std::string& text) {
         return;
     }
     line -= mesh.positions.size();
-    // Parts lie one after the other and cover all indices.
+    // Parts are consecutive and cover all indices.
     const auto behind = std::upper_bound(
         mesh.parts.begin(), mesh.parts.end(), 3 * line,
         [](std::uint64_t index, const MeshPart& part) { return index < part.first_index; });

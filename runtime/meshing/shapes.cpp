@@ -33,8 +33,8 @@ ShapePart plain(std::uint16_t palette) {
 }
 
 // --- LEAF
-// An ovate leaf with a stem and a drawn-out tip. Its outline is straight between these points:
-// distance from the base, half the width.
+// An ovate leaf with a stem and a long tip. Its outline is straight between these points: distance
+// from the base, half the width.
 constexpr float kStemLength = 0.12F;
 constexpr float kStemHalfWidth = 0.014F;
 constexpr float kLeafHalfWidth = 0.25F;
@@ -47,7 +47,7 @@ constexpr std::array<std::array<float, 2>, 6> kLeafOutline{{
     {1.0F, 0.0F},
 }};
 
-/// A point of the leaf: its halves rise to a V, and it arches towards its tip.
+/// A point of the leaf, whose halves form a V and which bends down towards its tip.
 glm::vec3 leaf_point(float x, float y) {
     return {x, y, 0.35F * std::abs(x) - 0.12F * y * y};
 }
@@ -122,7 +122,7 @@ Shape make_leaf(std::uint32_t level) {
 // --- FLOWER
 constexpr std::uint32_t kPetals = 5;
 
-/// Across a petal: distance from the axis, height, half the width.
+/// A row of points across a petal: distance from the axis, height, half the width.
 struct PetalRow {
     float radius;
     float y;
@@ -130,7 +130,7 @@ struct PetalRow {
 };
 constexpr PetalRow kPetalBase{0.10F, 0.34F, 0.0F};
 constexpr PetalRow kPetalTip{0.68F, 1.0F, 0.0F};
-// Coarse levels have the last rows, which with the tip reach farthest out.
+// Coarse levels have the last rows, which reach farthest out, like the tip.
 constexpr std::array<PetalRow, 3> kPetalRows{{
     {0.27F, 0.62F, 0.20F},
     {0.46F, 0.83F, 0.29F},

@@ -8,7 +8,7 @@
 //   CUBE        side 1, from y = 0 to 1
 //   DISK        diameter 1, at y = 0, normal +Y
 //
-// At level k > 0 they have fewer triangles and the same bounding box.
+// At level k > 0 shapes have fewer triangles and the same bounding box.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"

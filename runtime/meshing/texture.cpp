@@ -29,7 +29,7 @@ float mix(float a, float b, float t) {
     return a + (b - a) * t;
 }
 
-/// Fractional part of a number. std::floor would take most of the time.
+/// Fractional part of a number, without std::floor, which would take most of the time.
 float fraction(float x) {
     const auto whole = static_cast<float>(static_cast<std::int32_t>(x));
     return x - (whole > x ? whole - 1.0F : whole);
@@ -53,7 +53,7 @@ LatticePosition lattice_position(std::uint32_t texel, std::uint32_t cells) {
 }
 
 /// Value noise (Ebert et al., "Texturing and Modeling", 2003, chapter 2) of `columns` by `rows`
-/// cells at the middles of all texels of the picture, which it tiles.
+/// cells at the middles of all texels; the picture can be tiled.
 class Noise {
 public:
     Noise(std::uint32_t columns, std::uint32_t rows, std::uint32_t layer) {
@@ -105,7 +105,7 @@ private:
     Noise narrow_;
 };
 
-/// Two families of lines that cross make long lozenges; cracks across them are shallow and rare.
+/// Bark: two families of crossing lines form long lozenges; cracks across them are shallow and rare.
 class Bark {
 public:
     /// Height of the bark, 0 in the fissures to 1 on the ridges.

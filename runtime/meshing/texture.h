@@ -36,11 +36,11 @@ inline constexpr std::uint32_t kMaxTextureSide = 16384;
 /// Reads a PNG or JPEG file whose texels take at most `max_bytes`. The error names any other known format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// A normal map is returned unchanged; its mean near (0, 0, 1) identifies it. Any other picture is
-/// a height map, from which normals are computed: white lies `bump` times 2 % of its width above
-/// black.
+/// a height map, from which normals are computed: white is higher than black by `bump` times 2 % of
+/// the width.
 [[nodiscard]] Texture normals_of(const Texture& picture, float bump);
-/// `colour` with the opacity of another picture: its own opacity if it has holes, else its red.
-/// Precondition: both have one size.
+/// `colour` with the opacity of the picture `opacity`: its alpha if it has holes, else its red
+/// channel. Precondition: both have the same size.
 [[nodiscard]] Texture with_opacity(Texture colour, const Texture& opacity);
 /// Whether any texel is less than half opaque.
 [[nodiscard]] bool has_holes(const Texture& texture);

@@ -77,7 +77,7 @@ void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uin
         }
         return;
     }
-    // Goes around both rings at once; the one whose next corner comes first makes the next
+    // Walk around both rings at once; the ring whose next corner comes first makes the next
     // triangle.
     const std::uint32_t high_sides = patch.second_sides;
     std::uint32_t i = 0;

@@ -1,7 +1,7 @@
-// TriangleList: the indices of a mesh, three for each triangle, compressed: regular triangles are
-// stored as bands between rings, and as fans. The indices of a tube would take as much memory as
-// its positions and normals; as bands they take some bytes for a whole axis. Writing memory is most
-// of the cost of a large mesh.
+// TriangleList: the compressed indices of a mesh, three per triangle. Regular triangles are stored
+// as bands between rings, and as fans. Plain indices of a tube take as much memory as its positions
+// and normals; bands take some bytes per axis. This saves time, because writing memory is most of
+// the cost of a large mesh.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -18,7 +18,8 @@
 namespace lsys {
 
 /// Consecutive vertices of a ring from vertex `first` on. With a seam, where the picture begins and
-/// ends, there is one vertex more than sides; without, the first corner is the last too.
+/// ends, there is one vertex more than sides; without a seam, the last side ends at the first
+/// vertex.
 struct RingCorners {
     std::uint32_t first = 0;
     std::uint32_t sides = 0; // at most 255

@@ -554,7 +554,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
         } else if (material == nullptr) {
             // a line of a material that is not wanted
         } else if (ObjName* const file = map_of(kind, *material); file != nullptr) {
-            // Options stand before the name: a word, then its numbers or one more word.
+            // Options precede the name: a keyword, then its numbers or another word.
             while (begin < last && mtl[begin] == '-') {
                 const std::string_view option = next_word();
                 if (option == "-bm" && file == &material->relief) {

@@ -1,6 +1,6 @@
 // Meshes of `#object X "leaf.obj"`: Wavefront OBJ, its geometry (v, vt, vn, f) and the names
-// of its materials (mtllib, usemtl). Other lines are skipped. A mesh that was read has unit
-// normals, indices in range and no triangle without area; its v goes down.
+// of its materials (mtllib, usemtl). Other lines are skipped. The resulting mesh has unit normals,
+// valid indices, no triangle without area, and v that goes down.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -15,8 +15,8 @@
 namespace lsys {
 
 /// Reads the text of an OBJ file, in time linear in its length. Polygons become fans. Corners
-/// without a normal get that of the faces around their vertex, weighted by area. The texture
-/// coordinates of a file without any are empty. At most `max_bytes` are used beside `text`.
+/// without a normal get the mean normal of the faces around their vertex, weighted by area. Texture
+/// coordinates are empty if the file has none. Uses at most `max_bytes` beside `text`.
 [[nodiscard]] Result<UserMesh> read_obj(std::string_view text, std::uint64_t max_bytes);
 
 /// Pictures of a material in a file of materials (MTL); no name: no picture.

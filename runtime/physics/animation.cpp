@@ -26,7 +26,7 @@ class FrameSteps {
 public:
     FrameSteps(PlantPhysics& physics, float frames_per_second, float gust_period)
         : physics_(physics), before_(physics.options()) {
-        // A rounding error above a whole number of steps gives no further step.
+        // Subtracted so that a rounding error above a whole number of steps adds no step.
         const float steps = 1.0F / (frames_per_second * before_.time_step) - 1e-3F;
         count_ = steps > 1.0F ? std::ceil(std::min(steps, 1e6F)) : 1.0F;
         PhysicsOptions between = before_;
@@ -72,12 +72,12 @@ glm::dquat frame_of(const SegmentPlace& place) {
     return glm::normalize(glm::dquat(place.frame));
 }
 
-/// Keeps objects and polygons, which move rigidly with their segments, out of the ground: a segment
-/// whose object would be below y = 0, but is above it at rest, turns up about its base, and what it
-/// carries goes up with it. Where turning is not enough the segment moves up.
+/// Keeps objects and polygons, which move rigidly with their segments, out of the ground. A segment
+/// turns up about its base, with its descendants, if one of its objects is below y = 0 but is above
+/// y = 0 at rest. If turning is not enough, the segment moves up.
 class GroundGuard {
 public:
-    /// `rest`: the plant at rest. `bound`: the pose whose objects the frames move.
+    /// `rest`: the plant at rest. `bound`: the bind pose, relative to which frames move objects.
     GroundGuard(const Skeleton& rest, const Skeleton& bound) {
         std::vector<std::pair<std::uint32_t, glm::dvec3>> found;
         const auto add = [&](std::uint32_t parent, const glm::vec3& still, const glm::vec3& point) {
@@ -143,7 +143,7 @@ private:
         glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
     };
 
-    static constexpr float kRounding = 1e-5F; // m, in the ground, of points that are laid on it
+    static constexpr float kRounding = 1e-5F; // m, depth of points on the ground due to rounding
 
     static glm::vec3 placed(const PlacedObject& object, const glm::vec3& point) {
         return object.position + object.size * (object.frame * point);
@@ -238,11 +238,11 @@ private:
         change.is_made = true;
     }
 
-    std::vector<glm::dvec3> arms_;  // of points, in the axes of their segments
+    std::vector<glm::dvec3> arms_;  // points relative to the base, in the axes of their segments
     std::vector<std::size_t> ends_; // of each segment, the index after its last arm
 };
 
-/// Records all frames; the plant is at the first one already.
+/// Records all frames; the plant must be in the pose of the first frame.
 void record_frames(PlantPhysics& physics, FrameSteps& steps, PlantAnimation& animation) {
     Skeleton pose;
     SegmentPlace* place = animation.places.data();
@@ -277,12 +277,13 @@ double size_of(const Skeleton& plant) {
 double max_distance(const Skeleton& plant,
                     std::span<const SegmentPlace> a,
                     std::span<const SegmentPlace> b) {
-    double most = 0.0;
+    double max_displacement = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Segment& segment = plant.segments[i];
-        most = std::max(most, glm::length(end_of(segment, a[i]) - end_of(segment, b[i])));
+        max_displacement =
+            std::max(max_displacement, glm::length(end_of(segment, a[i]) - end_of(segment, b[i])));
     }
-    return most;
+    return max_displacement;
 }
 
 /// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are

@@ -1,7 +1,7 @@
 // PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
 // polygons move rigidly with their parent segment; without a parent they stand still. With the
-// ground, no end of an object and no corner that is above y = 0 at rest is below it in a frame: the
-// segment that carries it turns up.
+// ground, no end of an object and no corner that is above y = 0 at rest is below y = 0 in a frame:
+// the segment that carries this point turns up.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -46,7 +46,7 @@ struct PlantLoop {
     /// Max distance of an end of a segment between the first and the last frame before they were
     /// blended, as a fraction of the plant's size.
     double mismatch = 0.0;
-    std::uint32_t run_in = 0; // number of loops simulated before the recorded one
+    std::uint32_t run_in = 0; // number of loops simulated before the recorded loop
 };
 
 /// Memory of record_loop() in bytes.
@@ -55,10 +55,10 @@ struct PlantLoop {
 }
 
 /// Records the motion in gusts as a loop: frame `frames` - 1 equals frame 0. The gusts repeat with
-/// the period of the clip. The plant starts at rest in the mean wind and moves until a loop ends
-/// where it began, for at most 30 s or four loops, whichever is longer. The remaining difference is
-/// spread over the clip: it is blended into the loop before it, joint by joint, so that the motion
-/// is smooth at the seam too. Fewer than 3 frames count as 3.
+/// the period of the clip. The plant starts at rest in the mean wind and moves until the start and
+/// the end of a loop agree, for at most 30 s or four loops, whichever is longer. The remaining
+/// difference is removed by blending the clip with the loop before it, joint by joint, so that the
+/// motion is smooth at the seam too. Fewer than 3 frames count as 3.
 [[nodiscard]] PlantLoop
 record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_per_second);
 
@@ -66,7 +66,7 @@ record_loop(PlantPhysics& physics, std::uint32_t frames, float frames_per_second
 /// polygons move rigidly with their parent.
 void pose_at(const Skeleton& rest, std::span<const SegmentPlace> places, Skeleton& out);
 
-/// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at once.
+/// Moves the plant and records a frame every 1 / frames_per_second seconds, the first at time 0.
 /// Between two frames there are equal steps, none longer than the plant's time step.
 /// `frames_per_second` outside 0.1 to 10,000 becomes 24.
 [[nodiscard]] PlantAnimation

@@ -1,21 +1,21 @@
 // Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
-// "Real-time procedural animation of trees". As in both, a segment turns about its base against a
-// spring, moved by weight, wind and a damper, and carries its children. Differences:
+// "Real-time procedural animation of trees". As in both works, a segment turns about its base against
+// a spring and a damper, moved by weight and wind, and carries its children. Differences:
 // - Hooke's torque is -k d - c w with the relative angular velocity w. The thesis prints + for the
 //   damper, which would add energy.
 // - Wind is a velocity in m/s. Its force on a segment is 1/2 rho C A |v| v: v is the velocity of
-//   the air relative to the segment, A the area that faces it. Torque is lever x force as in the
-//   thesis. So still air slows motion down.
+//   the air relative to the segment, A the area that faces the wind. Still air therefore slows
+//   motion down. Torque is lever x force as in the thesis.
 // - The weight and the inertia of the crown act on the trunk: all joints are solved together.
 //
-// A step is implicit (impl/joints.cpp), which alone does not prove stability: rotations are not
-// linear, and centrifugal terms are explicit. So a step is also checked. Let E be the allowed
-// energy, at first the energy at the start.
+// A step is implicit (impl/joints.cpp), which does not suffice to prove stability: rotations are not
+// linear, and centrifugal terms are explicit. So a step is also checked. Let E be the allowed energy,
+// initially the energy at the start.
 //   1. Take the solved motion for the whole step, else for a quarter, a sixteenth ... of it: the
 //      first part whose potential energy V (springs and weight) is at most E.
 //   2. If there is none, stand still in this step: V, which is at most E, does not change.
-//   3. Scale velocities down, if need be, so that V + kinetic energy is at most E.
-//   4. Set E to that sum.
+//   3. If V + kinetic energy exceeds E, scale velocities down so that the sum equals E.
+//   4. Set E to this sum.
 // Kinetic energy is never negative, so V + kinetic energy never grows, for any grammar and any
 // error of the solver; with wind, it grows by no more than the work of the wind. Sums of doubles
 // are exact up to rounding: V may exceed E by 1e-12 of the magnitudes of its terms, but not by more
@@ -30,18 +30,18 @@
 // With LoadRule::Own a joint moves as if its segment stood alone on its parent; V counts weights
 // at bases that stand still. settle() then solves joint by joint, from the root to the tips.
 //
-// settle() takes long steps, each from standstill and without dampers. Each lowers the energy. Near
-// the end, steps use more of the true second derivative of the energy; the last ones are Newton's
-// method, which doubles the number of correct digits per round. On the ground it leaves friction
-// out, and stops where friction would hold the plant.
+// settle() takes long steps, each from standstill and without dampers. Each step lowers the energy.
+// Near the end, steps use more of the true second derivative of the energy; the last steps are
+// Newton's method, which doubles the number of correct digits per round. settle() leaves out the
+// friction of the ground, and stops where friction would hold the plant.
 //
 // A large plant that falls settles in stages (nested iteration; Trottenberg et al. 2001, section
-// 2.6): first its main branches, which bear their twigs as loads, or a long curve as a chain of
-// rigid pieces (impl/coarse.h), then more and more of it, each from where the stage before lies. So
-// the rounds that find where the branches go cost little, and few are left for all bodies. The pose
-// that the last stage begins with may have more energy than the plant had, as its twigs have not
-// moved yet; if so much is left when the plant rests, it goes back and settles without stages. So
-// the energy does not grow.
+// 2.6): first its main branches, with twigs as loads, or a long curve as a chain of rigid pieces
+// (impl/coarse.h), then more and more of the plant. Each stage starts from the pose of the stage
+// before. So most rounds, which find the final direction of branches, are cheap, and few rounds move
+// all bodies. The start of the last stage may have more energy than the plant had before, as the
+// twigs have not moved yet. If the energy is still higher at rest, settle() discards the result and
+// settles without stages, so that the energy does not grow.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/coarse.h"
@@ -64,40 +64,40 @@ namespace {
 
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
-constexpr int kTrials = 12;              // max shares of a step that are tried
-constexpr int kInexactTrials = 2;    // with Forces::exactness: a later round has safer derivatives
+constexpr int kTrials = 12;              // max number of shares of a step that are tried
+constexpr int kInexactTrials = 2;    // kTrials with Forces::exactness; later rounds are less exact
 constexpr double kTrialShare = 0.25; // factor from one share to the next
 constexpr double kRounding = 1e-12;  // relative to Energies::potential_magnitude
-constexpr double kRestStep = 1e6;    // s, step of settle(), so long that inertia does not matter
-// A plant that slides in settle() is at rest when friction with this coefficient, less than that of
-// ice, would stop it: the energy lost and the friction of about the last ten rounds are compared.
-// kRememberedShare is the weight of older rounds, per round.
+constexpr double kRestStep = 1e6;    // s, step of settle(), for which inertia is negligible
+// A plant that slides in settle() is at rest when friction with this coefficient, lower than for ice,
+// would stop it: the lost energy and the friction of about the last ten rounds are compared. Each
+// round multiplies the weight of older rounds by kRememberedShare.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
-// The same for a stage of settle() with many bodies, whose main branches lie already: a fifth of
-// kFriction, half of it for the last stage, and the last three rounds. A heap that a long curve falls
-// to goes on rolling and sliding a little, which friction holds.
+// The criterion of rest for a stage of settle() with many bodies, whose main branches already lie on
+// the ground: a fifth of kFriction, for the last stage a half, over the last three rounds. A long
+// curve falls into a heap that continues to roll and slide a little, which friction would stop.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;
 constexpr double kLastStageFriction = 0.25;
 constexpr std::size_t kStageRounds = 3;
-// A plant falls, so that stages pay, if a round of the first ones turns a body so far, or if it
-// does not rest after so many.
+// A plant counts as falling, so that stages pay off, if one of the first kFallingRounds rounds turns
+// a body by kFallingTurn, or if the plant is not at rest after these rounds.
 constexpr double kFallingTurn = 0.3; // rad
 constexpr std::uint32_t kFallingRounds = 12;
-// Max rounds of a stage but the last: as many as move each body of the plant so often, within
-// limits.
+// Max rounds of all stages except the last: as many as cost kStageWork rounds of the whole plant, at
+// most kMaxStageRounds.
 constexpr std::size_t kStageWork = 8;
 constexpr std::size_t kMaxStageRounds = 200;
 
 /// Weight of the upper bounds of the second derivatives in a round of settle(), from 0 to 1:
-/// 1 - Forces::exactness. Lowered after steps that were taken whole, raised after a shortened step.
-/// If the step after a lowering was shortened, the next lowering waits for more whole steps.
+/// 1 - Forces::exactness. Lowered after complete steps, raised after a shortened step. If the step
+/// after a lowering was shortened, the next lowering waits for more complete steps.
 class BoundWeight {
 public:
     [[nodiscard]] double value() const { return value_; }
 
-    /// `whole`: whether the step of the last round was taken whole.
+    /// `whole`: whether the last round made a complete step.
     void update(bool whole) {
         if (whole) {
             patience_ = was_lowered_ ? 1 : patience_;
@@ -118,12 +118,12 @@ private:
     static constexpr double kMin = 1e-3; // min value other than 0
     static constexpr int kMaxPatience = 16;
     double value_ = 1.0;
-    int whole_steps_ = 0;      // steps taken whole since the value changed
-    int patience_ = 1;         // steps taken whole before the value is lowered
+    int whole_steps_ = 0;      // complete steps since the value changed
+    int patience_ = 1;         // complete steps before the value is lowered
     bool was_lowered_ = false; // whether the value was lowered in the last round
 };
 
-/// Energy lost in the last rounds of settle() against the friction of the ground.
+/// Compares the energy lost in the last rounds of settle() with the friction of the ground.
 class RecentRounds {
 public:
     /// `has_many_bodies`: whether this is a stage after the first, with at least kManyBodies bodies;
@@ -160,7 +160,7 @@ private:
     bool has_many_bodies_;
     double stage_friction_;
     double energy_loss_ = 0.0; // J, decaying sum over all rounds
-    double slide_ = 0.0;       // J, the same of Energies::slide
+    double slide_ = 0.0;       // J, decaying sum of Energies::slide
     Last energy_losses_{};     // J, of the last rounds that moved the plant
     Last slides_{};            // J, of the same rounds
     std::size_t count_ = 0;
@@ -187,9 +187,9 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
-/// The rotation at rest of a body whose joint bears nothing but the body, on a parent with rotation
-/// `start`. Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x),
-/// where a is the angle between c and F. There is one root from 0 to a.
+/// The rotation at rest of a body whose joint bears only the body, on a parent with rotation `start`.
+/// Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x), where a is the
+/// angle between c and F. There is one root from 0 to a.
 glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Forces& forces) {
     constexpr int kHalvings = 60;
     constexpr int kWindRounds = 40; // the drag depends on the rotation
@@ -205,24 +205,24 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
         if (!(size > 0.0) || !std::isfinite(size)) {
             return start;
         }
-        const double most = glm::length(centre) * glm::length(force);
+        const double max_torque = glm::length(centre) * glm::length(force);
         const double whole = std::atan2(size, glm::dot(centre, force));
         double low = 0.0;
         double high = whole;
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (low + high);
-            (body.spring * middle < most * std::sin(whole - middle) ? low : high) = middle;
+            (body.spring * middle < max_torque * std::sin(whole - middle) ? low : high) = middle;
         }
         turn = glm::normalize(rotation_of(low / size * torque) * start);
     }
     return turn;
 }
 
-/// A period in s: `own`, or with a positive `period` about that, but a whole fraction of `period`.
+/// A period in s: `own`, or with a positive `period` the whole fraction of `period` nearest to `own`.
 double part_of(double period, double own) {
     return period > 0.0 ? period / std::max(std::round(period / own), 1.0) : own;
 }
-/// A smooth function of time from -1 to 1, 0 at time 0. It repeats after `period`, if that is
+/// A smooth function of time from -1 to 1, 0 at time 0. It repeats after `period` if `period` is
 /// positive.
 double gust_at(double time, double period) {
     const double turns = 2.0 * std::numbers::pi * time;
@@ -296,7 +296,8 @@ struct PlantPhysics::State {
     Workers workers;
     PlantBodies plant;
     double time = 0.0;
-    double energy = 0.0; // J, the energy allowed: that of the plant up to rounding, never less
+    double energy =
+        0.0; // J, the allowed energy: the energy of the plant or, by rounding, a little more
 
     /// Computes poses, velocities and energy from the current motion.
     void update_energy() {
@@ -308,13 +309,13 @@ struct PlantPhysics::State {
     }
 
     struct Step {
-        double share = 0.0;       // part of the solved motion that was taken
-        double turn = 0.0;        // rad, max of the whole solved motion
+        double share = 0.0;       // share of the solved motion that was made
+        double turn = 0.0;        // rad, max rotation of the complete solved motion
         double energy_loss = 0.0; // J, decrease of the energy plus the work done by the wind
         double slide = 0.0;       // J, work of the ground friction
     };
-    /// Moves the plant to rest where each joint bears its own segment only: joint by joint, from
-    /// the root to the tips.
+    /// Moves the plant to rest if each joint bears its own segment only: joint by joint, from the
+    /// root to the tips.
     void settle_own_loads() {
         const std::vector<Body>& bodies = plant.rest.bodies;
         plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
@@ -373,10 +374,10 @@ struct PlantPhysics::State {
 
     enum class End { Rest, Falling, OutOfRounds };
     struct Rounds {
-        std::uint32_t left = 0;         // max rounds that may still be made
+        std::uint32_t left = 0;         // remaining rounds
         bool starts_from_stage = false; // the first pose is the result of a coarser stage
         bool is_last = false;           // no stage follows
-        bool stop_falling = false;      // ends with End::Falling when the plant falls
+        bool stop_falling = false;      // ends with End::Falling if the plant falls
     };
     /// Makes rounds of settle() and subtracts them from `rounds.left`.
     End make_rounds(Forces current_forces, double tolerance, Rounds& rounds) {
@@ -387,7 +388,7 @@ struct PlantPhysics::State {
         for (std::uint32_t round = 0; rounds.left > 0; ++round) {
             const Step made = advance(current_forces, false);
             --rounds.left;
-            // In the first round of a stage the twigs fall that the coarser stages left out.
+            // The first round of a stage is excluded: twigs fall that coarser stages left out.
             if (!(rounds.starts_from_stage && round == 0)) {
                 recent.add(made.share, made.energy_loss, made.slide);
             }
@@ -403,7 +404,7 @@ struct PlantPhysics::State {
         return End::OutOfRounds;
     }
 
-    /// Poses of all bodies when the plant has settled in stages; the state does not change.
+    /// Poses of all bodies after the plant has settled in stages; the state does not change.
     [[nodiscard]] std::vector<BodyPose> settled_in_stages(const std::vector<CoarsePlant>& stages,
                                                           const Forces& current_forces,
                                                           double tolerance) {
@@ -417,8 +418,8 @@ struct PlantPhysics::State {
             plant = plant_of(stage.bodies);
             plant.poses = coarse_poses(stage, poses);
             update_energy();
-            const std::size_t most = kStageWork * whole.poses.size() / plant.poses.size();
-            Rounds rounds{.left = static_cast<std::uint32_t>(std::min(most, kMaxStageRounds)),
+            const std::size_t max_rounds = kStageWork * whole.poses.size() / plant.poses.size();
+            Rounds rounds{.left = static_cast<std::uint32_t>(std::min(max_rounds, kMaxStageRounds)),
                           .starts_from_stage = &stage != &stages.front()};
             make_rounds(current_forces, tolerance, rounds);
             spread_poses(stage, plant.poses, poses);
@@ -432,7 +433,7 @@ struct PlantPhysics::State {
         return poses;
     }
 
-    /// settle() with LoadRule::Carried, from standstill.
+    /// Implements settle() for LoadRule::Carried, from standstill.
     bool come_to_rest(const Forces& current_forces, double tolerance, std::uint32_t max_rounds) {
         const bool may_fall = plant.poses.size() >= kMinCoarsened;
         Rounds rounds{.left = max_rounds, .stop_falling = may_fall};

@@ -4,8 +4,8 @@
 //
 // Guarantees: all values are finite, for any skeleton; without wind the energy never grows,
 // for any springs, masses, lengths and time step; results are the same for any number of threads.
-// The comment at the top of physics.cpp describes a step and proves this. With the ground, no end
-// of a segment, object or corner is below y = 0 unless it is below y = 0 at rest.
+// The comment at the top of physics.cpp describes a step and proves the guarantees. With the ground,
+// no end of a segment, object or corner is below y = 0 unless it is below y = 0 at rest.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -27,42 +27,42 @@ struct Wind {
     friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-/// Values that are not finite count as 0, and so do negative ones except of gravity and velocity.
+/// Values that are not finite count as 0; negative values, except gravity and velocity, too.
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
-    /// Time in s after which gusts repeat: their two periods, 3.1 s and 1.3 s, become about as long
-    /// whole fractions of it. 0: the periods stay.
+    /// Time in s after which gusts repeat: their two periods, 3.1 s and 1.3 s, are changed to the
+    /// nearest whole fractions of this time. 0: the periods stay.
     float gust_period = 0.0F;
     float damping = 1.0F;           // N m s/rad, of every joint
     float time_step = 1.0F / 60.0F; // s, 1e-6 to 10; not finite: 1/60
     float air_density = 1.225F;     // kg/m^3; 0: neither wind nor drag
     float surface_mass = 0.2F;      // kg/m^2, of leaves, flowers, other objects and polygons
     LoadRule load = LoadRule::Carried;
-    bool ground = true; // the plane y = 0 holds parts that are above it at rest, and brakes them
+    bool ground = true; // the plane y = 0 supports, with friction, parts that are above it at rest
     std::uint32_t threads = 0; // 0: as many as the machine has
 };
 
 class PlantPhysics {
 public:
-    /// The springs are relaxed in `rest`, from which the plant starts at standstill.
+    /// The springs are relaxed in `rest`. The plant starts in this pose, at standstill.
     PlantPhysics(const Skeleton& rest, const PhysicsOptions& options);
     ~PlantPhysics();
     PlantPhysics(const PlantPhysics&) = delete;
     PlantPhysics& operator=(const PlantPhysics&) = delete;
 
-    /// Replaces the options but `threads`; the motion goes on.
+    /// Replaces the options except `threads`; the motion continues.
     void set(const PhysicsOptions& options);
     /// The options in use, after corrections.
     [[nodiscard]] const PhysicsOptions& options() const;
 
-    /// One time step.
+    /// Makes one time step.
     void step();
     /// Moves the plant to its state of rest in steady wind, at standstill; time() does not change.
-    /// Returns whether it came to rest within `max_rounds`: no segment had more than `tolerance`
-    /// (radians) to turn, or friction on the ground would hold the plant. A plant of 2,000 segments
-    /// or more that falls settles in stages, which `max_rounds` does not count: its main branches
-    /// or, of a long curve, large pieces first.
+    /// Returns whether the plant came to rest within `max_rounds`: in the last round no segment
+    /// turned by more than `tolerance` radians, or friction on the ground would hold the plant. A
+    /// plant of 2,000 segments or more that falls settles in stages, not counted by `max_rounds`:
+    /// first its main branches or, if it is a long curve, its large pieces.
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Returns the plant to rest, at time 0.
     void reset();
@@ -71,8 +71,8 @@ public:
     /// Kinetic and potential energy in J; 0 in the rest pose at standstill.
     [[nodiscard]] double energy() const;
     [[nodiscard]] const Skeleton& rest() const;
-    /// The bent plant: `out` is the skeleton at rest with other bases, frames, positions and
-    /// corners. Parts that have not moved are exactly as at rest.
+    /// Writes the bent plant to `out`: the skeleton at rest with changed bases, frames, positions
+    /// and corners. Parts that have not moved have exactly their values at rest.
     void pose(Skeleton& out) const;
 
 private:
@@ -80,8 +80,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Max rounds of settle() for a plant of this many segments: 3,000,000 over that number, but 10,000
-/// at most and 30 at least. Plants of 100,000 segments need some 20, about 2 s of a core.
+/// Max rounds of settle() for a plant of this many segments: 3,000,000 / segments, but at most 10,000
+/// and at least 30. Plants of 100,000 segments need about 20 rounds, 2 s of a core.
 [[nodiscard]] std::uint32_t settle_rounds(std::size_t segments);
 
 } // namespace lsys

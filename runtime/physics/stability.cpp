@@ -1,11 +1,11 @@
 // Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
 // derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints and w . G w of the
 // weight, which has no coupling between bodies (see impl/joints.cpp). G is -m g y about the level
-// axes, where m is the mass of a body's load and y its height above the body's base: a load to the
-// side bends a plant but never makes it buckle, a load above does. Elimination from the tips to the
-// root, P = k + G + sum of R of the children, R = k - k P^-1 k, finds whether the sum is positive
-// definite: it is if each P is (Sylvester). Bisection over the multiple of the weight gives the
-// factor.
+// axes, where m is the mass of the load of a body and y its height above the base of the body: a load
+// to the side bends a plant but never makes it buckle, a load above can. Elimination from the tips to
+// the root, P = k + G + sum of R of the children, R = k - k P^-1 k, tests whether the sum is positive
+// definite: it is if every P is positive definite (Sylvester). Bisection over the multiple of the
+// weight gives the factor.
 #include "runtime/physics/stability.h"
 
 #include "runtime/physics/impl/bodies.h"
@@ -40,7 +40,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
         sum.add_diagonal(body.spring);
         if (sum.trace() <= 0.0 || !is_positive(sum)) {
             if (sum.trace() == 0.0 && body.spring == 0.0 && body.mass == 0.0) {
-                continue; // nothing to bear
+                continue; // no load
             }
             return false;
         }
@@ -161,10 +161,10 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
         return 1.0;
     }
     const bool widens = way == Stiffening::Widths;
-    const double most = widens ? 1e3 : kMaxFactor;
+    const double max_factor = widens ? 1e3 : kMaxFactor;
     const double buckling = stability_of(rest, options).load_factor;
     double low = 1.0;
-    if (buckling > 0.0 && buckling < 1.0) { // the plant buckles with any smaller factor
+    if (buckling > 0.0 && buckling < 1.0) { // with a smaller factor the plant buckles
         low = widens ? std::pow(buckling, -0.5) : 1.0 / buckling;
     }
     const double growth = widens ? 1.3 : 2.0;
@@ -172,7 +172,7 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
     while (!stands(high)) {
         low = high;
         high *= growth;
-        if (!(high <= most)) {
+        if (!(high <= max_factor)) {
             return std::nullopt;
         }
     }

@@ -1,4 +1,4 @@
-// Stability: whether a plant bears its own weight, and the stiffness or width with which it would.
+// Stability: whether a plant bears its own weight, and the stiffness or width that it needs for this.
 // For reports and warnings; the simulation does not use it.
 #pragma once
 
@@ -10,34 +10,33 @@
 
 namespace lsys {
 
-/// Min height under its weight, relative to the height at rest, with which a plant counts as
-/// standing.
+/// Min height of a plant under its weight, relative to its height at rest, that counts as standing.
 inline constexpr double kStandingHeight = 0.7;
 
 struct Stability {
     /// Multiple of its weight at which the plant buckles from its pose at rest: the smallest
-    /// generalised eigenvalue of the stiffness of joints and of weight. Infinite without weight, or
-    /// if the whole plant hangs; below 1 the plant does not stand.
+    /// generalised eigenvalue of the stiffness matrices of joints and weight. Infinite without
+    /// weight, or if the whole plant hangs; below 1 the plant does not stand.
     double load_factor = 0.0;
     /// Multiple of its weight at which the trunk alone buckles, as a column of constant width:
-    /// 7.837 E I / (w l^3) with mean E I and weight per length w (Greenhill 1881). None for a trunk
-    /// without weight or length, or with LoadRule::Own, where no joint carries the trunk above it.
+    /// 7.837 E I / (w l^3) with mean E I and weight w per length (Greenhill 1881). None for a trunk
+    /// without weight or length, or with LoadRule::Own, because then no joint carries the trunk above.
     std::optional<double> trunk_factor;
     double trunk_length = 0.0; // m
     double trunk_width = 0.0;  // m, mean diameter
 };
-/// Measures the skeleton; the trunk is that of the first plant. A further segment without a parent
+/// Measures the skeleton; trunk values are for the first plant. Each further segment without a parent
 /// begins another plant. Linear time.
 [[nodiscard]] Stability stability_of(const Skeleton& rest, const PhysicsOptions& options);
 
-/// Height of the highest point above the first segment's base under weight and wind, relative to
-/// that at rest; 1 for a plant without height. Settles in at most `max_rounds` rounds.
+/// Height of the highest point above the base of the first segment under weight and wind, relative to
+/// this height at rest; 1 for a plant without height. Settles in at most `max_rounds` rounds.
 [[nodiscard]] double
 bent_height(const Skeleton& rest, const PhysicsOptions& options, std::uint32_t max_rounds);
 
 enum class Stiffening : std::uint8_t {
-    Springs, // springs times the factor
-    Widths   // radii times the factor, springs times its 4th power, masses times its square
+    Springs, // multiplies springs by the factor
+    Widths   // multiplies radii by the factor, springs by its 4th power, masses by its square
 };
 [[nodiscard]] Skeleton stiffened(const Skeleton& rest, Stiffening way, double factor);
 /// The smallest factor, within 20 %, with which the plant stands (kStandingHeight); 1 if it already
@@ -46,7 +45,7 @@ enum class Stiffening : std::uint8_t {
 [[nodiscard]] std::optional<double>
 standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening way);
 
-/// Whether the spring of each segment follows from its width, length and `elasticity`.
+/// Whether the spring of each segment is the value computed from its width, length and `elasticity`.
 [[nodiscard]] bool has_automatic_springs(const Skeleton& rest, double elasticity);
 
 } // namespace lsys

@@ -287,7 +287,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
-        // With a pipe model branches are not shared, so every hero is complete, with all its tips.
+        // With a pipe model branches are not shared, so every hero has all its tips.
         if (const std::optional<Stop> stop =
                 apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
                            stage.cache.skeleton)) {

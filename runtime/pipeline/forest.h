@@ -1,5 +1,5 @@
-// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
-// the heroes of each species, places the trees.
+// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws the
+// heroes of each species, and places the trees.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -33,7 +33,7 @@ struct LoadedScene {
 struct AxiomPlace {
     SourceSpan span;
     std::shared_ptr<const SourceMap> sources; // of `span`
-    /// A note has already said that its plants are equal, or that no branch can be replaced.
+    /// Whether a note has been given that the plants are equal, or that no branch can be replaced.
     bool is_noted = false;
 };
 
@@ -54,8 +54,8 @@ struct GrownForest {
     double place_seconds = 0.0;
 };
 
-/// A forest whose parts grow_species() reuses: heroes of species with equal values, and pictures of
-/// the ground with equal paths, even if the files have changed since. Null: no previous forest.
+/// A forest from which grow_species() reuses heroes of species with equal values, and pictures of the
+/// ground with equal paths, even if the files have changed. Null: no previous forest.
 struct PreviousForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;

@@ -1,5 +1,5 @@
-// ForestGrowth: a forest at any moment of its growth. A forest placed by domination grows by years.
-// In other placements, whose trees have stages, a year is one stage.
+// ForestGrowth: computes a forest at any moment of its growth. With domination a forest grows by
+// years; with other placements, whose trees have stages, a year is one stage.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -17,7 +17,7 @@ public:
     /// Starts with the seedlings of year 0, or without domination with the trees of `grown` at
     /// their first stages. `scene` and the terrain of `grown` must outlive the growth.
     /// Precondition: the trees of `grown` are placed. Stop::Failed: the trees have no stages, or
-    /// errors of Domination::begin().
+    /// Domination::begin() failed.
     [[nodiscard]] static Outcome<ForestGrowth>
     begin(const Scene& scene, const GrownForest& grown, const Project& project);
     ~ForestGrowth();
@@ -27,10 +27,10 @@ public:
     /// The last year: last_year() of the scene. If trees have stages, it is the year in which the
     /// last tree reaches its last stage.
     [[nodiscard]] std::uint32_t last_year() const;
-    /// Advances to `moment` and writes its trees to `trees`, painting applied. At whole years they
-    /// are those of place_forest() with that number of years, between years those of
-    /// trees_between(). An earlier year than before starts again at year 0. Precondition: `moment`
-    /// is not after last_year().
+    /// Advances to `moment` and writes its trees to `trees`, with painting applied. At whole years
+    /// the trees equal the result of place_forest() with this number of years, between years the
+    /// result of trees_between(). A year earlier than before restarts at year 0. Precondition:
+    /// `moment` is not after last_year().
     [[nodiscard]] Outcome<void> trees(const GrowthMoment& moment,
                                       const TreeHeight& height_of,
                                       const Project& project,

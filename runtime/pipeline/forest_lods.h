@@ -1,6 +1,6 @@
-// ForestLods: a forest of whole heroes, each tree with the level of detail that its distance from a
-// viewpoint asks for. A level of a species is a species of its own, so that writers of forests need
-// not know of levels. Made by make_forest_lods(); used by the command line.
+// ForestLods: a forest of whole heroes, in which each tree has the level of detail for its distance
+// from a viewpoint. Each level of a species becomes a species of its own, so that writers of forests
+// need no code for levels. Made by make_forest_lods(); used by the command line.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -20,15 +20,15 @@ namespace lsys {
 struct ForestLods {
     Forest forest;                                   // a species per level: "pine LOD2", ...
     std::vector<std::vector<InstanceMeshes>> meshes; // by species and stage, as of mesh_forest()
-    glm::vec3 viewpoint{};                           // m; distances are measured from it
+    glm::vec3 viewpoint{};                           // m, the origin of distances
 };
 
 /// Gives each tree the coarsest level whose DetailLevel::pixels its size on screen does not exceed,
 /// in a view with a vertical field of view of 60 degrees and 1,080 lines from `viewpoint`. The
 /// default viewpoint lies outside the forest: with h the height of the tallest tree, 3.5 h from the
-/// outermost tree and 2 h above its foot. Levels are those of plan_detail_levels(), the last one an
-/// impostor. Precondition: `grown` has been grown with rho 0, so that each tree is a hero, and its
-/// trees are placed. Stops as mesh_forest() does.
+/// outermost tree and 2 h above the foot of this tree. Levels are made by plan_detail_levels(); the
+/// last level is an impostor. Precondition: `grown` has been grown with rho 0, so that each tree is a
+/// hero, and its trees are placed. Stops as mesh_forest().
 [[nodiscard]] Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                                                    const MeshOptions& options,
                                                    std::optional<glm::vec3> viewpoint,

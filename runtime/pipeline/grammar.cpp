@@ -65,7 +65,7 @@ Result<Dialect> dialect_of(const std::string& path,
     }
     const DetectedDialect detected = detect_dialect(shown_path(path), bytes);
     if (!detected.dialect) {
-        // The front end says which language it is, and what its lines are here.
+        // The front end reports the language, and the .lsys form of its lines.
         const bool is_explained = is_standard_input(path) || is_foreign_notation(bytes);
         return is_explained ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
     }

@@ -1,4 +1,4 @@
-// Grammar: from a file to checked bytecode. Reads the file and its includes, parses, compiles.
+// Grammar: a file as checked bytecode. Reads the file and its includes, parses and compiles them.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -31,7 +31,7 @@ struct GrammarOptions {
     /// Values that replace the `#set` statements with the same keys; each key at most once.
     std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // replaces #n
-    bool part = false; // the file is for `#include`: it is only checked, and gets no bytecode
+    bool part = false; // the file is for `#include`: it is checked but not compiled to bytecode
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };
@@ -64,12 +64,12 @@ struct CompiledText {
     std::optional<Error> definition_error; // a -D that names no constant
 };
 
-/// `path` as messages show it. Standard input is shown as `<stdin>` or under its given name.
+/// `path` as printed in messages. Standard input is printed as `<stdin>` or as its given name.
 [[nodiscard]] std::string shown_path(const std::string& path);
 /// A path that means standard input and makes paths in the grammar relative to `folder`:
 /// `FOLDER/<stdin>`. `-` if `folder` is empty.
 [[nodiscard]] std::string standard_input_in(const std::string& folder);
-/// A path that means standard input, is shown as `name`, and makes paths in the grammar relative to
+/// A path that means standard input, is printed as `name`, and makes paths in the grammar relative to
 /// the folder of `name`. `-` if `name` is empty.
 [[nodiscard]] std::string standard_input_as(const std::string& name);
 /// Whether `path` is `-`, or one of standard_input_in() and standard_input_as().

@@ -220,7 +220,7 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
         species.cache.heroes = 1; // with one hero there are no notes on variety
         species.rho = species.written.rho ? species.rho : 0.0F;
     }
-    Step quiet(project); // messages are dropped: growing the forest gives them again
+    Step quiet(project); // its messages are dropped, since growing the forest repeats them
     GrownForest grown;
     if (!quiet.take(grow_species(cheap, project, {}), grown) ||
         !quiet.take(place_forest(cheap.scene, project, grown))) {
@@ -329,7 +329,7 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
             }
         }
         // With a goal of variety the search also tries choices beyond the budget, so that an error
-        // can name the memory that is enough.
+        // can name a sufficient amount of memory.
         const std::uint64_t most_bytes = goal.variety > 0.0 ? kNoBytes : budget;
         if (!step.take(search.run(budget, most_bytes))) {
             return step.end();

@@ -1,5 +1,5 @@
-// The module of a word that drew a segment, object or polygon of its plant, and the production that
-// wrote it. Derives the word again, since a plant keeps neither.
+// Finds the module of a word that drew a segment, object or polygon of its plant, and the production
+// that wrote this module. Derives the word again, since a plant stores neither.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -20,8 +20,8 @@ struct ItemOrigin {
 };
 
 /// Finds the module that draws `item` in the word of `generation`. Folds the bytecode of `grammar`
-/// (fold_modules()). ItemOrigin::module is empty if the word does not draw the item. Fails as
-/// grow_plant() does. Precondition: `generation` is at most `options.generations`.
+/// (fold_modules()). ItemOrigin::module is empty if the word does not draw the item. Fails like
+/// grow_plant(). Precondition: `generation` is at most `options.generations`.
 [[nodiscard]] Outcome<ItemOrigin> origin_of_item(const PlantOptions& options,
                                                  std::uint32_t generation,
                                                  const SkeletonItem& item,

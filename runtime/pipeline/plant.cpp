@@ -52,7 +52,7 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
     return turtle.end().stop ? DerivationEnd{} : std::move(outcome.end);
 }
 
-/// Applies the pipe model and scales the plant to its height, as settings or options ask.
+/// Applies the pipe model and scales the plant to its height, if settings or options request them.
 std::optional<Stop>
 size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skeleton& skeleton) {
     const Settings& settings = grammar.bytecode.settings;
@@ -129,7 +129,7 @@ void fold_modules(const DeriveOptions& options, Bytecode& bytecode) {
 
 namespace {
 
-/// Reports a derivation that is certain to exceed the limit on modules; returns whether it is.
+/// Returns whether the derivation is certain to exceed the limit on modules, and reports this.
 bool exceeds_limit(const DeriveOptions& derive, const Grammar& grammar, Step& step) {
     const std::optional<LimitReport> limit =
         predict_limit(grammar.bytecode, derive.generations, derive.limits);

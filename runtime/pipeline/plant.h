@@ -1,4 +1,4 @@
-// Plant: from a compiled grammar to a skeleton and its mesh.
+// Plant: derives and draws a compiled grammar as a skeleton, and meshes it.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -26,7 +26,7 @@ struct PlantOptions {
     bool origins = false;                     // keep the origins of segments and objects
 };
 
-/// A plant and how long its steps took.
+/// A plant, and the durations of its steps.
 struct Plant {
     Skeleton skeleton;
     std::vector<UserMesh> user_meshes; // the meshes of skeleton.mesh_files, in the same order
@@ -52,8 +52,8 @@ struct DerivedWord {
     std::uint64_t seed = 0;
 };
 
-/// Derives the grammar, of the options by `generations`, `seed` and `origins`. Folds the bytecode of
-/// the grammar (fold_modules()).
+/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds the
+/// bytecode of the grammar (fold_modules()).
 [[nodiscard]] Outcome<DerivedWord>
 derive_word(const PlantOptions& options, Grammar& grammar, const Project& project);
 
@@ -68,15 +68,14 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                        const MeshOptions& options,
                                        const Project& project);
 
-/// Plans the levels of detail of `skeleton` that `chain` asks for. `options` are those of level 0.
+/// Plans the levels of detail of `skeleton` that `chain` requests. `options`: for level 0.
 [[nodiscard]] Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                                       const Skeleton& skeleton,
                                                       const MeshOptions& options,
                                                       const DetailChain& chain,
                                                       const Project& project);
-/// Meshes level `number` of `skeleton`, which is the skeleton that `levels` were planned for or a
-/// pose of it, with the vertex arrays that `options` ask for. Precondition: number <
-/// levels.levels.size().
+/// Meshes level `number` of `skeleton`, which is the skeleton of plan_plant_levels() or a pose of it,
+/// with the vertex arrays that `options` requests. Precondition: number < levels.levels.size().
 [[nodiscard]] Outcome<Mesh> mesh_plant_level(const Plant& plant,
                                              const Skeleton& skeleton,
                                              const DetailLevels& levels,
@@ -84,7 +83,7 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                              const MeshOptions& options,
                                              const Project& project);
 
-/// The diagnostic of a derivation that has stopped. Precondition: not with Stop::Cancelled.
+/// The diagnostic of a derivation that has stopped. Precondition: the stop is not Stop::Cancelled.
 [[nodiscard]] Diagnostic
 derivation_diagnostic(const DerivationEnd& end, const Limits& limits, const Grammar& grammar);
 

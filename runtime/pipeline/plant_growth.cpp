@@ -29,8 +29,8 @@ struct PlantGrowth::State {
     Derivation derivation;
     Skeleton drawn;                       // skeleton of the current word, if `growth` is unset
     std::optional<SkeletonGrowth> growth; // skeletons of the previous and the current word
-    std::vector<Origin> ancestors;        // by current module: the previous one it comes from
-    bool is_consistent = false;           // the skeletons match the word; false after a stop
+    std::vector<Origin> ancestors;        // by current module: the previous module that wrote it
+    bool is_consistent = false; // whether the skeletons match the word; false after a stop
     bool noted_lost_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
@@ -111,7 +111,7 @@ struct PlantGrowth::State {
     [[nodiscard]] std::optional<Stop> go_to(const GrowthMoment& moment, Step& step) {
         const std::uint32_t wanted = moment.generation + (moment.part > 0.0 ? 1 : 0);
         LSYS_CHECK(wanted <= derive.generations, wanted, derive.generations);
-        // The stored skeletons are those of generations age() - 1 and age().
+        // The stored skeletons belong to the generations age() - 1 and age().
         if (!is_consistent || moment.generation + 1 < age() ||
             (moment.generation < age() && !growth)) {
             if (const std::optional<Stop> stop = start(step)) {

@@ -1,5 +1,5 @@
-// PlantGrowth: a plant at any moment between its generations. Derives forwards and keeps the
-// skeletons of two generations.
+// PlantGrowth: computes a plant at any moment between its generations. Derives forwards and stores
+// the skeletons of two generations.
 #pragma once
 
 #include "runtime/pipeline/growth_moment.h"
@@ -16,7 +16,7 @@ class PlantGrowth {
 public:
     /// Starts with the axiom. Folds the bytecode of `grammar` (fold_modules()), which must outlive
     /// the growth. `options.generations` is the last generation; `options.stream` and
-    /// `options.origins` are ignored. Fails as grow_plant() does.
+    /// `options.origins` are ignored. Fails like grow_plant().
     [[nodiscard]] static Outcome<PlantGrowth>
     begin(const PlantOptions& options, Grammar& grammar, const Project& project);
     ~PlantGrowth();
@@ -25,8 +25,8 @@ public:
 
     [[nodiscard]] std::uint32_t last_generation() const;
     /// Derives up to `moment` and writes the plant of `moment` to `out`. At whole generations the
-    /// plant is exactly that of grow_plant(), unless a production calls steps(). An earlier
-    /// generation than before starts again at the axiom. Messages: those of drawing the last
+    /// plant equals the result of grow_plant(), unless a production calls steps(). A generation
+    /// earlier than before restarts at the axiom. Messages: the messages of drawing the last
     /// generation; a note if polygons lose corners suddenly. Precondition: `moment` is not after
     /// the last generation.
     [[nodiscard]] Outcome<void>

@@ -32,10 +32,10 @@ struct ReadLimit {
 /// Services of the program that calls the pipeline. The functions may be called from any thread,
 /// but never from two at once.
 struct Host {
-    /// Reads a file that the user names, which may be a pipe. The Error is the reason alone: "no
+    /// Reads a file that the user names, which may be a pipe. The Error is only the reason: "no
     /// such file or directory".
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)> read_file;
-    /// Reads a file that another file names. Refuses pipes, so that the program never waits.
+    /// Reads a file that another file names. Refuses pipes, so that the program never blocks.
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
         read_named_file;
     std::function<bool(const std::string& path)> file_exists;

@@ -26,7 +26,7 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     };
     if (!overrides.ground_picture.empty()) {
         terrain.colour = absolute(overrides.ground_picture);
-        terrain.normals = {}; // they belong to the replaced picture
+        terrain.normals = {}; // the normals belong to the replaced picture
     }
     const char* const picture = "the ground has no picture; --ground-picture names one";
     if (!overrides.ground_normals.empty()) {
@@ -45,7 +45,7 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     return {};
 }
 
-/// The error of stage options that have no effect or contradict others; empty if all fit.
+/// The error for stage options that have no effect or contradict others; empty if all fit.
 std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) {
     const bool has_stages =
         std::any_of(scene.species.begin(), scene.species.end(),

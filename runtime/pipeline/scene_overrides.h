@@ -75,8 +75,8 @@ struct SceneOverrides {
     std::string ground_picture;        // absolute, or relative to the working folder
     std::string ground_normals;        // absolute, or relative to the working folder
     std::optional<double> ground_tile; // m, side of the square that a picture of the ground covers
-    /// By species name. These values win over the values for all species. Names that the scene does
-    /// not have are ignored.
+    /// By species name. These values have priority over the values for all species. Names that the
+    /// scene does not have are ignored.
     std::map<std::string, SpeciesOverrides> species;
 
     friend bool operator==(const SceneOverrides&, const SceneOverrides&) = default;
@@ -92,8 +92,8 @@ struct SceneOverrides {
 /// stages; `years_of_stage` without Domination; `stages` together with `grammar.generations`.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
-/// Sets `overrides.method`, and the values that this method reads and the method of `scene` does
-/// not, so that there are about as many trees as in `scene`.
+/// Sets `overrides.method`, and the values that only this method reads, not the method of `scene`, so
+/// that there are about as many trees as in `scene`.
 void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene);
 
 /// Whether a placement method reads PlacementOptions::count, spacing or density.

@@ -28,20 +28,20 @@ struct SettingControl {
     std::vector<std::string_view> words; // all values of Word
     float lowest = 0.0F;                 // min valid value of Number and Count
     float highest = 0.0F;                // max valid value of Number and Count
-    /// Range of a slider: usual values, possibly narrower than the valid ones. No range if `max` is
+    /// Range of a slider: usual values, possibly narrower than the valid range. No range if `max` is
     /// not above `min`.
     float min = 0.0F;
     float max = 0.0F;
 };
 
-/// The settings of a grammar that --set may replace, except `seed`: of a .lsb file those that are
-/// not is_compiled_in(); of a grammar in another dialect all but `names`.
+/// The settings of a grammar that --set may replace, except `seed`. For a .lsb file: settings that
+/// are not is_compiled_in(). For a grammar in another dialect: all except `names`.
 [[nodiscard]] std::vector<SettingControl> setting_controls(const Grammar& grammar);
 
 /// Numbers as text for a `#set`: `0.5 -1 0 0.2`. Parsing the text gives the same numbers.
 [[nodiscard]] std::string setting_text(std::span<const float> numbers);
-/// The numbers in `values`, or nothing if it is not exactly `count` numbers but, for example, the
-/// name of a constant.
+/// The numbers in `values`; nothing if the text is not exactly `count` numbers, for example because
+/// it has the name of a constant.
 [[nodiscard]] std::optional<std::array<float, 4>> numbers_of(std::string_view values,
                                                              std::size_t count);
 

@@ -17,7 +17,7 @@
 
 namespace lsys {
 
-/// Parses `KEY=VALUES` and trims both; whether the setting exists and fits is checked later.
+/// Parses `KEY=VALUES` and trims both. Later steps check that the setting exists and fits.
 [[nodiscard]] Result<SettingText> parse_setting(std::string_view text);
 
 /// The values of a key; empty if `settings` does not have it.

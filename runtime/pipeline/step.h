@@ -24,10 +24,10 @@ public:
                                                  const ReadLimit& limit) const;
 
     /// Applies the levels of the project to the diagnostics and adds them to the messages. Returns
-    /// whether none is an error, so that the step may go on.
+    /// whether the step may continue, because none of them is an error.
     bool diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources);
     bool diagnose(Diagnostic diagnostic, std::shared_ptr<const SourceMap> sources);
-    /// Takes messages and value from the outcome of an inner step. Returns whether there is a
+    /// Moves messages and value out of the outcome of an inner step. Returns whether there is a
     /// value.
     template <typename T>
     [[nodiscard]] bool take(Outcome<T> outcome, T& value) {

@@ -120,7 +120,7 @@ private:
         }
     }
 
-    // --- stored words, so that following back need not derive from the axiom for each generation
+    // --- stored words, which save deriving from the axiom for each generation on the way back
 
     struct Kept {
         std::uint32_t age = 0;
@@ -154,7 +154,7 @@ private:
         }
     }
 
-    /// Brings a derivation to the word of age `age`, starting from the last stored word up to it.
+    /// Advances a derivation to the word of age `age`, from the nearest stored word of at most this age.
     [[nodiscard]] std::optional<Stop> go_to(Derivation& derivation, std::uint32_t age) {
         const auto after = std::find_if(kept_.begin(), kept_.end(),
                                         [age](const Kept& each) { return each.age > age; });
@@ -172,7 +172,7 @@ private:
         return stop ? stop : derivation.run_to(age);
     }
 
-    // --- the modules that are asked for
+    // --- the selected modules
 
     bool select(const Word& word) {
         std::vector<std::uint64_t> positions;
@@ -330,7 +330,7 @@ private:
         return stop;
     }
 
-    /// Traces the passes of #interpret, which only words that are drawn have.
+    /// Traces the passes of #interpret, which are applied only to words that are drawn.
     [[nodiscard]] std::optional<Stop> trace_drawing(const Word& word) {
         if (!(trace_.is_last || options_.is_drawn) || !bytecode_.has(Stage::Interpret)) {
             return std::nullopt;
@@ -403,8 +403,8 @@ private:
     }
 
     /// Follows a module back to the axiom, or to the step that wrote it, generation by generation.
-    /// The engine tells which module of the previous word wrote it (Derivation::follow()); the step
-    /// from that module is then traced.
+    /// Derivation::follow() of the engine finds the module of the previous word that wrote it; the
+    /// step from this module is then traced.
     [[nodiscard]] std::optional<Stop> follow_back(TracedPlace& place) {
         std::uint64_t position = place.position;
         for (std::uint32_t age = trace_.generation; age-- > 0;) {

@@ -1,6 +1,6 @@
-// Trace: why modules of one generation were rewritten as they were, and which modules they came
-// from. Derives a word, then traces the next step with the StepTracer of runtime/derive, whose
-// result is compared with the word that the engine writes.
+// Trace: explains how modules of one generation were rewritten, and from which modules they derive.
+// Derives a word, then traces the next step with the StepTracer of runtime/derive, whose result is
+// compared with the word that the engine writes.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -35,17 +35,17 @@ struct TraceOptions {
     std::string name;                      // all modules of this name
     std::uint64_t rows = 10;               // max modules of `name`
     TraceScope scope = TraceScope::Next;
-    bool is_drawn = false; // the word is drawn, as the last one always is
+    bool is_drawn = false; // whether the word is drawn; the last word always is
 };
 
-/// The production that wrote a module, and where and when.
+/// The production that wrote a module, its place in the grammar, and the generation.
 struct TraceOrigin {
     ProductionId production = kNoProduction; // kNoProduction: the axiom
     std::optional<Site> place;               // of the module in the grammar
     std::uint32_t generation = 0;            // of the first word with the module
 };
 
-/// One step of following a module back to the axiom: the step from the word of generation
+/// One step on the way back from a module to the axiom: the step from the word of generation
 /// `generation` to the next word.
 struct AncestorStep {
     std::uint32_t generation = 0;
@@ -63,16 +63,16 @@ struct TracedPlace {
     std::uint64_t position = 0;
     TracedModule module;
     TraceOrigin origin;
-    /// Scope Next: traces of the next step: of the module itself, and of what later passes of the step did to
-    /// the modules that it wrote. ModuleTrace::parent is an index of this list.
+    /// Scope Next: traces of the next step: of the module itself, and of the modules written for it in
+    /// later passes of the step. ModuleTrace::parent is an index of this list.
     std::vector<ModuleTrace> step;
-    /// The modules of the next word that the module became.
+    /// The modules of the next word that replace the module.
     std::vector<TracedModule> next;
     std::uint64_t first_next = 0;     // position of next[0] in the next word
     std::vector<ModuleTrace> drawing; // traces of #interpret, in the form of `step`
-    std::vector<TracedModule> drawn;  // the modules it became; empty without `drawing`
-    /// Scopes Written and Back: from the previous word back to the step that wrote the module, or to
-    /// the axiom. Empty for the axiom itself.
+    std::vector<TracedModule> drawn;  // the modules that are drawn for it; empty without `drawing`
+    /// Scopes Written and Back: the steps from the previous word back to the step that wrote the
+    /// module, or to the axiom. Empty for the axiom itself.
     std::vector<AncestorStep> back;
 };
 
@@ -82,12 +82,12 @@ struct Trace {
     std::uint64_t seed = 0;
     TraceScope scope = TraceScope::Next;
     std::uint64_t modules = 0;       // number of modules in the word
-    std::uint64_t matches = 0;       // number of modules that the options ask for
+    std::uint64_t matches = 0;       // number of modules that the options select
     std::uint64_t next_untraced = 0; // position of the first match that is not traced; 0: none
-    std::optional<AxiomTrace> axiom; // if there are several
-    bool is_last = false;            // the word is that of the last generation, which is drawn
-    bool agrees = true;              // tracer and engine have written the same modules
-    /// Set if the next step failed. The traces are then incomplete, and messages say why.
+    std::optional<AxiomTrace> axiom; // set if there are several axioms
+    bool is_last = false; // whether the word belongs to the last generation, which is drawn
+    bool agrees = true;   // whether tracer and engine wrote the same modules
+    /// Set if the next step failed. The traces are then incomplete, and messages give the reason.
     std::optional<Stop> stop;
     std::vector<TracedPlace> places;
 };

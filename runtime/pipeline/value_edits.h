@@ -1,5 +1,5 @@
-// Writes values that a user set, in a window or on a command line, into the text of a .lsys
-// grammar. All other bytes stay as they are.
+// Writes values that a user has set, in a window or on a command line, into the text of a .lsys
+// grammar. All other bytes stay unchanged.
 #pragma once
 
 #include "compiler/program/compile_options.h"
@@ -27,7 +27,7 @@ struct StatementValues {
 /// The `bytes` of the .lsys grammar `path` with `values` in place of the values of its statements.
 /// Adds a line for a setting without a statement: after the last `#set`, or before the first
 /// statement if there is none. Adds a line for generations without `#n` before the first statement.
-/// Line ends and a byte order mark stay as they are. `load` reads included files, which never
+/// Line ends and a byte order mark stay unchanged. `load` reads included files, which never
 /// change. Errors: a syntax error; a constant that does not exist or is defined after its use; a
 /// statement that stands in an included file.
 [[nodiscard]] Result<std::string> with_values(const std::string& path,

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::uint64_t kPiece = 2048;
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
-/// Time in the shade after which a plant without tolerance dies, as a fraction of the time in which
-/// its radius grew; so larger plants live longer in the shade.
+/// Time in the shade after which a plant without tolerance dies, as a fraction of the time that its
+/// radius took to grow; so larger plants live longer in the shade.
 constexpr float kShadeTolerance = 0.25F;
 constexpr float kLifeSpread = 0.2F; // max deviation from the lifespan, relative to it
 constexpr std::uint32_t kMaxNumber = 0xFFFFFFFFu;
@@ -32,8 +32,8 @@ std::uint32_t oldest_age(const SpeciesGrowth& growth) {
     return growth.lifespan + growth.lifespan / 5 + 1;
 }
 
-/// Finds a point of the unit disc among two random points of the square around it. Returns false if
-/// both are outside the disc, once in 22 times.
+/// Finds a point of the unit disc among two random points of the bounding square. Returns false if
+/// both points are outside the disc, which happens once in 22 calls.
 bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         point = {2.0 * unit(words[i]) - 1.0, 2.0 * unit(words[i + 1]) - 1.0};
@@ -90,8 +90,8 @@ public:
         plant.radius += plant.dominated ? growth_in_year * growth.tolerance : growth_in_year;
     }
 
-    /// Adds the stress of a year as a dominated plant, or subtracts the recovery of a year as a
-    /// free one.
+    /// Adds the stress of one year if the plant is dominated, else subtracts the recovery of one
+    /// year.
     void update_stress(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         const float harm = growth.rate * plant.vigour / (plant.radius * kShadeTolerance);

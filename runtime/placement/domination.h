@@ -1,8 +1,8 @@
-// Domination: a forest that grows and thins itself, year by year, after Deussen et al. 1998,
-// "Realistic modeling and rendering of plant ecosystems", section 4.1. Every plant has a circle of
-// influence that grows. If two circles meet, the weaker plant is dominated: it is stunted, and dies
-// after too long a time. Plants that are not dominated have seeds, and die of age. No rule relates
-// the number of plants to their size; the law of self-thinning (Yoda et al. 1963) emerges.
+// Domination: simulates a forest that grows and thins itself, year by year, after Deussen et al. 1998,
+// "Realistic modeling and rendering of plant ecosystems", section 4.1. Every plant has a growing
+// circle of influence. If two circles overlap, the weaker plant is dominated: it grows less, and dies
+// if it is dominated too long. Other plants have seeds, and die of age. No rule relates the number of
+// plants to their size; the law of self-thinning (Yoda et al. 1963) emerges.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -20,11 +20,11 @@ struct ForestPlant {
     glm::vec2 place{};         // m, x and z
     float radius = 0.0F;       // m, of influence
     float vigour = 1.0F;       // 0 to 1, factor of growth and strength
-    float stress = 0.0F;       // from 0; the plant dies at 1
+    float stress = 0.0F;       // 0 to 1; the plant dies at 1
     std::uint32_t number = 0;  // of the tree, in the order of sprouting
     std::uint16_t species = 0; // in PlacementOptions::species
     std::uint16_t age = 0;     // years; 1 in the year of sprouting
-    bool dominated = false;    // its circle meets that of a stronger plant
+    bool dominated = false;    // its circle overlaps the circle of a stronger plant
 };
 static_assert(sizeof(ForestPlant) <= 32);
 
@@ -32,25 +32,25 @@ class TreeMaker; // runtime/placement/impl/tree_maker.h
 
 class Domination {
 public:
-    /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Options
-    /// other than key, region, species, count and threads are ignored. `terrain` must outlive the
-    /// value. Errors: those of place_trees().
+    /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Uses only
+    /// key, region, species, count and threads of `options`. `terrain` must outlive the value.
+    /// Errors: as place_trees().
     [[nodiscard]] static Result<Domination> begin(const PlacementOptions& options,
                                                   const Terrain& terrain);
 
     /// Advances one year: seeds, growth, domination, death. Time is about linear in the number of
     /// plants. The result is the same for any number of threads. Errors: more than kMaxTrees plants
-    /// and seeds, more plant numbers than 32 bits hold, more than kMaxYears years; the forest is
-    /// then unchanged.
+    /// and seeds, more plant numbers than 32 bits hold, more than kMaxYears years. After an error
+    /// the forest is unchanged.
     [[nodiscard]] Result<void> step();
 
     [[nodiscard]] std::uint32_t year() const { return year_; }
-    /// The living plants by number. No two circles of plants that are not dominated meet.
+    /// The living plants by number. The circles of plants that are not dominated do not overlap.
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
-    /// The living plants as trees, in the same order. A tree's scale is its random scale times the
-    /// ratio of its radius to that of a plant of its age and full vigour that was never dominated.
-    /// A plant of year 0 may start at a later stage: its tree is older by the years of the stages
-    /// that it skips. Seedlings start at the first stage.
+    /// The living plants as trees, in the same order. The scale of a tree is its random scale times
+    /// its radius / the radius of a plant of the same age and full vigour that was never dominated.
+    /// A plant of year 0 may start at a later stage: its tree is older by the years of the skipped
+    /// stages. Seedlings start at the first stage.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 

@@ -88,7 +88,8 @@ Result<Placement> place_trees(const PlacementOptions& options, const Terrain& te
     Workers workers(options.threads);
     const TreeMaker maker(options, terrain);
     Placement placement;
-    // Six standard deviations are hardly ever exceeded, and unused capacity takes no memory.
+    // The number of trees hardly ever exceeds the expectation by six standard deviations, and
+    // unused capacity takes no memory.
     placement.trees.reserve(static_cast<std::size_t>(
         expected.value() + kDeviations * std::sqrt(expected.value()) + kDeviations));
     if (const Result<void> placed = place_with({options, terrain, maker, workers}, placement);

@@ -28,15 +28,15 @@ inline constexpr float kMaxStageYears = 40'000.0F;
 
 enum class PlacementMethod : std::uint8_t {
     Uniform,     // `count` independent places
-    PoissonDisk, // no two closer than `spacing`, no room for one more (Bridson 2007)
+    PoissonDisk, // no two closer than `spacing`, no room for another (Bridson 2007)
     DensityMap,  // error diffusion over a picture (Deussen et al. 1998)
     Domination,  // plants that grow and compete for `years`, see runtime/placement/domination.h
     // Methods on the cells of an unbounded grid: a tree in two overlapping regions has the same
     // place and number in both, and adjacent regions have no tree in common.
     Jittered,     // one in each square of `spacing`
     UniformCells, // independent places of `density`
-    PoissonCells, // no two closer than `spacing`, hardly room for one more
-    DensityCells, // a picture: a place has a tree if its rank is below the grey there
+    PoissonCells, // no two closer than `spacing`, hardly room for another
+    DensityCells, // a picture: a place has a tree if its rank is below the grey at the place
 };
 
 /// Whether adjacent regions of the method fit together, without gaps or duplicates.
@@ -48,13 +48,13 @@ struct SpeciesGrowth {
     float max_radius = 6.0F;      // m, the limit of growth
     float tolerance = 0.3F;       // growth in the shade relative to full growth, 0 to 1
     float vigour_spread = 0.3F;   // vigours are drawn from [1 - vigour_spread, 1]
-    std::uint32_t lifespan = 300; // years, +- a fifth
+    std::uint32_t lifespan = 300; // years; varies by up to 20 %
     std::uint32_t maturity = 20;  // years, min age to have seeds
     float seeds = 0.5F;           // seeds per year and plant that is not dominated
     float seed_distance = 20.0F;  // m, max
 };
 
-/// Stage at which a plant starts: the first one, or one that is drawn, all with equal chances.
+/// Stage at which a plant starts: the first stage, or a random stage with equal probabilities.
 enum class StageStart : std::uint8_t { First, Random };
 
 struct PlacementSpecies {
@@ -71,7 +71,7 @@ struct PlacementSpecies {
     SpeciesGrowth growth;
     std::uint32_t stages = 1; // number of stages of growth; 1: ages do not matter
     StageStart start = StageStart::Random;
-    float years_of_stage = 0.0F; // Domination: above 0 where there are several stages
+    float years_of_stage = 0.0F; // Domination: above 0 if there are several stages
 };
 
 struct PlacementOptions {
@@ -100,8 +100,8 @@ struct Placement {
     PlacementReport report;
 };
 
-/// Places trees within the region, at terrain.height() of their x and z, in time linear in the
-/// places. Errors: an invalid option, with its name; more than kMaxTrees expected trees, checked
+/// Places trees within the region, at terrain.height() of their x and z. Time is linear in the number
+/// of places. Errors: an invalid option, with its name; more than kMaxTrees expected trees, checked
 /// before memory is allocated; a region whose cells have numbers beyond 32 bits.
 [[nodiscard]] Result<Placement> place_trees(const PlacementOptions& options,
                                             const Terrain& terrain);

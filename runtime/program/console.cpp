@@ -210,7 +210,7 @@ Result<void> Console::flush() const {
 
 ExitStatus Console::finish(ExitStatus status) const {
     if (!io_.out.good() && status != ExitStatus::Ok) {
-        return status; // the failed write is already reported
+        return status; // the failed write has been reported already
     }
     const Result<void> done = flush();
     if (done) {

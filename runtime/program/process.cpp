@@ -66,7 +66,7 @@ void handle_signals() {
     }
     action.sa_handler = on_alarm;
     ::sigaction(SIGALRM, &action, nullptr);
-    // Then a write beyond the file size limit (`ulimit -f`) returns an error instead of a signal.
+    // A write beyond the file size limit (`ulimit -f`) then returns an error instead of a signal.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

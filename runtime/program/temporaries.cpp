@@ -8,7 +8,8 @@
 namespace lsys {
 
 struct TemporaryName {
-    std::atomic<char*> path{nullptr}; // whoever exchanges it for null owns the text
+    std::atomic<char*> path{
+        nullptr}; // the thread or handler that exchanges it for null owns the text
     TemporaryName* next = nullptr;
 };
 

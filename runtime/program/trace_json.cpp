@@ -110,9 +110,9 @@ private:
         object["generation"] = origin.generation;
         return object;
     }
-    [[nodiscard]] Json met(const std::vector<MetModule>& list) const {
+    [[nodiscard]] Json visited_modules(const std::vector<VisitedModule>& list) const {
         Json array = Json::array();
-        for (const MetModule& each : list) {
+        for (const VisitedModule& each : list) {
             Json object = module(each.module);
             object["position"] = each.position;
             object["item"] = each.item;
@@ -123,7 +123,7 @@ private:
     [[nodiscard]] Json context(const ContextTrace& context) const {
         Json object;
         object["result"] = name_of(kEnds, context.end);
-        object["met"] = met(context.met);
+        object["met"] = visited_modules(context.visited);
         object["ignored"] = context.ignored;
         object["branches"] = context.branches;
         return object;
@@ -143,7 +143,7 @@ private:
         Json object = production(attempt.production);
         object["result"] = name_of(kVerdicts, attempt.verdict);
         if (!attempt.predecessor.empty()) {
-            object["predecessor"] = met(attempt.predecessor);
+            object["predecessor"] = visited_modules(attempt.predecessor);
         }
         if (attempt.left.end != ContextEnd::NotSearched) {
             object["left"] = context(attempt.left);
@@ -173,7 +173,7 @@ private:
         for (const ChoiceTrace::Alternative& each : choice.alternatives) {
             Json alternative = production(each.production);
             alternative["weight"] = number(each.weight);
-            alternative["sum"] = number(each.running);
+            alternative["sum"] = number(each.cumulative);
             object["alternatives"].push_back(std::move(alternative));
         }
         return object;
@@ -189,7 +189,7 @@ private:
                 put_site(alternative, bytecode_.sites[each.site]);
             }
             alternative["weight"] = number(each.weight);
-            alternative["sum"] = number(each.running);
+            alternative["sum"] = number(each.cumulative);
             object["alternatives"].push_back(std::move(alternative));
         }
         return object;

@@ -22,8 +22,8 @@ namespace {
 /// Max numbers of items shown, so that the report of a module fits one screen.
 constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
-constexpr std::size_t kMaxLater = 8; // modules of later passes
-constexpr std::size_t kMaxMet = 6;   // modules that a context met
+constexpr std::size_t kMaxLater = 8;   // modules of later passes
+constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
 /// With more productions to show than these, those that do not apply take one line each.
 constexpr std::size_t kMaxFrames = 4;
 constexpr std::size_t kMaxReasons = 4; // operations in such a line
@@ -139,15 +139,15 @@ private:
 
     // --- productions that were tried
 
-    /// The text of a label with the modules that a context met.
-    [[nodiscard]] std::string met_text(const ContextTrace& context) const {
+    /// The text of a label with the modules that a context search visited.
+    [[nodiscard]] std::string visited_text(const ContextTrace& context) const {
         std::string text;
-        const std::size_t shown = std::min(context.met.size(), kMaxMet);
+        const std::size_t shown = std::min(context.visited.size(), kMaxVisited);
         for (std::size_t i = 0; i < shown; ++i) {
             text += fmt::format("{}{} at {}", i == 0 ? "" : ", then ",
-                                module(context.met[i].module), context.met[i].position);
+                                module(context.visited[i].module), context.visited[i].position);
         }
-        text += context.met.size() > shown ? ", ..." : "";
+        text += context.visited.size() > shown ? ", ..." : "";
         return text;
     }
     [[nodiscard]] static std::string passed_text(const ContextTrace& context) {
@@ -175,22 +175,23 @@ private:
         const std::string passed = passed_text(context);
         switch (context.end) {
         case ContextEnd::Fits:
-            return (context.met.empty() ? std::string("a branch") : met_text(context)) + passed;
+            return (context.visited.empty() ? std::string("a branch") : visited_text(context)) +
+                   passed;
         case ContextEnd::OtherModule:
-            return fmt::format("{}, not {}{}", met_text(context),
+            return fmt::format("{}, not {}{}", visited_text(context),
                                pattern_text(pattern, context.item), passed);
         case ContextEnd::EndOfPath: {
-            const std::string met =
-                context.met.empty() ? std::string() : met_text(context) + ", then ";
-            return fmt::format("{}{}, not {}{}", met,
+            const std::string visited =
+                context.visited.empty() ? std::string() : visited_text(context) + ", then ";
+            return fmt::format("{}{}, not {}{}", visited,
                                is_left ? "the beginning of the word"
                                        : "the end of the branch or of the word",
                                pattern_text(pattern, context.item), passed);
         }
         case ContextEnd::NoBranch: {
-            const std::string met =
-                context.met.empty() ? std::string() : met_text(context) + ", then ";
-            return met + "no branch" + passed;
+            const std::string visited =
+                context.visited.empty() ? std::string() : visited_text(context) + ", then ";
+            return visited + "no branch" + passed;
         }
         case ContextEnd::NotSearched:
             break;
@@ -269,9 +270,9 @@ private:
 
     [[nodiscard]] std::string followed_text(const Attempt& attempt, const TracedModule& own) const {
         std::string text;
-        for (const MetModule& met : attempt.predecessor) {
-            text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(met.module),
-                                met.position);
+        for (const VisitedModule& visited : attempt.predecessor) {
+            text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(visited.module),
+                                visited.position);
         }
         return fmt::format("{} is followed by {}", module(own),
                            text.empty() ? "the end of the word" : text);
@@ -349,9 +350,9 @@ private:
         }
     }
 
-    /// Prints a production that was tried. `is_later`: the module was written in this step, so that
-    /// little is said. `is_brief`: one line if the production does not apply. `written`: a label for
-    /// a module of the successor of the production that applies.
+    /// Prints a production that was tried. `is_later`: the module was written in this step, which
+    /// shortens the text. `is_brief`: one line if the production does not apply. `written`: a label
+    /// for a module of the successor of the production that applies.
     void attempt(const ModuleTrace& trace,
                  const Attempt& attempt,
                  bool is_later,
@@ -363,7 +364,7 @@ private:
         switch (attempt.verdict) {
         case Verdict::Applies:
             if (is_later && !framed_.insert(attempt.production).second) {
-                return; // traces() says so in the title
+                return; // the title of traces() contains this
             }
             line("{} {}{}", who, marked("applies"), trace.choice ? ", chosen by chance" : "");
             explain(attempt, trace.module, written);
@@ -465,12 +466,12 @@ private:
         std::string text;
         for (const ChoiceTrace::Alternative& each : choice.alternatives) {
             text += fmt::format("{}{} below {}", text.empty() ? "" : ", ", name(each.production),
-                                value_text(each.running));
+                                value_text(each.cumulative));
         }
         line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
     }
-    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of
-    /// one.
+    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of an
+    /// alternative.
     template <typename Choice, typename Name>
     void alternatives(const Choice& choice, const Name& name_of) {
         std::size_t width = 0;
@@ -480,10 +481,10 @@ private:
         for (std::size_t i = 0; i < choice.alternatives.size(); ++i) {
             const auto& each = choice.alternatives[i];
             line("  {} {:<{}}   weight {}, sum {}{}", i == choice.taken ? '>' : ' ', name_of(each),
-                 width, value_text(each.weight), value_text(each.running),
-                 i != choice.taken            ? ""
-                 : each.running > choice.unit ? ", the first above u"
-                                              : ", the last");
+                 width, value_text(each.weight), value_text(each.cumulative),
+                 i != choice.taken               ? ""
+                 : each.cumulative > choice.unit ? ", the first above u"
+                                                 : ", the last");
         }
     }
     /// The number of a draw. Later passes of a generation have numbers from a multiple of 4,096 on
@@ -548,7 +549,7 @@ private:
         }
     }
 
-    /// Prints what became of the module in this pass. `word`: names the word that the positions
+    /// Prints the outcome of the module in this pass. `word`: names the word that the positions
     /// refer to, such as " of generation 3"; empty: without positions.
     void outcome(const ModuleTrace& trace, const std::string& word) {
         switch (trace.fate) {
@@ -683,7 +684,7 @@ private:
         }
     }
 
-    /// Whether the trace is that of a match which used up the traced module as a later part of its
+    /// Whether the trace belongs to a match that consumed the traced module as a later module of its
     /// predecessor.
     [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
                                        const ModuleTrace& trace) {
@@ -725,7 +726,7 @@ private:
 
     void written(const TracedPlace& place) {
         if (place.back.empty() && grammar_.is_module_file && !trace_.axiom) {
-            return; // the head says all
+            return; // the heading is sufficient
         }
         out_ += '\n';
         if (!place.back.empty() && !place.back.back().steps.empty()) {

@@ -1,5 +1,5 @@
-// Results of a command line that runs no command. Not part of option_parsers.h, because that
-// includes CLI11, which takes seconds to compile, and code that uses options does not need CLI11.
+// Results of a command line that runs no command. Not part of option_parsers.h, because that header
+// includes CLI11, which takes seconds to compile and which code that uses options does not need.
 #pragma once
 
 #include <string>

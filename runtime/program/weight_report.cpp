@@ -23,8 +23,8 @@ std::string number_text(double value) {
     return fmt::format("{:.6g}", value);
 }
 
-/// Text with the values that would hold the plant: "`#set elasticity 1.2e+10`, or widths times
-/// 1.8". Empty if no values were found.
+/// Text with the values with which the plant would stand: "`#set elasticity 1.2e+10`, or widths
+/// times 1.8". Empty if no values were found.
 std::string advice(const WeightReport& report) {
     std::vector<std::string> ways;
     if (report.elasticity) {
@@ -85,7 +85,8 @@ std::string weight_text(const WeightReport& report) {
         text += fmt::format("the trunk, {:.3g} m long and {:.3g} m wide, alone as a column buckles "
                             "at {:.3g} times its weight\n",
                             stability.trunk_length, stability.trunk_width, *stability.trunk_factor);
-        if (*stability.trunk_factor < 1.0) { // by Greenhill 1881 it grows with the width squared
+        if (*stability.trunk_factor <
+            1.0) { // proportional to the square of the width (Greenhill 1881)
             text += fmt::format("it is too thin by {:.3g} m\n",
                                 stability.trunk_width *
                                     (1.0 / std::sqrt(*stability.trunk_factor) - 1.0));

@@ -1,5 +1,5 @@
 // Reports on a plant under its weight: the table of `lsc stats --gravity`, and the warning of `lsc`
-// and `lsview` that a plant falls, with the widths or the stiffness that would hold it.
+// and `lsview` that a plant falls, with the widths or the stiffness with which it would stand.
 #pragma once
 
 #include "compiler/bytecode/settings.h"

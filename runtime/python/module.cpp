@@ -1,5 +1,5 @@
-// The Python module lsys._lsys: the public library for Python, arrays as views of numpy without
-// copies. The package in lsys/ adds what is easier to write in Python.
+// The Python module lsys._lsys: bindings of the public library. Arrays are numpy views without copies.
+// The package in lsys/ adds functions that are easier to write in Python.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -30,7 +30,7 @@ using namespace pybind11::literals;
 
 namespace {
 
-/// Options that every call takes.
+/// Options of every call.
 struct CallOptions {
     std::uint32_t threads = 0;
     std::uint64_t max_modules = lsys::Limits{}.max_modules;
@@ -39,13 +39,13 @@ struct CallOptions {
     py::object read_file = py::none(); // callable(path) -> bytes
 };
 
-/// Python's `threading.main_thread()` handles Ctrl-C.
+/// Whether this is Python's main thread, which handles Ctrl-C.
 bool is_main_thread() {
     const py::object threading = py::module_::import("threading");
     return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
-/// A value of Python as the contents of a file: bytes or text; an OSError says why there is none.
+/// Calls a Python function that reads a file. It returns bytes or text, or raises an OSError.
 lsys::FileContents read_by(const py::function& read, const std::string& path) {
     const py::gil_scoped_acquire lock;
     try {
@@ -63,8 +63,8 @@ lsys::FileContents read_by(const py::function& read, const std::string& path) {
     }
 }
 
-/// Runs `work(project)` without the interpreter's lock. On Python's main thread the work is done by
-/// another one, while this one lets Ctrl-C end it.
+/// Runs `work(project)` without the interpreter's lock. If this is Python's main thread, another
+/// thread does the work, so that this thread can cancel it on Ctrl-C.
 template <typename Work>
 auto run(const CallOptions& options, const Work& work) {
     using Result = decltype(work(std::declval<const lsys::Project&>()));
@@ -132,7 +132,7 @@ auto run(const CallOptions& options, const Work& work) {
     return std::move(*result);
 }
 
-/// Exceptions of the module, defined in lsys/__init__.py's errors.py.
+/// The exception class for a status, from lsys/errors.py.
 py::object error_class(lsys::Status status) {
     const py::module_ errors = py::module_::import("lsys.errors");
     switch (status) {
@@ -151,8 +151,8 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
-/// The messages for an exception: with the lines of the source, or the words alone where they are
-/// about no source.
+/// The text of an exception: messages with the lines of the source, or only the messages if they
+/// refer to no source.
 std::string text_of(const lsys::Messages& messages) {
     std::string text;
     for (const lsys::Diagnostic& diagnostic : messages.all()) {
@@ -169,8 +169,8 @@ std::string text_of(const lsys::Messages& messages) {
     return text;
 }
 
-/// The value of an outcome; raises an exception with the messages if there is none. Warnings are
-/// warnings of Python.
+/// The value of an outcome; without a value raises an exception with the messages. Warnings become
+/// Python warnings.
 template <typename T>
 T value_of(lsys::Outcome<T> outcome) {
     const lsys::Messages& messages = outcome.messages();
@@ -200,7 +200,7 @@ T value_of(lsys::Outcome<T> outcome) {
     return std::move(*outcome);
 }
 
-/// A view of `count` items of type `dtype` from `data` on, which keeps `owner` alive.
+/// A view of the items of type `dtype` at `data`, which keeps `owner` alive.
 py::array view(const py::dtype& dtype,
                std::vector<py::ssize_t> shape,
                const void* data,
@@ -217,7 +217,7 @@ py::array rows(std::span<const Item> items, const py::object& owner) {
                 items.data(), owner);
 }
 
-/// A type of numpy with named fields: names, formats and offsets.
+/// A field of a structured numpy type.
 struct Field {
     const char* name;
     const char* format;

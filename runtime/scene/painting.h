@@ -1,5 +1,5 @@
-// Painting: trees added to a forest by hand, and trees erased. Part of a scene; applied to the
-// placed trees.
+// Painting: trees that a user has added to a forest, and trees that a user has erased. Part of a
+// scene; applied to the placed trees.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -17,7 +17,7 @@
 namespace lsys {
 
 /// The lowest Tree::number of painted trees. The number is a hash of species and position, so that
-/// the look of a tree does not depend on other painted trees.
+/// the appearance of a tree does not depend on other painted trees.
 inline constexpr std::uint32_t kFirstPainted = 0x8000'0000U;
 inline constexpr std::size_t kMaxPainted = 10'000'000;
 

@@ -1,6 +1,6 @@
 // Scene: the contents of a scene file: a ground, species, and the placement of their plants. A
 // scene file is TOML; samples/scenes/README.md lists its keys. Made by parse_scene(), then changed
-// by options of a command line. Its users open the files that it names.
+// by options of a command line. Callers open the files that a scene names.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -66,7 +66,8 @@ struct SceneDefinition {
 
 /// Goal of choose_instancing() (runtime/pipeline/instancing_choice.h).
 struct InstancingGoal {
-    double variety = 0.0; // min share of different trees, 0 to 1; 0: max that `max_bytes` allows
+    double variety =
+        0.0; // min share of different trees, 0 to 1; 0: the max that `max_bytes` allows
     std::uint64_t max_bytes = 0; // of all heroes and their branches; 0: no limit
 
     [[nodiscard]] bool is_set() const { return variety > 0.0 || max_bytes != 0; }
@@ -106,24 +107,24 @@ struct Scene {
     std::vector<SceneSpecies> species; // at least one
     /// Has the key, the region of the terrain and one entry per `species`; no density_map.
     PlacementOptions placement;
-    Painting painting; // changes by hand
+    Painting painting; // manual changes
     InstancingGoal goal;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // of `[placement]`; kNoFile if missing
 };
 
 /// Copies the number of stages, the start and the years per stage of each species to
-/// `scene.placement`. Called after the last change of `scene`. Domination without years per stage
-/// divides its years evenly among the stages.
+/// `scene.placement`. Call it after the last change of `scene`. With domination, species without
+/// years per stage divide the years evenly among their stages.
 void copy_stages_to_placement(Scene& scene);
 /// Years per stage of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
 [[nodiscard]] float years_of_stage(const Scene& scene, std::size_t index);
-/// The last point in time of a growing forest: with domination its years; else the number of stages
-/// after the first one, of the species with the most stages.
+/// The last point in time of a growing forest: with domination its number of years, else the number
+/// of stages after the first stage, for the species with the most stages.
 [[nodiscard]] std::uint32_t last_year(const Scene& scene);
 
-/// Reads `file` as a scene. Reports each mistake once, in order of place; of a file that is not
-/// TOML only the first syntax error. Returns none if there is a mistake.
+/// Reads `file` as a scene. Reports each mistake once, in order of place; if the file is not TOML,
+/// only the first syntax error. Returns none if there is a mistake.
 [[nodiscard]] std::optional<Scene>
 parse_scene(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
 

@@ -92,7 +92,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     double amplitude = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
-        // each octave is shifted: otherwise the zeros of all octaves would coincide
+        // each octave is shifted, because otherwise the zeros of all octaves would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
         terrain.octaves_.push_back({frequency, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
                                     static_cast<double>(words[1]) * (kPeriod * 0x1p-32),

@@ -26,8 +26,8 @@ struct NoiseOptions {
     std::uint32_t octaves = 6; // 1 to kMaxOctaves
     double lacunarity = 2.0;   // ratio of frequencies of successive octaves, 1 to 8
     double gain = 0.5;         // ratio of heights of successive octaves, 0 to 1
-    double feature = 250.0;    // m, between hills of the first octave
-    double height = 50.0;      // m; heights lie in [base, base + height], most in the middle half
+    double feature = 250.0;    // m, distance between hills of the first octave
+    double height = 50.0;      // m; heights are in [base, base + height], mostly in the middle half
     double base = 0.0;         // m
 
     friend bool operator==(const NoiseOptions&, const NoiseOptions&) = default;
@@ -38,8 +38,8 @@ enum class HeightFilter : std::uint8_t {
     Bicubic, // Catmull-Rom (Keys 1981, a = -1/2); smooth, may overshoot its samples slightly
 };
 
-/// Black lies at `lowest`, white at `highest`. The centres of the outermost pixels lie on the
-/// border of the ground, so columns - 1 cells span it.
+/// Black is at altitude `lowest`, white at `highest`. The centres of the outermost pixels are on the
+/// border of the ground, so the ground has columns - 1 by rows - 1 cells.
 struct HeightMapOptions {
     double lowest = 0.0;   // m
     double highest = 50.0; // m
@@ -59,9 +59,9 @@ public:
     height_map(const Region& region, GreyMap map, const HeightMapOptions& options);
 
     [[nodiscard]] const Region& region() const { return region_; }
-    /// Height in m at a place in m. The same on every machine; finite within kMaxCoordinate.
+    /// Height in m at (x, z) in m. The same on every machine; finite within kMaxCoordinate.
     [[nodiscard]] float height(float x, float z) const;
-    /// Unit normal, by differences over slope_step() that stay within a height map.
+    /// Unit normal, by finite differences over slope_step(), which stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run by the same differences: 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;

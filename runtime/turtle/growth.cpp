@@ -24,12 +24,12 @@ struct Joint {
     glm::dvec3 tip{};
 };
 
-/// The motion of an item relative to its parent.
+/// The motion of an item, relative to its parent.
 struct Motion {
     Ends<glm::quat> turn;
     Ends<glm::vec3> offset;            // from the parent's tip, in its frame
     std::uint32_t parent = kNoSegment; // index in State::segments
-    bool eases = false;                // grows from nothing or shrinks to nothing
+    bool eases = false;                // grows from size 0 or shrinks to size 0
 };
 
 struct MovingSegment {
@@ -89,7 +89,7 @@ struct SkeletonGrowth::State {
     Skeleton before;
     Skeleton after;
     GrowthCounts counts;
-    LargeVector<MovingSegment> segments; // segments of `after`, then those that shrink
+    LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
     LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in its frame
@@ -149,11 +149,11 @@ struct SkeletonGrowth::State {
         moving.motion.parent = segment.parent;
         set_end(moving.motion, 1, segment.base, segment.frame);
         set_widths(moving, 1, segment);
-        if (piece.of == kNoSegment) {
+        if (piece.segment == kNoSegment) {
             set_vanished(moving.motion, 0);
             ++counts.grown;
         } else {
-            const Segment& old = before.segments[piece.of];
+            const Segment& old = before.segments[piece.segment];
             const glm::dquat frame(old.frame);
             const double low = static_cast<double>(old.length) * static_cast<double>(piece.low);
             set_end(moving.motion, 0, tip_of(old.base, frame, low), frame);
@@ -169,7 +169,7 @@ struct SkeletonGrowth::State {
             } else if (segment.linked) {
                 moving.motion.offset = {};
             }
-            written[piece.of] = index; // in the end, the last piece
+            written[piece.segment] = index; // the last piece replaces earlier ones
             ++counts.kept;
         }
         use_shorter_turn(moving.motion.turn);
@@ -188,7 +188,7 @@ struct SkeletonGrowth::State {
         add_joints(moving);
         segments.push_back(moving);
         shrinking_segments.push_back(index);
-        ++counts.gone;
+        ++counts.vanished;
     }
 
     void move_segments(const std::vector<SegmentPiece>& pieces) {
@@ -236,7 +236,7 @@ struct SkeletonGrowth::State {
             set_vanished(moving.motion, 1);
             objects.push_back(moving);
             shrinking_objects.push_back(i);
-            ++counts.gone;
+            ++counts.vanished;
         }
     }
 
@@ -306,7 +306,7 @@ struct SkeletonGrowth::State {
                         moving.motion.parent, 0);
             polygons.push_back(moving);
             shrinking_polygons.push_back(i);
-            ++counts.gone;
+            ++counts.vanished;
         }
     }
 

@@ -1,15 +1,15 @@
-// SkeletonGrowth: a plant between two generations, as a function of time. New parts grow from
-// nothing, parts that are no longer drawn shrink to nothing, and other parts move from their old
-// pose to the new one. Made by runtime/pipeline from drawings of two words whose modules were
-// followed (Derivation::follow()).
+// SkeletonGrowth: interpolates a plant between two generations. New parts grow from size 0, parts
+// that are no longer drawn shrink to size 0, and other parts move from their old pose to the new
+// one. Made by runtime/pipeline from drawings of two words whose modules were followed
+// (Derivation::follow()).
 //
 // Pairs of old and new parts:
 // - A module that is copied draws the same parts again: they correspond one to one.
 // - A module that is rewritten corresponds to its successor. If both draw equally many segments
 //   with equal brackets, these correspond one to one: F(l) -> F(l * r). If the module drew one
-//   segment, the segments of the successor outside of inner brackets begin as pieces of it, in
-//   proportion to their lengths: the three F of F -> F[+F]F[-F]F lie on the old F and stretch from
-//   there. Other segments are new.
+//   segment, the segments of the successor outside of inner brackets begin as pieces of this
+//   segment, in proportion to their lengths: the first, third and fifth F of F -> F[+F]F[-F]F begin
+//   on the old F and stretch. Other segments are new.
 // - Objects of the same kind correspond in their order, and so do polygons.
 //
 // Poses are relative to the parent, so that joints stay closed while branches turn. Rotations take
@@ -27,9 +27,9 @@
 namespace lsys {
 
 struct GrowthCounts {
-    std::uint64_t kept = 0;  // segments, objects and polygons that move from pose to pose
-    std::uint64_t grown = 0; // items that grow from nothing
-    std::uint64_t gone = 0;  // items that shrink to nothing
+    std::uint64_t kept = 0;     // segments, objects and polygons that move from pose to pose
+    std::uint64_t grown = 0;    // items that grow from size 0
+    std::uint64_t vanished = 0; // items that shrink to size 0
     /// Polygons with fewer corners afterwards; the corners disappear at once.
     std::uint64_t lost_corners = 0;
 };
@@ -37,7 +37,7 @@ struct GrowthCounts {
 class SkeletonGrowth {
 public:
     /// `before` and `after`: drawings with origins; Origin::place is the index of the module in the
-    /// word of the drawing. `ancestors`: for each module of the later word its origin after
+    /// word of the drawing. `ancestors`: the origin of each module of the later word, after
     /// Derivation::follow(). May throw std::bad_alloc.
     SkeletonGrowth(Skeleton before,
                    Skeleton after,

@@ -61,8 +61,8 @@ float spring_of(const Segment& segment, double elasticity) {
                           to_double(segment.tip_radius), elasticity);
 }
 
-/// Calls change(segment), and computes its mass and spring again. Values given by the author stay:
-/// they are those that differ from the values of the shape.
+/// Calls change(segment), and computes the mass and spring of the segment again. Values that differ
+/// from those of the old shape were given by the author and stay.
 template <typename Change>
 void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
     const bool mass_follows = segment.mass == mass_of(segment, material.density);

@@ -29,7 +29,7 @@ inline constexpr ItemColour kOwnColour = 0x01000000u;
 [[nodiscard]] constexpr bool is_own(ItemColour colour) {
     return colour >= kOwnColour;
 }
-/// "3", or "#664D33" for a colour of its own.
+/// The colour as text: "3", or "#664D33" for a colour of its own.
 [[nodiscard]] std::string text_of(ItemColour colour);
 
 /// A straight piece drawn by one module, from `base` by `length` along its frame's +Y.
@@ -85,9 +85,9 @@ struct Skeleton {
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
     std::shared_ptr<const Looks> looks;  // of colour indexes with a `#material`; null: none
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
-    bool box_segments = false;           // boxes, unless another method is asked for
-    float leaf_droop = 0.0F;             // MeshOptions::droop where that is not set
-    // Origins of the modules that drew the items, for a polygon of its `{`; empty unless the words
+    bool box_segments = false;           // MeshMethod::Default draws boxes
+    float leaf_droop = 0.0F;             // default of MeshOptions::droop
+    // Origins of the modules that drew the items (for a polygon: of its `{`); empty unless the words
     // had origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;

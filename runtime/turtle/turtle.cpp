@@ -254,17 +254,17 @@ std::optional<Stop> Turtle::reserve(const Word& word) {
 
 std::optional<Stop> Turtle::feed(const Word& word) {
     return word.visit(
-        [&](auto codes) { return state_->take(codes, word.parameters(), word.origins()); });
+        [&](auto codes) { return state_->feed(codes, word.parameters(), word.origins()); });
 }
 
 std::optional<Stop> Turtle::feed(std::span<const Code> codes, std::span<const float> parameters) {
-    return state_->take(codes, parameters, {});
+    return state_->feed(codes, parameters, {});
 }
 
 std::optional<Stop> Turtle::feed(std::span<const Code> codes,
                                  std::span<const float> parameters,
                                  std::span<const Origin> origins) {
-    return state_->take(codes, parameters, origins);
+    return state_->feed(codes, parameters, origins);
 }
 
 std::optional<Stop> Turtle::finish() {

@@ -31,10 +31,10 @@ enum class TurtleFaultKind : std::uint8_t {
     TooMany,          // more than kMaxSkeletonItems segments, objects or corners
     UnclosedBranch,   // a `[` without its `]`
     NegativeWidth,    // drawn as 0
-    VertexOutside,    // a `.` outside of a polygon: nothing is drawn
+    VertexOutside,    // a `.` outside of a polygon: ignored
     EndOutside,       // a `}` without its `{`
-    FewCorners,       // a polygon with fewer than three corners: nothing is drawn
-    UnclosedPolygon,  // a `{` without its `}`: it is not drawn
+    FewCorners,       // a polygon with fewer than three corners: not drawn
+    UnclosedPolygon,  // a `{` without its `}`: not drawn
     SidesOutOfRange,  // fewer than 3 or more than 64 sides: clamped
     ColourOutOfRange, // below 0 or above 65,535: clamped
     RgbOutOfRange,    // a part below 0 or above 1: clamped
@@ -68,7 +68,7 @@ struct TurtlePlace {
     float second_heading = 0.0F; // degrees from the first heading to the left
     std::uint32_t sides = 0;
     ItemColour colour = 0;
-    std::uint32_t colour_index = 0; // the last one, also where `colour` is none
+    std::uint32_t colour_index = 0; // the last index that was set, even if `colour` is no index
     std::uint32_t order = 0;        // open brackets
 };
 
@@ -83,7 +83,7 @@ struct DrawnCounts {
 
 /// The `[` of a valid branch in the word of an instanced system (docs/language.md section 9).
 struct BranchStart {
-    bool take = false; // whether an instance replaces the branch
+    bool has_instance = false; // whether an instance replaces the branch
     std::uint32_t age = 0;
     std::uint32_t id = 0;
     std::span<const float> formals; // values of the formals that the branch uses

@@ -1,6 +1,6 @@
 // Makes a prefab with an LODGroup of the levels of detail of a plant, for Unity 2021 or later. Put this file into a folder
-// `Editor`, and tree.lods.json with the files that it names into the project (GLB needs the package glTFast; OBJ and others
-// Unity reads itself). Select the list and use Assets > Make LOD prefab. The files are written by
+// `Editor`, and tree.lods.json with the files that it names into the project (GLB needs the package glTFast; Unity itself
+// reads OBJ and other formats). Select the list and use Assets > Make LOD prefab. The files are written by
 // `lsc export --lods N --lod-files`. Based on the documentation of LODGroup and MeshCollider, not tried in Unity.
 using System;
 using System.IO;

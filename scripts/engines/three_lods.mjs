@@ -4,7 +4,7 @@
 //     import * as THREE from 'three';
 //     loader.register(lods(THREE)); // or lods(THREE, 45): vertical field of view in degrees
 //
-// The node becomes a THREE.LOD, of which three.js shows the level for the distance of the camera.
+// The node becomes a THREE.LOD; three.js shows its level for the distance of the camera.
 
 /// Default vertical field of view in degrees.
 const VIEW = 60;
@@ -25,8 +25,8 @@ export function lods(THREE, view = VIEW) {
             return Promise.all(levels).then(objects => {
                 const size = new THREE.Box3().setFromObject(objects[0]).getSize(new THREE.Vector3());
                 const faceArea = size.y * Math.max(size.x, size.z);
-                // A level begins at the distance where the box covers less of the screen than the
-                // coverage of the level before it.
+                // A level begins at the distance from which the box covers a smaller fraction of the
+                // screen than the coverage of the previous level.
                 const coverages = node.extras.MSFT_screencoverage;
                 const lod = new THREE.LOD();
                 lod.name = node.name;

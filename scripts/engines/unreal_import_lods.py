@@ -20,7 +20,7 @@ def fitting(levels):
 
 
 def screen_sizes(levels):
-    """By level: fraction of the screen's height at which it begins; 1 for the finest."""
+    """For each level, the fraction of the screen height at which the level begins; 1 for the finest."""
     return [level["screen_height"] for level in levels]
 
 
@@ -51,7 +51,7 @@ def import_levels(unreal, list_path, folder):
         part = import_mesh(unreal, os.path.join(beside, level["file"]), f"{folder}/{name}/LOD{number}")
         if number == 0:
             mesh = part
-        # The last argument, False, gives the level its own material slots, since it may lack materials of level 0.
+        # The last argument, False, gives the level its own material slots, because it may lack materials of level 0.
         elif editor.set_lod_from_static_mesh(mesh, number, part, 0, False) != number:
             raise RuntimeError(f"{level['file']}: not accepted as level {number}")
     if not editor.set_lod_screen_sizes(mesh, screen_sizes(levels)):

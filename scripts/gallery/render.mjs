@@ -1,6 +1,6 @@
-// Renders GLB files to PNG with three.js in headless Chromium, one picture a file.
+// Renders GLB files to PNG with three.js in headless Chromium, one picture per file.
 // Usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES][,at=SECONDS] ...
-// az turns the camera about the plant from its front, el raises it, at is the time of an animation.
+// az turns the camera about the plant from the front, el raises the camera, at is the time of an animation.
 // Needs Chromium (CHROMIUM=/path/to/it).
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';

@@ -49,8 +49,8 @@ function change(material, uniforms) {
 }
 
 /// Changes the materials of all meshes of `object`, and the depth materials of their shadows. Returns
-/// the uniforms. `sway`: how far the top and the most flexible bough move in a wind of strength 1, as
-/// fractions of the height.
+/// the uniforms. `sway`: displacements of the top and of the most flexible bough in a wind of strength 1,
+/// as fractions of the height.
 export function addWind(object, { sway = [0.1, 0.05] } = {}) {
     const box = new THREE.Box3().setFromObject(object);
     const uniforms = {

@@ -7,7 +7,7 @@
 //   Wind     a vector parameter: direction in the axes of the instance; its length is the strength,
 //            1 is a storm
 //   Height   a scalar parameter: height of the plant, in cm
-//   Sway     a vector parameter: how far the top (x) and a bough (y) move, as fractions of the
+//   Sway     a vector parameter: displacements of the top (x) and of a bough (y), as fractions of the
 //            height: 0.1, 0.05
 //   Seconds  the node Time, in s
 // Transform the result with TransformVector from local to world space. Turn on "Use Full Precision

@@ -1,6 +1,6 @@
-// Derivation beside hand-written programs for the same systems (tests/bench/limits.h), and whole
-// runs of `lsc`, in one run on one machine. Prints a table, and Google Benchmark's JSON if asked
-// for (--benchmark_out=FILE). Asserts nothing about time.
+// Compares derivation with hand-written programs for the same systems (tests/bench/limits.h), and
+// measures whole runs of `lsc`, in one run on one machine. Prints a table, and with
+// --benchmark_out=FILE writes the JSON of Google Benchmark. Asserts nothing about time.
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
 // again and reuses the memory of the previous derivation.
@@ -44,12 +44,12 @@ struct Workload {
     const char* name;
     std::string grammar;
     std::uint32_t generations;
-    std::size_t capacity; // modules the limit program has room for
+    std::size_t capacity; // modules that fit into the buffers of the limit program
     LimitProgram limit;
 };
 
-/// W1 to W6; W3 and W5 written with local values and choices; W7, where one draw serves two
-/// parameters, with a local value and with a draw for each.
+/// W1 to W6; W3 and W5 also with local values and choices; W7 with one draw for two parameters, as a
+/// local value, and with one draw for each parameter.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;
@@ -129,11 +129,11 @@ double peak_bytes() {
     return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
-/// Measures of one derivation in a process of its own.
+/// Measurements of one derivation in a process of its own.
 struct Run {
     double seconds = 0.0;
     double modules = 0.0;
-    double bytes = 0.0; // of the word
+    double bytes = 0.0; // size of the word
     double peak = 0.0;  // bytes that the derivation added to the peak of the process
 };
 
@@ -150,7 +150,7 @@ lsys::DeriveOptions options_for(const Workload& workload, std::uint32_t threads)
     return options;
 }
 
-/// The folded bytecode, which is what `lsc` derives; folding counts as time of the derivation.
+/// The folded bytecode, which `lsc` derives; the time of folding counts as part of the derivation.
 lsys::Bytecode folded(const lsys::Bytecode& bytecode, const Workload& workload) {
     return lsys::fold_reached(bytecode, 0, workload.generations).value_or(bytecode);
 }
@@ -254,12 +254,12 @@ void add_lsc(const std::string& self, const Workload& workload, std::uint32_t th
     });
 }
 
-/// A run of `lsc` from start to exit, its output thrown away.
+/// A run of `lsc` from start to exit, whose output is discarded.
 struct WholeRun {
     std::string name;
     std::string grammar;
     std::string arguments; // % stands for the file
-    // Bytes that the run writes, for the throughput in the table; 0: none is shown.
+    // Bytes that the run writes, for the throughput in the table; 0: the table shows no throughput.
     double bytes = 0.0;
 };
 
@@ -335,7 +335,7 @@ public:
             const double limit = time(name + "/limit cold");
             const std::map<std::string, double>& counters = counters_[name + "/lsc cold 1"];
             if (limit == 0.0 || counters.empty()) {
-                continue; // --benchmark_filter leaves the workload out
+                continue; // --benchmark_filter excludes the workload
             }
             fmt::print("{:<11} {:>15.3f}", name, limit);
             for (const char* kind : {"limit cold huge", "limit warm", "lsc cold 1", "lsc cold 2",
@@ -344,7 +344,7 @@ public:
                 fmt::print(" {:>15}", fmt::format("{:.3f} [{:.2f}]", spent, spent / limit));
             }
             const double best = std::min(time(name + "/lsc cold 1"), time(name + "/lsc cold 2"));
-            // The word of W6 does not grow, so each generation rewrites as many modules.
+            // The word of W6 does not grow, so each generation rewrites the same number of modules.
             const double modules =
                 counters.at("modules") * (name.starts_with("W6") ? workload.generations : 1.0);
             fmt::print(" {:>15.0f} {:>15.2f} {:>15.2f}\n", modules / best / 1000.0,

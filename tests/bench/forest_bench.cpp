@@ -1,6 +1,6 @@
-// Time and memory of forests, to compare with the published 1,000,000 distinct trees in 4.5 s and
-// 350 MB of Kenwood: places 10^4 to 10^7 trees and expands the list of branches of each; writes
-// files of 10,000 trees. Usage: forest_bench [THREADS]. Asserts nothing.
+// Time and memory of forests, to compare with the numbers that Kenwood published: 1,000,000 distinct
+// trees in 4.5 s and 350 MB. Places 10^4 to 10^7 trees and expands the list of branches of each;
+// writes files of 10,000 trees. Usage: forest_bench [THREADS]. Asserts nothing.
 #include "compiler/compile.h"
 #include "compiler/instancing/instance.h"
 #include "grammar/lsys/parse.h"
@@ -26,7 +26,7 @@ using bench::fail;
 using bench::median;
 using bench::seconds;
 
-/// s; after a forest that takes longer, larger ones are skipped.
+/// s; after a forest that takes longer, larger forests are skipped.
 constexpr double kMaxSeconds = 4.0;
 
 struct Kind {
@@ -98,7 +98,7 @@ ForestStage stage_of(const Kind& kind) {
     return stage;
 }
 
-/// Draws place, yaw and scale of each tree from one block of random numbers.
+/// Place, yaw and scale of each tree, drawn from one block of random numbers.
 void place(Forest& forest, std::uint32_t count) {
     forest.trees.clear();
     forest.trees.resize(count);

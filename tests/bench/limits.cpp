@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::size_t kStore = 32;
 
-/// A successor for every code, padded so that one copy of fixed length stores it.
+/// The successor of every code, padded so that one copy of fixed length stores it.
 struct Templates {
     alignas(32) std::uint8_t text[256][kStore]{};
     std::uint8_t length[256]{};
@@ -149,7 +149,7 @@ std::size_t derive_w5(
 
 namespace {
 
-/// A number of 64 random bits for module `index`.
+/// 64 random bits for module `index`.
 std::uint64_t hash_of(int generation, std::size_t index) {
     std::uint64_t hash = (static_cast<std::uint64_t>(generation) << 40) ^ index ^ 0x1234567U;
     hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;

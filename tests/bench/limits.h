@@ -1,4 +1,4 @@
-// Hand-written programs for one L-system each: an upper bound of the speed that a general program
+// Hand-written programs, each for one L-system: an upper bound of the speed that a general program
 // can reach on the machine. Each derives into the buffers of the caller and returns the number of
 // modules. tests/README.md names the systems W1 to W6.
 #pragma once
@@ -47,14 +47,14 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
     int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b);
 /// Derives W4; draws random numbers by a cheap hash instead of Philox.
 [[nodiscard]] std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b);
-/// W7 with a cheap hash in place of Philox: a draw for both parameters, or one for each.
+/// W7 with a cheap hash in place of Philox: one draw for both parameters, or one draw for each.
 [[nodiscard]] std::size_t derive_w7(int generations,
                                     bool shared,
                                     std::uint8_t* a,
                                     std::uint8_t* b,
                                     float* parameters_a,
                                     float* parameters_b);
-/// W6 on `count` modules; returns the index of the one `b`.
+/// W6 on `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 

@@ -1,9 +1,9 @@
 // Compares turtles and tubes with hand-written programs for the same words (tests/bench/limits.h),
 // in one run on one machine. Values are million vertices per second, the best of some runs; each
 // run gets fresh memory from the system and frees it after the measurement. `lines` are the
-// segments of a skeleton, two vertices each; `tubes` have eight sides, positions and normals, and
-// their time includes skeleton and mesh, the mesh by one thread or by two. GLB is the export of the
-// same mesh to memory that is discarded. Asserts nothing.
+// segments of a skeleton, two vertices each; `tubes` have eight sides, positions and normals. The
+// time of tubes includes skeleton and mesh; one thread or two make the mesh. GLB is the export of
+// the same mesh to memory that is discarded. Asserts nothing.
 #include "runtime/derive/derive.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -32,14 +32,14 @@ using bench::seconds;
 
 constexpr int kRuns = 7;
 
-/// Minimum over some runs of `run`, which returns its time in s. Not the median: where a virtual
-/// machine gives free memory back to its host, some runs get pages that take twenty times as long.
+/// Minimum over some runs of `run`, which returns its time in s. Not the median: if a virtual machine
+/// gives free memory back to its host, some runs get pages that take twenty times as long.
 double least_of(const std::function<double()>& run) {
-    double least = run();
+    double min_time = run();
     for (int i = 1; i < kRuns; ++i) {
-        least = std::min(least, run());
+        min_time = std::min(min_time, run());
     }
-    return least;
+    return min_time;
 }
 
 struct Plant {

@@ -1,4 +1,4 @@
-// Parses and compiles grammars from text, for tests of the diagnostics and their places.
+// Parses and compiles grammars from text, for tests of diagnostics and their places.
 #pragma once
 
 #include "compiler/compile.h"
@@ -20,7 +20,7 @@ struct Compiled {
     CompileOutcome outcome;
 
     /// "code line:column" of every diagnostic, in order of place.
-    [[nodiscard]] std::vector<std::string> said() const {
+    [[nodiscard]] std::vector<std::string> reports() const {
         std::vector<std::string> result;
         for (const Diagnostic& d : diagnostics.all()) {
             const LineColumn at = sources.file(d.span.file).line_column(d.span.begin);
@@ -31,7 +31,7 @@ struct Compiled {
     }
     /// "code line:column" of every error, in order of place.
     [[nodiscard]] std::vector<std::string> errors() const {
-        std::vector<std::string> result = said();
+        std::vector<std::string> result = reports();
         for (std::size_t i = result.size(); i-- > 0;) {
             if (diagnostics.all()[i].severity != Severity::Error) {
                 result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));

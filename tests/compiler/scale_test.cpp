@@ -7,7 +7,7 @@
 using namespace lsys;
 using test::compile_text;
 
-TEST_CASE("a name made to be costly to split ends the search, not the patience") {
+TEST_CASE("the search for a split ends early for a name that is costly to split") {
     // Every prefix of the long name is a known name, but no sequence of known names reaches its
     // end.
     std::string text = "#w : F;\n";

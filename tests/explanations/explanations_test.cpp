@@ -1,5 +1,5 @@
-// Checks that every diagnostic is explained, in order, and that the examples yield the diagnostics
-// of their sections.
+// Checks that every diagnostic has an explanation, in order, and that the examples give the
+// diagnostics of their sections.
 #include "grammar/base/diagnostic.h"
 #include "runtime/cli/explanations.h"
 #include "runtime/scene/scene.h"
@@ -75,7 +75,7 @@ TEST_CASE("every diagnostic has an explanation, in the same order") {
     CHECK(found == wanted);
 }
 
-TEST_CASE("wrong examples yield their diagnostic, right ones yield none") {
+TEST_CASE("wrong examples give their diagnostic, correct ones give none") {
     for (const Explanation& explanation : all_explanations()) {
         for (const Example& example : explanation.examples) {
             if (example.is_sketch) {
@@ -94,7 +94,7 @@ TEST_CASE("wrong examples yield their diagnostic, right ones yield none") {
     }
 }
 
-TEST_CASE("examples of scenes yield their diagnostic, or none") {
+TEST_CASE("examples of scenes give their diagnostic, or none") {
     std::size_t scenes = 0;
     for (const Explanation& explanation : all_explanations()) {
         if (explanation.code.find("scene") == std::string::npos) {

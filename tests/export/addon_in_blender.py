@@ -12,7 +12,7 @@ import sys
 
 
 class Bench:
-    """What the checks share."""
+    """State shared by the checks."""
 
     def __init__(self, root, lsc, folder):
         import bpy
@@ -36,7 +36,7 @@ class Bench:
         return read_gltf(path)
 
     def fails(self, action, *texts):
-        """The action is refused with these texts and leaves no data behind."""
+        """Checks that the action is refused with these texts and leaves no data."""
         before = self.counts()
         try:
             action()
@@ -53,7 +53,7 @@ def box(points):
 
 
 def box_of_file(gltf):
-    """The box of a single plant, with +Z up, by the numbers of its accessor."""
+    """The box of a single plant, with +Z up, by the values of its accessor."""
     (placement,) = gltf.placements()
     _, parts = gltf.primitives(placement.mesh)
     points = []
@@ -64,7 +64,7 @@ def box_of_file(gltf):
 
 
 def check_plant(bench, collection, *arguments):
-    """The plant in the scene is the one that lsc writes with these arguments."""
+    """Checks that the plant in the scene is the one that lsc writes with these arguments."""
     expected, triangles = box_of_file(bench.written("export", *arguments))
     meshes = [o for o in collection.all_objects if o.type == "MESH"]
     assert sum(len(o.data.polygons) for o in meshes) == triangles, arguments
@@ -122,7 +122,7 @@ def plant(bench):
 
 
 def seed(bench):
-    """Another seed is another plant; leaves are cut out, bark has its relief."""
+    """Another seed gives another plant; leaves are cut out, bark has a normal map."""
     bpy = bench.bpy
     file = bench.sample("carey-type-2")
     bpy.ops.lsys.new_plant(filepath=file)
@@ -159,7 +159,7 @@ def statistics(bench, *arguments):
 
 
 def processor_time():
-    """Seconds of this process and of lsc, which other processes do not lengthen."""
+    """Processor time of this process and of lsc, s; other processes do not affect it."""
     times = os.times()
     return times.user + times.system + times.children_user + times.children_system
 
@@ -204,7 +204,7 @@ def forest(bench):
 
 
 def errors(bench):
-    """What lsc says reaches the user, and nothing is half made."""
+    """Messages of lsc are shown, and no data is left after an error."""
     bpy = bench.bpy
     broken = os.path.join(bench.folder, "broken.lsys")
     with open(broken, "w") as file:

@@ -1,5 +1,5 @@
-// Reads a forest with each reader in JavaScript: seconds and memory of reading, number of
-// instances, and the bounding box of the trees by the reader's own positions and matrices. Pictures
+// Reads a forest with each reader in JavaScript and prints seconds and memory of reading, number of
+// instances, and the bounding box of the trees by the positions and matrices of the reader. Pictures
 // are not decoded, because Node has no browser to do it.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -25,7 +25,7 @@ function measured(start) {
              megabytes: process.resourceUsage().maxRSS / 1024 };
 }
 
-// Defines the browser objects that readers look for and Node lacks.
+// Defines the browser objects that readers need and Node lacks.
 function pretendBrowser() {
     const element = () => ({
         style: {}, width: 64, height: 64, getContext: () => null, addEventListener() {}, removeEventListener() {},
@@ -280,8 +280,8 @@ function boxOfDocument(document, arrayOf) {
     return { instances, ...box };
 }
 
-/// The box of a GLB without compression or strides other than those of its items, read byte by byte here: what
-/// readers are compared with.
+/// The box of a GLB without compression and with packed items, read byte by byte; the results of the readers are
+/// compared with it.
 export function boxOfPlainGlb(file) {
     const bytes = readFileSync(file);
     const documentBytes = bytes.readUInt32LE(12);

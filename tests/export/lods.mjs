@@ -1,6 +1,6 @@
 // Tests the plugin for three.js of scripts/engines with levels of detail in one file.
 // Usage: node lods.mjs MODULES PLUGIN FILE.glb FILE.lods.json
-// The list has the triangles and the distance of each level, as lsc states them.
+// The list has the triangles and the distance of each level.
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';

@@ -1,15 +1,15 @@
 // Reads exported files with assimp and compares them, triangle by triangle, with the PLY of the
 // same name, whose plain binary layout is read here. Usage: read_assimp FOLDER
 //
-// assimp keeps the vertices of PLY and OFF, and must find as many as counts.txt says. For OBJ, STL
-// and glTF assimp makes its own vertices; there each corner of a triangle must lie where the PLY
-// has it.
+// assimp keeps the vertices of PLY and OFF; their number must be that of counts.txt. For OBJ, STL
+// and glTF assimp makes its own vertices; for these, each corner of a triangle must lie at its place
+// in the PLY.
 //
-// --forest: FOLDER has expanded.glb and expanded.gltf, whose nodes put triangles where baked.ply
-// has them, in another order.
+// --forest: FOLDER has expanded.glb and expanded.gltf. Their nodes place the triangles of baked.ply,
+// in another order.
 //
-// --box FILE: prints seconds and memory of reading, the number of nodes with meshes and the box of
-// all but a node `ground`, as JSON.
+// --box FILE: prints, as JSON, the seconds and memory of reading, the number of nodes with meshes,
+// and the box of all nodes but `ground`.
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
@@ -159,8 +159,8 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
     }
 }
 
-/// Bounds of the corners, sum of the corners, total area and number of triangles: independent of
-/// their order.
+/// Bounds of the corners, sum of the corners, total area and number of triangles: none depends on the
+/// order of the triangles.
 struct Whole {
     std::array<double, 3> low{1e30, 1e30, 1e30};
     std::array<double, 3> high{-1e30, -1e30, -1e30};

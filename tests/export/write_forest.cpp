@@ -1,4 +1,4 @@
-// Writes a small forest in every form. Usage: write_forest FOLDER
+// Writes a small forest in every format and variant. Usage: write_forest FOLDER
 // Two species, one of two stages, on a hilly ground. facts.json in the folder has its counts and
 // bounds, measured on the same forest as one mesh (baked.ply); counts.txt has a line
 // `NAME VERTICES TRIANGLES PARTS` for each glTF file that needs no extension.

@@ -1,5 +1,5 @@
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
-// motion, and a PLY for every frame. Usage: write_motion FOLDER. FOLDER/counts.txt gets a line `NAME
+// motion, and as a PLY for each frame. Usage: write_motion FOLDER. FOLDER/counts.txt gets a line `NAME
 // FRAMES FPS METRES` for each plant. METRES: max vertex error of a reduced skeleton; 0 if every
 // segment is a joint. FOLDER/growth gets plants that grow, with a counts.txt of the same columns.
 #include "runtime/export/export.h"

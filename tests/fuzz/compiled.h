@@ -18,6 +18,6 @@ struct CompiledText {
 [[nodiscard]] CompiledText
 compile_text(std::string text, lsys::Dialect dialect, std::string_view system);
 
-/// The word after up to four generations as text, within small limits; else the reason why there is
-/// no word.
+/// The word after up to four generations as text, derived within small limits; without a word, the
+/// reason.
 [[nodiscard]] std::string derived_text(const lsys::Bytecode& bytecode);

@@ -28,7 +28,7 @@ void try_system(const std::string& text, lsys::Dialect dialect, const std::strin
     }
 }
 
-/// Reads `text` as a view file of cpfg, and as every file that it names.
+/// Reads `text` as a view file of cpfg; every file that it names has the same text.
 void try_view(const std::string& text) {
     const lsys::CpfgView view =
         lsys::read_view(text, [&](std::string_view) { return std::optional<std::string>(text); });

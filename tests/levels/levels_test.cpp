@@ -1,5 +1,5 @@
-// Levels of detail of samples: each has fewer triangles than the last and looks like the plant at
-// its distance. The test draws its own pictures, with opacity and without light.
+// Levels of detail of samples: each has fewer triangles than the previous one and looks like the
+// plant at its distance. The test draws its own pictures, with opacity and without light.
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/meshing/impl/impostor.h"
 #include "runtime/meshing/impl/thinning.h"
@@ -27,12 +27,12 @@ namespace lsys {
 
 namespace {
 
-// View directions between those for which the levels are fitted: turns about +Y and elevations of
-// the eye, radians.
+// View directions between the directions for which the levels are fitted: turns about +Y and
+// elevations of the eye, radians.
 constexpr std::array<float, 8> kTurns{0.39F, 1.18F, 1.96F, 2.75F, 3.53F, 4.32F, 5.11F, 5.89F};
 constexpr std::array<float, 2> kTilts{0.0F, 0.5F};
-// Limits of samples along the largest extent. Levels shown in few pixels have more samples than
-// pixels.
+// Limits of the number of samples along the largest extent. Levels shown in few pixels have more
+// samples than pixels.
 constexpr int kMinSamples = 192;
 constexpr int kMaxSamples = 512;
 constexpr double kMaxColourDifference = 0.02;
@@ -144,8 +144,8 @@ Picture draw(const Drawing& drawing, const Bounds& frame, int samples, float tur
     const float largest = std::max({half.x, half.y, half.z});
     const float scale = 0.5F * static_cast<float>(samples) / largest;
     const int size = static_cast<int>(std::ceil(2.0F * scale * reach)) + 1;
-    // Shift each view by another part of a sample; a stem in the middle of all views would
-    // otherwise always meet samples alike.
+    // Shift each view by a different fraction of a sample; otherwise samples would hit a stem in
+    // the middle of every view in the same way.
     const float number = 1.0F + 8.0F * turn + 16.0F * tilt;
     const glm::vec3 shift(glm::fract(0.618F * number), glm::fract(0.414F * number), 0.0F);
     std::vector<glm::vec3> places;
@@ -273,8 +273,8 @@ double mean_distance(const Picture& from, const Picture& to) {
     return samples > 0.0 ? sum / samples : 0.0;
 }
 
-/// Mean distance in samples from the silhouette of one picture to that of the other, the larger one
-/// of both directions: the modified Hausdorff distance (Dubuisson and Jain 1994).
+/// Mean distance in samples from the silhouette of one picture to that of the other, the larger of
+/// the two directions: the modified Hausdorff distance (Dubuisson and Jain 1994).
 double silhouette_distance(const Picture& a, const Picture& b) {
     return std::max(mean_distance(a, b), mean_distance(b, a));
 }
@@ -386,7 +386,7 @@ std::vector<LevelResult> measure_levels(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[levels]") {
+TEST_CASE("levels of samples have fewer triangles and look alike at their distance", "[levels]") {
     // The other samples take longer; only the table of levels measures them.
     const std::string name = GENERATE("carey-type-0", "carey-type-1", "carey-3-2-2", "abop-1-24f",
                                       "abop-2-8a", "abop-2-6-monopodial", "abop-lychnis");
@@ -407,7 +407,7 @@ TEST_CASE("levels of samples have fewer triangles and look alike from afar", "[l
     CHECK(results.back().difference.silhouette <= kMaxImpostorDistance);
 }
 
-TEST_CASE("each level has a half to a third of the triangles of the one before", "[levels]") {
+TEST_CASE("each level has a third to a half of the triangles of the previous level", "[levels]") {
     const std::string name = GENERATE(from_range(kSamplesOfLevels));
     const Plant plant = grown(name);
     const DetailLevels levels = planned(plant, {});
@@ -422,7 +422,7 @@ TEST_CASE("each level has a half to a third of the triangles of the one before",
     CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
 }
 
-TEST_CASE("levels without pictures have fewer triangles too", "[levels]") {
+TEST_CASE("levels without impostors have fewer triangles too", "[levels]") {
     const std::string name = GENERATE("abop-lychnis", "carey-type-0", "abop-2-8a");
     const Plant plant = grown(name);
     DetailLevels levels;
@@ -442,7 +442,7 @@ TEST_CASE("levels without pictures have fewer triangles too", "[levels]") {
     CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
 }
 
-TEST_CASE("levels fitted later are those fitted at once", "[levels]") {
+TEST_CASE("levels that are fitted later equal levels fitted at once", "[levels]") {
     const Plant plant = grown("carey-type-1");
     const MeshOptions options{.threads = 1};
     const DetailLevels all = planned(plant, options);
@@ -507,7 +507,7 @@ TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]"
     }
 }
 
-TEST_CASE("cards have as many triangles as asked for", "[levels]") {
+TEST_CASE("cards have the requested number of triangles", "[levels]") {
     const Plant plant = grown("abop-lychnis");
     Mesh finest;
     REQUIRE(make_mesh(plant.skeleton, plant.user_meshes, {.threads = 1}, finest) == std::nullopt);
@@ -516,8 +516,8 @@ TEST_CASE("cards have as many triangles as asked for", "[levels]") {
         const ImpostorBaker baker(finest, 60.0F, triangles);
         const Mesh cards = baker.make(1.0, glm::vec3(1.0F));
         CHECK(triangles_of(cards) == triangles);
-        // Cards lie within the bounding sphere of the box of the plant, and their fronts face along
-        // their normals.
+        // Cards lie within the bounding sphere of the box of the plant, and their front faces have
+        // the direction of their normals.
         const Bounds frame = bounds_of(finest);
         const glm::vec3 middle = 0.5F * (frame.low + frame.high);
         for (const glm::vec3& position : cards.positions) {
@@ -554,11 +554,11 @@ TEST_CASE("table of levels", "[.][table]") {
     }
 }
 
-TEST_CASE("what a level keeps, all finer levels keep", "[levels]") {
+TEST_CASE("a finer level keeps all paths of a coarser level", "[levels]") {
     const Plant plant = grown("carey-3-2-2");
     const DetailLevels levels = planned(plant, {.threads = 1});
     const ThinningOrder order = thinning_order(plant.skeleton);
-    // In the order, a path comes after its parent.
+    // A path comes after its parent in the order.
     for (std::size_t i = 0; i < plant.skeleton.segments.size(); ++i) {
         const std::uint32_t parent = plant.skeleton.segments[i].parent;
         if (parent < i) {
@@ -573,7 +573,7 @@ TEST_CASE("what a level keeps, all finer levels keep", "[levels]") {
           plant.skeleton.objects.size() + plant.skeleton.polygons.size());
 }
 
-TEST_CASE("leaves that stay have the area of all leaves", "[levels]") {
+TEST_CASE("the kept leaves have the area of all leaves", "[levels]") {
     Skeleton skeleton;
     test::Numbers numbers(7);
     double area = 0.0;

@@ -87,7 +87,7 @@ TEST_CASE("a GLB holds all levels of detail as MSFT_lod") {
     CHECK(triangles_of(three, 0) == triangles_of(document, 0));
     CHECK(triangles_of(three, 1) == triangles_of(document, count / 2));
     CHECK(triangles_of(three, 2) == triangles_of(document, count - 1));
-    // Accessors lie in their views, and views in the buffer one after the other.
+    // Accessors lie in their views, and the views lie in the buffer one after the other.
     std::uint64_t end = 0;
     for (const auto& view : document["bufferViews"]) {
         CHECK(view["byteOffset"].get<std::uint64_t>() >= end);
@@ -151,7 +151,8 @@ TEST_CASE("the last levels are impostors with colour, opacity and normals") {
     }
 }
 
-TEST_CASE("levels of detail are a file each where a format holds one mesh, or is told so") {
+TEST_CASE(
+    "each level of detail is a file if the format holds one mesh or the option asks for files") {
     const ScratchFolder folder;
     for (const std::string format : {"obj", "glb"}) {
         std::vector<std::string> arguments{"export", "-", "-o", folder / ("tree." + format),
@@ -181,7 +182,7 @@ TEST_CASE("levels of detail are a file each where a format holds one mesh, or is
           Approx(level["screen_height"].get<double>()).epsilon(1e-6));
 }
 
-TEST_CASE("options of levels of detail that do not go together are refused") {
+TEST_CASE("options of levels of detail that contradict each other are refused") {
     const ScratchFolder folder;
     const auto refused = [&](std::vector<std::string> options, const std::string& message) {
         std::vector<std::string> arguments{"export", "-"};

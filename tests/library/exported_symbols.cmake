@@ -1,6 +1,6 @@
-# Compares the functions that the shared library exports with a list. A function that is gone or has
-# another signature breaks programs that are already linked: raise the version of the library
-# (SOVERSION), then copy the new list. Usage: cmake -D LIBRARY=... -D NM=... -D EXPECTED=... -D ACTUAL=...
+# Compares the functions that the shared library exports with a list. A removed function or a changed
+# signature breaks programs that are already linked: increase the version of the library (SOVERSION),
+# then copy the new list. Usage: cmake -D LIBRARY=... -D NM=... -D EXPECTED=... -D ACTUAL=...
 execute_process(COMMAND "${NM}" -D --defined-only -C --format=just-symbols "${LIBRARY}"
   OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "," symbols "${symbols}")

@@ -1,4 +1,4 @@
-// liblsys by its public headers alone.
+// liblsys, used only by its public headers.
 #include <catch2/catch.hpp>
 
 #include <atomic>
@@ -118,7 +118,7 @@ TEST_CASE("constants and settings are listed and replaced") {
     CHECK(wrong.messages().all().at(0).message.find("ration") != std::string::npos);
 }
 
-TEST_CASE("mistakes are data with places, and text with carets") {
+TEST_CASE("diagnostics are available as data with places and as text with carets") {
     const auto grammar =
         lsys::compile_text("#n = 1; #define length 2;\n#w : F(lengt);\n", "leaf.lsys");
     REQUIRE_FALSE(grammar);
@@ -146,7 +146,7 @@ TEST_CASE("mistakes are data with places, and text with carets") {
     CHECK(grammar.messages().text(lsys::MessageStyle::Json).front() == '{');
 }
 
-TEST_CASE("warnings may be errors, or not said at all") {
+TEST_CASE("warnings can be made errors or switched off") {
     const char* const unused = "#n = 1; #define size 2; #w : F; #p : F : * : F F;";
     const auto warned = lsys::compile_text(unused);
     REQUIRE(warned);
@@ -165,7 +165,7 @@ TEST_CASE("warnings may be errors, or not said at all") {
     CHECK(lsys::compile_text(unused, "a.lsys", {}, wrong).status() == lsys::Status::Failed);
 }
 
-TEST_CASE("files come from the host") {
+TEST_CASE("the host provides the files") {
     const lsys::Project project =
         project_of({{"wood/tree.lsys", "#include \"rules.lsys\";\n#n = 1; #w : A;"},
                     {"wood/rules.lsys", "#p : A : * : F F;"}});
@@ -190,7 +190,7 @@ TEST_CASE("sizes are predicted, exactly where they can be") {
     CHECK(lsys::derive(*grammar)->size() == static_cast<std::uint64_t>(sizes[3].low));
 }
 
-TEST_CASE("a compiled grammar derives as its source") {
+TEST_CASE("a compiled grammar derives the same word as its source") {
     const auto grammar = lsys::compile_text(kParametric);
     REQUIRE(grammar);
     const auto compiled =
@@ -308,7 +308,7 @@ TEST_CASE("vertices are written into a buffer of the caller") {
     CHECK(std::memcmp(packed.data(), mesh->positions().data(), packed.size() * 12) == 0);
 }
 
-TEST_CASE("one grammar serves many threads") {
+TEST_CASE("many threads can use one grammar") {
     const std::string path =
         std::string(LSYS_SOURCE_DIR) + "/samples/abop-1-25-bush/abop-1-25-bush.lsys";
     const auto grammar = lsys::compile_text(file_text(path), path);

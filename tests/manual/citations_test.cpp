@@ -151,7 +151,7 @@ std::filesystem::path cited(const std::filesystem::path& source, const std::stri
 
 } // namespace
 
-TEST_CASE("every document and section that a file cites is there") {
+TEST_CASE("every document and section that a file cites exists") {
     std::map<std::string, std::set<std::string>> known;
     std::size_t count = 0;
     std::size_t with_section = 0;

@@ -20,8 +20,8 @@ struct SessionStep {
 /// Lines that begin with "$ " are commands; a line that ends with \ continues on the next.
 [[nodiscard]] std::vector<SessionStep> steps_of(const std::vector<std::string>& lines);
 
-/// The shell of a document: its commands run one after the other in a folder of its own, which
-/// contains the project's `samples`.
+/// The shell of a document: the commands of the document run one after the other in a folder that
+/// contains the `samples` of the project.
 class Session {
 public:
     explicit Session(std::filesystem::path folder);

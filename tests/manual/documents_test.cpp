@@ -85,7 +85,7 @@ TEST_CASE("the table of the documents has a row for each feature") {
     CHECK(seen == counts);
 }
 
-TEST_CASE("the commands in the table of the documents print what it says") {
+TEST_CASE("the commands in the table of the documents print the output stated there") {
     const ScratchFolder folder;
     std::filesystem::create_directory_symlink(source_root() / "samples", folder.path() / "samples");
     const std::string document = read_text(source_root() / kDocument);

@@ -37,7 +37,7 @@ void check_example(const Fence& fence, const Fence* output, const ScratchFolder&
 
 } // namespace
 
-TEST_CASE("the examples of the documents print what they say") {
+TEST_CASE("the examples of the documents print the output stated there") {
     const ScratchFolder folder;
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {

@@ -46,7 +46,7 @@ std::size_t characters_in(std::string_view text) {
 
 } // namespace
 
-TEST_CASE("the links of the documents lead somewhere") {
+TEST_CASE("the links of the documents have existing targets") {
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {
         for (const Link& link : links_of(read_text(source_root() / document))) {
@@ -90,7 +90,7 @@ TEST_CASE("anchors are made as GitHub makes them") {
     CHECK(headings[3].anchor == "twice-1");
 }
 
-TEST_CASE("links are found outside of code") {
+TEST_CASE("links are found only outside of code") {
     const std::vector<Link> links =
         links_of("[a](b.md#c) ![p](q.png) `[no](link)` ``[no](`link)``\n<img src=\"r.png\">\n"
                  "```\n[no](link)\n```\n[two](t.md)[three](u.md \"title\")\n");

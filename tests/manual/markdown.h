@@ -36,7 +36,7 @@ struct Link {
     std::size_t line = 0;
     std::string target;
 };
-/// Links and pictures, also in HTML tags, but not in code.
+/// Links and pictures, including those in HTML tags but not those in code.
 [[nodiscard]] std::vector<Link> links_of(std::string_view document);
 
 /// Lines of prose: no code, no table, no heading.

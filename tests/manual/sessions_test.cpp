@@ -61,7 +61,7 @@ void check_commands(const std::filesystem::path& document) {
 
 } // namespace
 
-TEST_CASE("the sessions of the documents print what they say") {
+TEST_CASE("the sessions of the documents print the output stated there") {
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {
         check_session(document, count);
@@ -70,7 +70,7 @@ TEST_CASE("the sessions of the documents print what they say") {
     CHECK(count >= 20);
 }
 
-TEST_CASE("sessions are read as a shell reads them") {
+TEST_CASE("sessions are parsed like a shell") {
     CHECK(words_of("lsc dump 'a b.lsys' -n 3 # three") ==
           std::vector<std::string>{"lsc", "dump", "a b.lsys", "-n", "3"});
     const std::vector<SessionStep> steps =
@@ -85,7 +85,7 @@ TEST_CASE("sessions are read as a shell reads them") {
     CHECK_FALSE(matches_output({"a", "b"}, {"a"}));
 }
 
-TEST_CASE("a session that differs is told with what is printed") {
+TEST_CASE("the message about a session that differs has the actual output") {
     const ScratchFolder folder;
     Session session(folder.path());
     CHECK(session.run({0, "cat a.lsys", {"#n = 1;", "#w : F;"}}).empty());

@@ -43,7 +43,7 @@ std::string dump(const std::string& grammar, std::vector<std::string> options) {
     return run.out;
 }
 
-/// The names of the modules without parameters and blanks.
+/// The names of the modules of a word as text, without parameters and blanks.
 std::string symbols(const std::string& word) {
     std::string names;
     int depth = 0;
@@ -119,7 +119,7 @@ TEST_CASE("the benchmark systems have the known digests") {
     CHECK(digest(kW5, "3") == "40a7c922909e04cf82378de93a40982e");
 }
 
-TEST_CASE("the signal of W6 moves one module a generation") {
+TEST_CASE("the signal of W6 moves one module per generation") {
     const std::string grammar = w6();
     std::string counts;
     for (int i = 0; i <= 9; ++i) {
@@ -134,7 +134,7 @@ TEST_CASE("the signal of W6 moves one module a generation") {
     }
 }
 
-TEST_CASE("the random W4 keeps its brackets and turns in step") {
+TEST_CASE("words of the stochastic W4 have balanced brackets and a turn per branch") {
     for (const char* seed : {"0", "1", "2"}) {
         std::map<char, std::ptrdiff_t> counts =
             count_symbols(dump(kW4, {"-n", "8", "--seed", seed}));

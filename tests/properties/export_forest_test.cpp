@@ -189,7 +189,7 @@ std::vector<glm::dvec4> rotations_of(const Exported& file, std::size_t number) {
     return rotations;
 }
 
-/// A primitive of a mesh, as its accessors have it.
+/// A primitive of a mesh, as read from its accessors.
 struct Primitive {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -241,7 +241,7 @@ Shape shape_of(const Mesh& mesh) {
 
 } // namespace
 
-TEST_CASE("an instance takes forty bytes of a GLB, whatever the cells") {
+TEST_CASE("an instance takes forty bytes of a GLB with any number of cells") {
     Wood wood;
     wood.add_species(kLeafyBush, 5);
     wood.add_species(kLeafyBush, 4);
@@ -303,7 +303,7 @@ TEST_CASE("a forest has the same bytes for any number of threads") {
     CHECK(one.indices == four.indices);
 }
 
-TEST_CASE("a forest has the same bytes however little room there is for its transforms") {
+TEST_CASE("a forest has the same bytes with any memory for its transforms") {
     Wood wood;
     wood.add_species(kLeafyBush, 5);
     wood.add_trees(700);
@@ -322,7 +322,7 @@ TEST_CASE("a forest has the same bytes however little room there is for its tran
     }
 }
 
-TEST_CASE("the instances of a GLB stand where the baked forest has its triangles") {
+TEST_CASE("the instances of a GLB have the triangles of the baked forest") {
     Wood wood;
     wood.add_species(kLeafyBush, 5);
     wood.add_trees(600);
@@ -334,11 +334,11 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
     double last_bytes = 1e9;
     struct Form {
         ExportCompression compression;
-        float most;           // max difference of bounds, m
+        float max_difference; // of bounds, m
         std::uint64_t window; // instances whose transforms are compressed together
     };
-    // Positions are off by at most half a step along each axis: a tree is less than 10 m wide.
-    for (const auto& [compression, most, window] :
+    // Positions differ by at most half a step along each axis: a tree is less than 10 m wide.
+    for (const auto& [compression, max_difference, window] :
          {Form{ExportCompression::None, 1e-3F, 1000},
           Form{ExportCompression::Quantize, 2e-3F, 1000},
           Form{ExportCompression::Meshopt, 4e-3F, 1 << 20},
@@ -377,10 +377,11 @@ TEST_CASE("the instances of a GLB stand where the baked forest has its triangles
             }
         }
         CHECK(found.triangles == wanted.triangles);
-        CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < most);
-        CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < most);
-        CHECK(glm::distance(found.sum, wanted.sum) <
-              0.1 * static_cast<double>(most) * 3.0 * static_cast<double>(found.triangles));
+        CHECK(glm::distance(found.bounds.low, wanted.bounds.low) < max_difference);
+        CHECK(glm::distance(found.bounds.high, wanted.bounds.high) < max_difference);
+        CHECK(glm::distance(found.sum, wanted.sum) < 0.1 * static_cast<double>(max_difference) *
+                                                         3.0 *
+                                                         static_cast<double>(found.triangles));
         CHECK((static_cast<double>(file.bytes.size()) < 0.95 * last_bytes || window == 100));
         last_bytes = static_cast<double>(file.bytes.size());
         const bool required = document["extensionsRequired"].dump().find("KHR_mesh_quantization") !=
@@ -400,10 +401,10 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     const Exported file = exported(wood.scene(), ExportFormat::Glb);
     REQUIRE(!file.stop);
     std::uint64_t vertices = 0;         // of all primitives
-    std::uint64_t wide_primitives = 0;  // with 32-bit indices
+    std::uint64_t wide_primitives = 0;  // primitives with 32-bit indices
     std::uint64_t nested_instances = 0; // in branches of other instances
     for (const json& drawn : file.document["meshes"]) {
-        // The name is "species S I": instance I of species S.
+        // A node has the name "species S I": instance I of species S.
         const std::string name = drawn["name"];
         const std::size_t species = std::stoul(name.substr(8)) - 1;
         const auto instance = static_cast<std::uint32_t>(std::stoul(name.substr(name.rfind(' '))));
@@ -439,8 +440,8 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     }
     CHECK(wide_primitives > 0);
     CHECK(nested_instances > 20);
-    // Nested instances share their vertices in the file: the file has few more than the heroes
-    // have.
+    // Nested instances share their vertices in the file: the file has few more vertices than the
+    // heroes.
     std::uint64_t vertices_in_file = 0;
     std::uint64_t vertices_of_heroes = 0;
     for (const json& view : file.document["bufferViews"]) {
@@ -454,7 +455,7 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     CHECK(static_cast<double>(vertices_in_file) < 1.05 * static_cast<double>(vertices_of_heroes));
 }
 
-TEST_CASE("transforms of more instances than are held at once are all there") {
+TEST_CASE("the file has all transforms of more instances than are held in memory at once") {
     Wood wood;
     wood.add_species("#set names letters; #w : F; #p : F : * : F;", 1);
     constexpr std::uint32_t kTrees = (1U << 21) + 5;
@@ -491,7 +492,7 @@ TEST_CASE("transforms of more instances than are held at once are all there") {
     CHECK(count == kTrees);
 }
 
-TEST_CASE("a forest that cannot be written is refused before a byte is") {
+TEST_CASE("a forest that cannot be written is refused before the first byte") {
     Wood wood;
     wood.add_species(kLeafyBush, 4);
     CHECK(exported(wood.scene(), ExportFormat::Glb).error == kNothing);
@@ -531,7 +532,7 @@ TEST_CASE("a forest that cannot be written is refused before a byte is") {
     CHECK(bake_forest(wood.scene(), 1000, 0).stop() == Stop::Limit);
 }
 
-TEST_CASE("a ground without trees is a forest, and is baked with its material") {
+TEST_CASE("a ground without trees is a forest and is baked with its material") {
     Wood wood;
     wood.add_species(kLeafyBush, 4);
     Mesh ground;
@@ -552,7 +553,8 @@ TEST_CASE("a ground without trees is a forest, and is baked with its material") 
     CHECK(baked.parts.back().index_count == 3);
 }
 
-TEST_CASE("trees that look the same are not counted twice, whatever they are made of") {
+TEST_CASE(
+    "trees that look the same are counted once, also if they consist of different instances") {
     Wood same;
     same.add_species("#set turtle houdini; #set names letters; #w : A; "
                      "#p : A : * : !\"F[&A][//&A]////[^A]F;",

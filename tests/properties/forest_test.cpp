@@ -1,4 +1,4 @@
-// Compares trees from instance caches with plants that were derived and drawn whole.
+// Compares trees from instance caches with plants derived and drawn without instancing.
 #include "runtime/derive/word_text.h"
 #include "tests/support/forest.h"
 #include "tests/support/lsc_run.h"
@@ -53,7 +53,7 @@ const std::string kBush = "#set names letters; #w : A;"
 
 } // namespace
 
-TEST_CASE("without taking, every tree is a hero, bit for bit") {
+TEST_CASE("without exchanged branches, every tree is a hero, bit for bit") {
     const Planted planted = plant(kBush, 6, 0.0F, heroes(5, 40));
     CHECK(planted.cache.exits.empty());
     std::set<std::uint32_t> seen;
@@ -79,21 +79,21 @@ TEST_CASE("without taking, every tree is a hero, bit for bit") {
     CHECK(seen.size() == 5);
 }
 
-TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
+TEST_CASE("without chance, every tree is the plant without instancing") {
     const std::string grammar = GENERATE(
         as<std::string>{},
-        // Keys by turtle state: widths and steps become smaller with each branch.
+        // Keys that depend on turtle state: widths and steps become smaller with each branch.
         "#set turtle houdini; #set names letters; #w : A; #p : A : * : !\"F[&A][//&A]////[^A]F;",
-        // Keys by parameters.
+        // Keys that depend on parameters.
         "#w : A(1, 0.3); #p : A(l, w) : * : !(w) F(l) [&(30) A(l*0.8, w*0.7)] /(137)"
         "[&(50) A(l*0.6, w*0.5)] A(l*0.9, w*0.8);",
-        // A branch that grows on.
+        // A branch that continues to grow.
         "#set names letters; #w : A; #p : A : * : F[+B]A; #q : B : * : F[-B]FB; #r : F : * : FF;",
-        // #interpret with its own branches.
+        // #interpret that draws branches.
         "#set names letters; #w : A; #p : A : * : I[+A][-A]IA; #q : I : * : II;"
         "#interpret i : I : * : F[&J]; #interpret j : A : * : {.F+F+F.}; #interpret k : J : * : "
         "FF;",
-        // #decompose with its own branches.
+        // #decompose that writes branches.
         "#w : A(0); #p : A(t) : * : F [+ B(t)] A(t + 0.5); #b : B(t) : * : B(t + 0.4) F;"
         "#decompose d : A(t) : t > 1 : M(t) [& B(t - 1)] A(t - 1); #decompose m : M(t) : * : F(t);",
         // Cuts by %, in a branch and around it.
@@ -117,7 +117,7 @@ TEST_CASE("where nothing is left to chance, every tree is the plain plant") {
     }
 }
 
-TEST_CASE("without taking, what is drawn in place of modules is drawn with the draws of the hero") {
+TEST_CASE("without exchanged branches, #interpret uses the random numbers of the hero") {
     const std::string grammar =
         "#set names letters; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : I[-A]A;"
         "#interpret i : I : * : F({1, 3})[+({10, 80})F]; #interpret f : F : * : F({0.5, 1});";
@@ -135,7 +135,7 @@ TEST_CASE("without taking, what is drawn in place of modules is drawn with the d
     }
 }
 
-TEST_CASE("Carey's twisted tree is the same whichever way it is put together") {
+TEST_CASE("Carey's twisted tree is the same with and without instancing") {
     const std::string grammar = sample("carey-type-1");
     const Planted planted = plant(grammar, 6, 0.6F, heroes(10));
     const std::vector<TreeSegment> plain = segments_of(plain_plant(grammar, 6, 0));
@@ -147,7 +147,7 @@ TEST_CASE("Carey's twisted tree is the same whichever way it is put together") {
     }
 }
 
-TEST_CASE("the word of the instanced system is that of the plain one") {
+TEST_CASE("the instanced system and the plain one derive the same word") {
     const Planted planted = plant(kBush, 6, 0.5F, heroes(1));
     const test::Compiled plain = test::compile_text(kBush);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -168,7 +168,7 @@ TEST_CASE("the word of the instanced system is that of the plain one") {
     }
 }
 
-TEST_CASE("a tree is a function of its number") {
+TEST_CASE("a tree depends on nothing but its number") {
     const Planted planted = plant(kBush, 7, 0.7F, heroes(4));
     const auto hash = [&](std::uint32_t number, std::uint64_t key) {
         return hash_of(segments_of(planted.cache, tree_of(number), key));
@@ -195,8 +195,8 @@ std::vector<double> measures_of(const std::vector<TreeSegment>& segments) {
         measures[2] = std::max(measures[2], std::hypot(segment.tip.x, segment.tip.z));
         measures[3 + std::min<std::size_t>(segment.order, kOrders - 1)] += 1.0;
     }
-    // Round to mm: a tree put together from branches differs from the plain one by rounding errors,
-    // which would make equal heights differ.
+    // Round to mm: a tree assembled from branches differs from the plain one by rounding errors, so
+    // that equal heights would differ.
     measures[1] = std::round(measures[1] * 1e3);
     measures[2] = std::round(measures[2] * 1e3);
     return measures;
@@ -231,7 +231,7 @@ double squared_error(const std::vector<double>& values) {
     return sum / (n - 1.0) / n;
 }
 
-/// The largest distance of two empirical distributions.
+/// The largest difference between two empirical distribution functions.
 double kolmogorov_smirnov(std::vector<double> a, std::vector<double> b) {
     std::sort(a.begin(), a.end());
     std::sort(b.begin(), b.end());
@@ -240,18 +240,18 @@ double kolmogorov_smirnov(std::vector<double> a, std::vector<double> b) {
                                    values.begin()) /
                static_cast<double>(values.size());
     };
-    double most = 0.0;
+    double max_difference = 0.0;
     for (const std::vector<double>* values : {&a, &b}) {
         for (const double at : *values) {
-            most = std::max(most, std::abs(part(a, at) - part(b, at)));
+            max_difference = std::max(max_difference, std::abs(part(a, at) - part(b, at)));
         }
     }
-    return most;
+    return max_difference;
 }
 
 } // namespace
 
-TEST_CASE("trees of independent caches are like plain plants in the mean") {
+TEST_CASE("trees of independent caches have the means of plain plants") {
     constexpr std::uint32_t kTrees = 200;
     const std::string grammar = kBush;
     Samples trees;
@@ -268,7 +268,7 @@ TEST_CASE("trees of independent caches are like plain plants in the mean") {
     }
 }
 
-TEST_CASE("trees of five hundred heroes are distributed as plain plants") {
+TEST_CASE("trees of five hundred heroes have the distributions of plain plants") {
     constexpr std::uint32_t kTrees = 500;
     const Planted planted = plant(kBush, 7, 0.6F, heroes(500));
     Samples trees;
@@ -285,7 +285,7 @@ TEST_CASE("trees of five hundred heroes are distributed as plain plants") {
     }
 }
 
-TEST_CASE("ten heroes of Carey's trees make ten thousand") {
+TEST_CASE("ten heroes of Carey's trees give ten thousand different trees") {
     const auto [name, generations] =
         GENERATE(table<std::string, std::uint32_t>({{"carey-type-0", 20}, {"carey-type-2", 18}}));
     const Planted planted = plant(sample(name), generations, 0.6F, heroes(10));
@@ -297,7 +297,7 @@ TEST_CASE("ten heroes of Carey's trees make ten thousand") {
     CHECK(different.size() >= 9'900);
 }
 
-TEST_CASE("a production of forty branches runs") {
+TEST_CASE("a production with forty branches can be instanced") {
     std::string successor = "F";
     for (int i = 0; i < 40; ++i) {
         successor += "[+B]/";
@@ -310,7 +310,7 @@ TEST_CASE("a production of forty branches runs") {
     CHECK(segments_of(planted.cache, tree_of(1), 1).size() >= 41);
 }
 
-TEST_CASE("keys keep apart what cannot stand for one another") {
+TEST_CASE("branches that cannot replace each other have different keys") {
     // Branches with the same text and age but different lengths.
     const std::string grammar =
         "#w : B(1) B(2); #p : B(x) : * : [A(x)] F(x); "
@@ -331,7 +331,7 @@ TEST_CASE("keys keep apart what cannot stand for one another") {
     CHECK(planted.cache.slots.size() == 3);
 }
 
-TEST_CASE("a cap and a tolerance bound the cache") {
+TEST_CASE("a maximum per key and a tolerance limit the size of the cache") {
     const std::string grammar = "#set names letters; #w : A; "
                                 "#p : A : ~ 0.5 : !({0.9,1.1})F[+B]A; #q : A : ~ 0.5 : F[-B]A; "
                                 "#r : B : ~ 0.5 : FB; #s : B : ~ 0.5 : F;";

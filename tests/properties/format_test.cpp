@@ -1,5 +1,5 @@
-// Properties of the formatter for every grammar: samples and random grammars, as they are and with
-// their layout destroyed. Formatting again changes nothing, and the syntax tree stays the same.
+// Properties of the formatter for every grammar, tested on samples and random grammars, unchanged and
+// with a random layout. Formatting again changes nothing, and the syntax tree stays the same.
 #include "grammar/ast/ast_dump.h"
 #include "grammar/format/format.h"
 #include "grammar/format/impl/lexemes.h"
@@ -55,14 +55,14 @@ std::vector<std::string> comments_of(const std::string& text) {
     return comments;
 }
 
-/// Destroys the layout of a text: puts random blanks, line ends and comments between tokens.
+/// Gives a text a random layout: puts random blanks, line ends and comments between tokens.
 class LayoutDestroyer {
 public:
     enum class Manner { Blanks, Lines, Mixed };
 
     LayoutDestroyer(Manner manner, std::uint64_t seed) : manner_(manner), state_(seed * 2 + 1) {}
 
-    /// `repeats`: count of copies of the modules of every production.
+    /// `repeats`: number of copies of the modules of every production.
     std::string run(const std::string& text, int repeats) {
         std::string out;
         std::vector<Lexeme> statement;
@@ -148,7 +148,7 @@ std::string mistake_in_layout_of(const std::string& text) {
 
 std::size_t check_layouts_of(std::string text, std::uint64_t seed) {
     if (text.starts_with("\xEF\xBB\xBF")) {
-        text.erase(0, 3); // a byte order mark is no part of the text
+        text.erase(0, 3); // remove the byte order mark
     }
     std::size_t tried = 0;
     const auto check = [&](const std::string& layout) {
@@ -170,7 +170,7 @@ std::size_t check_layouts_of(std::string text, std::uint64_t seed) {
 
 } // namespace
 
-TEST_CASE("the layout of every sample means the same and stays") {
+TEST_CASE("formatting samples keeps their meaning, and formatting again changes nothing") {
     std::size_t tried = 0;
     for (const tests::Sample& sample : tests::all_samples()) {
         INFO(sample.file);
@@ -179,7 +179,7 @@ TEST_CASE("the layout of every sample means the same and stays") {
     CHECK(tried > 400);
 }
 
-TEST_CASE("the layout of random grammars means the same and stays") {
+TEST_CASE("formatting random grammars keeps their meaning, and formatting again changes nothing") {
     std::size_t tried = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         INFO("seed " << seed);

@@ -1,5 +1,5 @@
-// Compares meshes of trees put together from instances with meshes of plants that were derived,
-// drawn and meshed whole.
+// Compares meshes of trees assembled from instances with meshes of plants that were derived, drawn
+// and meshed without instancing.
 #include "runtime/forest/instance_meshes.h"
 #include "tests/support/forest.h"
 #include "tests/support/mesh_checks.h"
@@ -85,8 +85,8 @@ std::array<double, 9> sorted(const Triangle& triangle) {
     return values;
 }
 
-/// Count of triangles of `a` without a triangle of `b` within `distance` (m). Each triangle of `b`
-/// matches at most one.
+/// Number of triangles of `a` without a triangle of `b` within `distance` (m). Each triangle of `b`
+/// matches at most one triangle.
 std::size_t
 count_unmatched(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double distance) {
     const double cell = 4.0 * distance;
@@ -142,7 +142,8 @@ const std::string kMeshedBush = "#set names letters; #object l LEAF; #w : A;"
 
 } // namespace
 
-TEST_CASE("without taking, an instance has the triangles of the plain plant, bit for bit") {
+TEST_CASE(
+    "without exchanged branches, an instance has the triangles of the plain plant, bit for bit") {
     const auto method = GENERATE(MeshMethod::Tubes, MeshMethod::Cylinders);
     MeshOptions options;
     options.method = method;
@@ -151,7 +152,7 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
         const Instance& instance = planted.cache.instances[i];
         if (instance.slot != 0) {
-            // Without exchange of branches no tree contains this instance.
+            // Without exchanged branches, no tree contains this instance.
             CHECK(meshes.parts_of(i).empty());
             continue;
         }
@@ -182,7 +183,7 @@ TEST_CASE("without taking, an instance has the triangles of the plain plant, bit
     }
 }
 
-TEST_CASE("where nothing is left to chance, a tree has the surface of the plain plant") {
+TEST_CASE("without chance, a tree has the surface of the plain plant") {
     const std::string grammar = GENERATE(
         as<std::string>{},
         "#set turtle houdini; #set names letters; #w : A; #p : A : * : !\"F[&A][//&A]////[^A]F;",
@@ -225,12 +226,12 @@ TEST_CASE("where nothing is left to chance, a tree has the surface of the plain 
     }
 }
 
-TEST_CASE("instances within one another share vertices") {
+TEST_CASE("nested instances share vertices") {
     const Planted planted = plant(kMeshedBush, 6, 0.5F, heroes(10));
     const InstanceMeshes meshes = meshes_of(planted.cache);
     const Mesh heroes_mesh = plain_mesh(planted.cache.skeleton);
-    // More vertices than the heroes have come only from ends where a branch was left out: they are
-    // half balls instead of discs.
+    // There are more vertices than in the heroes only because ends at omitted branches are half balls
+    // instead of discs.
     CHECK(meshes.mesh.positions.size() < 2 * heroes_mesh.positions.size());
     std::uint64_t end = 0;
     for (const MeshPart& part : meshes.mesh.parts) {
@@ -248,7 +249,7 @@ TEST_CASE("instances within one another share vertices") {
     CHECK(meshes.mesh.segments.empty());
 }
 
-TEST_CASE("a branch that is put elsewhere begins where and as wide as its parent asks for") {
+TEST_CASE("an exchanged branch begins with the place and width of the slot in its parent") {
     const std::string grammar = "#set names letters; #set turtle houdini; #w : A;"
                                 "#p : A : ~ 0.5 : F![&A][//&A]/A; #q : A : ~ 0.5 : F[^A]F[+A];";
     const Planted planted = plant(grammar, 6, 0.6F, heroes(10));
@@ -295,7 +296,7 @@ TEST_CASE("surfaces of instances are the same for any number of threads") {
     CHECK(one.first_part == four.first_part);
 }
 
-TEST_CASE("boxes of an instance are closed surfaces of their own") {
+TEST_CASE("the boxes of an instance are separate closed surfaces") {
     const std::string grammar =
         GENERATE(as<std::string>{}, kMeshedBush,
                  "#set turtle sys; #set names letters; #w : F; #p : F : * : F[`>`F][`<`F]F;",
@@ -346,7 +347,7 @@ TEST_CASE("boxes of an instance are closed surfaces of their own") {
     }
 }
 
-TEST_CASE("surfaces of instances that cannot be are refused") {
+TEST_CASE("surfaces of instances over the limit of memory are refused") {
     const Planted planted = plant(kMeshedBush, 5, 0.5F, heroes(4));
     InstanceMeshes meshes;
     MeshOptions options;

@@ -1,6 +1,6 @@
-// Limits of `lsc check --fix`: one token or character of a correct grammar is changed, as by a
-// typing mistake, and the result is repaired. If the repaired text compiles, it must be the original grammar; if
-// more than one repair is possible, none may be applied.
+// Tests `lsc check --fix`: one token or character of a correct grammar is changed, as by a typing
+// mistake, and the result is repaired. If the repaired text compiles, it must be the original
+// grammar; if more than one repair is possible, none may be applied.
 #include "compiler/program/program_dump.h"
 #include "grammar/format/impl/lexemes.h"
 #include "runtime/base/random.h"
@@ -195,7 +195,7 @@ Mutant character_mutant(const RightGrammar& grammar, std::uint64_t number) {
     do {
         at = below(grammar.text.size());
     } while (is_comment_at[at]);
-    // A character of the file, which is likelier to be meant, or any printable one.
+    // A character that occurs in the file, as in likely mistakes, or any printable one.
     const char other = below(2) == 0 ? grammar.text[below(grammar.text.size())]
                                      : static_cast<char>(' ' + below('~' - ' ' + 1));
     Mutant mutant{"", grammar.text};
@@ -340,7 +340,7 @@ void check_characters(Census& census, std::uint64_t count) {
 
 } // namespace
 
-TEST_CASE("a repaired grammar is the one that was meant") {
+TEST_CASE("a repaired grammar equals the original") {
     // Test one of kOneOf mutants, the same in every run.
     constexpr std::uint64_t kOneOf = 16;
     Census census(false);

@@ -74,7 +74,7 @@ std::string dump(std::vector<std::string> arguments) {
 
 } // namespace
 
-TEST_CASE("what is dumped parses as the axiom of the same file and dumps the same") {
+TEST_CASE("a dumped word parses as the axiom of the same file and is dumped unchanged") {
     std::size_t tried = 0;
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
@@ -110,7 +110,7 @@ TEST_CASE("one thread and two derive the same word") {
     }
 }
 
-TEST_CASE("a streamed word is the stored one") {
+TEST_CASE("a streamed word equals the stored one") {
     std::size_t tried = 0;
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
@@ -129,7 +129,7 @@ TEST_CASE("a streamed word is the stored one") {
     CHECK(tried > 20);
 }
 
-TEST_CASE("a derivation that is saved and continued ends as one in one go") {
+TEST_CASE("a derivation that is saved and continued gives the word of an uninterrupted one") {
     const ScratchFolder folder;
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
@@ -143,7 +143,7 @@ TEST_CASE("a derivation that is saved and continued ends as one in one go") {
     }
 }
 
-TEST_CASE("counts that need no word are those of the words") {
+TEST_CASE("predicted counts are those of the words") {
     const ScratchFolder folder;
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
@@ -154,7 +154,7 @@ TEST_CASE("counts that need no word are those of the words") {
     }
 }
 
-TEST_CASE("a compiled grammar derives what its source does") {
+TEST_CASE("a compiled grammar derives the word of its source") {
     const ScratchFolder folder;
     const std::string compiled = folder / "sample.lsb";
     for (const Sample& sample : all_samples()) {

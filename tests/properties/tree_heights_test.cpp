@@ -53,7 +53,7 @@ Forest forest_of(InstanceCache cache) {
 
 } // namespace
 
-TEST_CASE("the height of a tree is that of its points") {
+TEST_CASE("the height of a tree is that of its highest point") {
     for (const float rho : {0.0F, 0.6F, 1.0F}) {
         const Planted planted = plant(kLowBush, 6, rho, heroes(5, 40));
         const HeightTable table = make_height_table(planted.cache);
@@ -68,7 +68,7 @@ TEST_CASE("the height of a tree is that of its points") {
     }
 }
 
-TEST_CASE("trees get their heights, alike on any number of threads") {
+TEST_CASE("trees get the same heights for any number of threads") {
     const Planted planted = plant(kLowBush, 6, 0.6F, heroes(5, 40));
     const std::vector<double> heights{12.0};
     Forest forest = forest_of(planted.cache);
@@ -90,7 +90,7 @@ TEST_CASE("trees get their heights, alike on any number of threads") {
     CHECK(plain.trees[3].scale == 2.0F);
 }
 
-TEST_CASE("a scaled cache has scaled trees") {
+TEST_CASE("trees of a scaled cache are scaled") {
     Planted planted = plant(kLowBush, 5, 0.6F, heroes(4, 1));
     const std::vector<TreeSegment> before = segments_of(planted.cache, tree_of(17), 3);
     scale_cache(2.5, {500.0, 9e9}, planted.cache);
@@ -103,7 +103,7 @@ TEST_CASE("a scaled cache has scaled trees") {
     }
 }
 
-TEST_CASE("a young tree is as much smaller as its stage") {
+TEST_CASE("the height of a young tree is that of its stage") {
     Forest forest;
     forest.species.emplace_back();
     forest.species[0].years_of_stage = 10.0F;
@@ -126,7 +126,7 @@ TEST_CASE("a young tree is as much smaller as its stage") {
           Approx(20.0 / 3.0).epsilon(1e-5));
 }
 
-TEST_CASE("flat trees get no height") {
+TEST_CASE("trees without height are not scaled") {
     Forest forest = forest_of(plant("#w : +(90) A; #p : A : * : F A;", 4, 0.6F, heroes(2)).cache);
     const std::vector<double> heights{3.0};
     CHECK(size_trees(heights, 2, forest) == std::uint16_t{0});

@@ -331,7 +331,7 @@ void compare(const std::string& grammar, const Profile& profile, const Tropism& 
 
 } // namespace
 
-TEST_CASE("random words are drawn as docs/language.md section 7 says, in four profiles") {
+TEST_CASE("random words are drawn as specified by docs/language.md section 7, in four profiles") {
     std::mt19937 random(7); // NOLINT: the same words every time
     for (const auto& [name, profile] : profiles()) {
         for (int i = 0; i < 60; ++i) {

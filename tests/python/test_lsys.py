@@ -1,4 +1,4 @@
-"""The Python module against the program `lsc`, and on its own.
+"""The Python module, compared with the program `lsc` and tested alone.
 
 Usage: python3 test_lsys.py LSC SAMPLES [unittest options], with the module on PYTHONPATH.
 """
@@ -28,7 +28,7 @@ RANDOM = "#n = 30; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});"
 
 
 def samples():
-    """The .lsys samples, the benchmark systems left out, whose words are large."""
+    """The .lsys samples, except the benchmark systems with their large words."""
     for folder in sorted(os.listdir(SAMPLES)):
         path = os.path.join(SAMPLES, folder, folder + ".lsys")
         if os.path.exists(path) and not folder.startswith("bench-"):
@@ -102,7 +102,7 @@ class Equality(unittest.TestCase):
 
 
 class Views(unittest.TestCase):
-    """Arrays are views: nothing is copied, and they keep their owner alive."""
+    """Arrays are views: no data is copied, and views keep their owner alive."""
 
     def test_word(self):
         word = lsys.compile(text=TREE).derive(10)
@@ -210,7 +210,7 @@ class Errors(unittest.TestCase):
         timer.join()
 
     def test_no_leak(self):
-        """10,000 mistakes leave the memory as it was."""
+        """10,000 mistakes leak no memory."""
         def memory():
             with open("/proc/self/statm", encoding="ascii") as file:
                 return int(file.read().split()[1])
@@ -257,7 +257,7 @@ class Threads(unittest.TestCase):
 
 
 class Recipes(unittest.TestCase):
-    """The examples of docs/python.md run, with stand-ins for other packages."""
+    """The examples of docs/python.md run, with stubs for other packages."""
 
     def test_documentation(self):
         class Bar:

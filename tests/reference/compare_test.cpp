@@ -89,8 +89,8 @@ TEST_CASE("choices at the edge of a weight") {
     }
 }
 
-// Two statements of section 4: a fault of a production that matches nothing is none.
-TEST_CASE("a value that is never finite is a fault only where it is computed") {
+// Two statements of section 4: a production that matches no module causes no error.
+TEST_CASE("a value that is never finite is an error only where it is computed") {
     Grammar grammar;
     add_axiom(grammar, letters("A"));
     Production never = choice("never", 1, {{"F", {binary("/", number(1), number(0))}}});
@@ -127,7 +127,7 @@ TEST_CASE("polygons are checked along the word") {
     CHECK(difference(one_step(letter_system("A}", {"A=%{"}), 0)) == "");
 }
 
-// More grammars than a run of all tests compares: LSYS_RANDOM_GRAMMARS is `FIRST-LAST`.
+// Compares more grammars than a run of all tests: LSYS_RANDOM_GRAMMARS is `FIRST-LAST`.
 TEST_CASE("random grammars of a range are derived as by the oracle", "[.]") {
     const char* const range_text = std::getenv("LSYS_RANDOM_GRAMMARS");
     unsigned long long first = 1001;

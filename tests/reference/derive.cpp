@@ -34,7 +34,7 @@ struct System {
     std::set<std::string> mentioned; // names in all words and patterns
     std::size_t rewriting_rules = 0; // rules[0, rewriting_rules) are those of rewriting
     std::uint32_t decompose_depth = 100;
-    bool cuts = false; // the turtle profile has `%` as a cut
+    bool cuts = false; // in the turtle profile, `%` is a cut
     bool one_choice_a_generation = false;
     std::uint64_t seed = 0;
     std::uint32_t steps = 0;
@@ -48,8 +48,8 @@ struct Stop {
     RunError error;
 };
 
-// Input of a pass, which rewrites `word` of age `age` once: a generation or, in sequential
-// rewriting and #decompose, a part of one.
+// Input of a pass, which rewrites `word` of age `age` once. A generation is one pass, or several in
+// sequential rewriting and #decompose.
 struct PassInput {
     const System& system;
     const Word& word;
@@ -455,7 +455,7 @@ std::uint64_t seed_of(const Grammar& grammar, const Request& request) {
 }
 
 // "A `]` without its `[` is an error" in the last word; "`{` `}` follow the same rule, along the
-// word and apart from brackets". What a cut removes is neither `{` nor `}`.
+// word and apart from brackets". A `{` or `}` in the part that a cut removes does not count.
 std::optional<RunError>
 unmatched_bracket(const System& system, const Word& word, std::uint32_t age) {
     std::uint64_t open = 0;

@@ -61,9 +61,9 @@ struct RunError {
 };
 
 struct Derivation {
-    std::vector<Word> words;                           // generation 0 first
-    std::optional<RunError> error;                     // `words` has the words before the error
-    bool too_large = false;                            // the next word has more than max_modules
+    std::vector<Word> words;       // generation 0 first
+    std::optional<RunError> error; // `words` has the words before the error
+    bool too_large = false;        // the next word has more than max_modules modules
     std::map<std::string, std::uint64_t> applications; // by label of the production
     std::map<std::string, float> constants;
     std::uint32_t generations = 0; // requested number

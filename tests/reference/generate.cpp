@@ -67,10 +67,14 @@ double score_of(const Case& test_case, const Derivation& derivation) {
     return score;
 }
 
-// Chooses the number of generations, at most `most`: words have at most `cap` modules, and an error
+// Chooses the number of generations, at most `max_generations`: words have at most `cap` modules, and an error
 // occurs only if `keep_error`.
-Sized size_up(Case test_case, std::size_t cap, std::uint32_t most, bool keep_error, Random random) {
-    std::uint32_t generations = most;
+Sized size_up(Case test_case,
+              std::size_t cap,
+              std::uint32_t max_generations,
+              bool keep_error,
+              Random random) {
+    std::uint32_t generations = max_generations;
     while (true) {
         set_generations(test_case, generations, random);
         Request limited = test_case.request;
@@ -103,8 +107,9 @@ Case generate(std::uint64_t seed) {
         Case test_case = make_case(seed, attempt);
         const bool cyclic = setting(test_case.grammar, "rewriting").value_or("") == "cyclic";
         const int longest = cyclic || cap > 5000 ? 24 : 9;
-        const auto most = static_cast<std::uint32_t>(random.between(2, longest));
-        Sized sized = size_up(test_case, cap, most, random.percent(45), Random(seed, 3 + attempt));
+        const auto max_generations = static_cast<std::uint32_t>(random.between(2, longest));
+        Sized sized =
+            size_up(test_case, cap, max_generations, random.percent(45), Random(seed, 3 + attempt));
         if (sized.score > best.score) {
             best = sized;
         }

@@ -8,11 +8,13 @@ namespace lsys::reference {
 
 namespace {
 
-void add_species(Plan& plan, const std::string& name, std::size_t most, Random& random) {
-    const auto count = static_cast<std::size_t>(random.between(0, static_cast<int>(most)));
-    plan.species.push_back({name, random.percent(60) ? count : std::min(count, most / 2)});
-    if (most > 0 && random.percent(25)) { // the same name, another number of parameters
-        plan.species.push_back({name, (count + 1) % (most + 1)});
+void add_species(Plan& plan, const std::string& name, std::size_t max_parameters, Random& random) {
+    const auto count =
+        static_cast<std::size_t>(random.between(0, static_cast<int>(max_parameters)));
+    plan.species.push_back(
+        {name, random.percent(60) ? count : std::min(count, max_parameters / 2)});
+    if (max_parameters > 0 && random.percent(25)) { // the same name, another number of parameters
+        plan.species.push_back({name, (count + 1) % (max_parameters + 1)});
     }
 }
 
@@ -55,15 +57,16 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     for (auto* names : {&letters, &words, &symbols, &quoted}) {
         random.shuffle(*names);
     }
-    const std::size_t most = random.pick(std::vector<std::size_t>{0, 1, 1, 1, 2, 2, 3, 6});
+    const std::size_t max_parameters =
+        random.pick(std::vector<std::size_t>{0, 1, 1, 1, 2, 2, 3, 6});
     const int letter_count = random.between(2, 5);
     for (int i = 0; i < letter_count; ++i) {
-        add_species(plan, letters[static_cast<std::size_t>(i)], most, random);
+        add_species(plan, letters[static_cast<std::size_t>(i)], max_parameters, random);
     }
     if (words_files && random.percent(50)) {
         const int word_count = random.between(1, 3);
         for (int i = 0; i < word_count; ++i) {
-            add_species(plan, words[static_cast<std::size_t>(i)], most, random);
+            add_species(plan, words[static_cast<std::size_t>(i)], max_parameters, random);
         }
     }
     random.shuffle(plan.species);
@@ -74,14 +77,14 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     for (int i = 0; i < symbol_count; ++i) {
         const std::string& symbol = symbols[static_cast<std::size_t>(i)];
         const bool bare = symbol == "|" || symbol == "$" || symbol == ".";
-        add_species(plan, symbol, bare ? 0 : most, random);
+        add_species(plan, symbol, bare ? 0 : max_parameters, random);
     }
     if (random.percent(8)) {
         plan.species.push_back({"'", 3}); // a colour
     }
     if (random.percent(25)) {
-        add_species(plan, quoted[0], most, random);
-        add_species(plan, quoted[1], most, random);
+        add_species(plan, quoted[0], max_parameters, random);
+        add_species(plan, quoted[1], max_parameters, random);
     }
     if (random.percent(25)) { // symbols may be rewritten too
         plan.active.push_back(plan.species.back());
@@ -95,7 +98,7 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
     while (letters_files &&
            std::none_of(plan.active.begin(), plan.active.end(),
                         [](const Species& species) { return fits(species.name, true); })) {
-        plan.active.push_back({random.pick(letters), random.percent(50) ? most : 0});
+        plan.active.push_back({random.pick(letters), random.percent(50) ? max_parameters : 0});
         plan.species.push_back(plan.active.back());
     }
     return plan;

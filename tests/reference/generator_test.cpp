@@ -36,7 +36,7 @@ TEST_CASE("random grammars exercise every feature") {
     CHECK(applied > 3 * kSeeds);
 }
 
-TEST_CASE("a seed means one grammar and one text") {
+TEST_CASE("a seed always gives the same grammar and the same text") {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Case first = generate(seed);
         const Case second = generate(seed);

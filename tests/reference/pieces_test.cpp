@@ -1,4 +1,4 @@
-// Derives random grammars in every way that splits a derivation: threads, chunks of a few modules,
+// Derives random grammars with every way to split a derivation: threads, chunks of a few modules,
 // streaming. The words of the oracle are so small that `lsc` itself never splits them.
 
 #include "runtime/base/random.h"
@@ -91,7 +91,7 @@ Rewritten rewritten(const Bytecode& bytecode,
 } // namespace
 
 // Chunks of one module are rewritten code by code, long chunks by vectors of codes.
-TEST_CASE("long random words give the same word in chunks of any size") {
+TEST_CASE("long random words are rewritten to the same word in chunks of any size") {
     std::size_t rewrote = 0;
     for (std::uint64_t seed = 3001; seed <= 3300; ++seed) {
         const Case test_case = generate(seed);
@@ -122,7 +122,7 @@ TEST_CASE("long random words give the same word in chunks of any size") {
     CHECK(rewrote > 100);
 }
 
-TEST_CASE("random grammars give the same word in pieces of any size") {
+TEST_CASE("random grammars derive the same word in pieces of any size") {
     for (std::uint64_t seed = 2001; seed <= 2300; ++seed) {
         const Case test_case = generate(seed);
         const Derivation derivation = derive(test_case.grammar, test_case.request);

@@ -423,7 +423,7 @@ TEST_CASE("the first match decides whether there is a choice") {
     CHECK(word.find('C') == std::string::npos);
 }
 
-TEST_CASE("a value that is not finite stops at its lowest position") {
+TEST_CASE("of several values that are not finite, the one at the lowest position is reported") {
     Grammar grammar;
     add_axiom(grammar,
               {module("B", {number(1)}), module("A", {number(1)}), module("A", {number(0)})});

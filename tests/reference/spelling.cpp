@@ -58,8 +58,12 @@ int precedence(const Expr& expr) {
     return kLevels.at(expr.text);
 }
 
-void spell_operand(const Expr& expr, int least, Random* random, std::vector<std::string>& tokens) {
-    const bool parentheses = precedence(expr) < least || (random != nullptr && random->percent(6));
+void spell_operand(const Expr& expr,
+                   int min_level,
+                   Random* random,
+                   std::vector<std::string>& tokens) {
+    const bool parentheses =
+        precedence(expr) < min_level || (random != nullptr && random->percent(6));
     if (parentheses) {
         tokens.emplace_back("(");
     }

@@ -121,7 +121,7 @@ TEST_CASE("traces of random grammars agree with the engine, module by module") {
             REQUIRE(!derivation.step());
         }
     }
-    // Every fate and verdict of a trace occurs often.
+    // Every kind of result in a trace occurs often.
     for (const Fate fate : enumerators_of<Fate>()) {
         INFO("fate " << static_cast<int>(fate));
         CHECK((fate == Fate::Failed || seen.fates[static_cast<std::size_t>(fate)] > 20));

@@ -59,8 +59,8 @@ inline glm::quat any_frame(std::mt19937& numbers) {
                                     static_cast<float>(uniform(numbers, 0.01, 1.0))));
 }
 
-/// A plant of `count` segments with branches; lengths, radii, masses and springs each between
-/// 10^-range and 10^range. Some segments do not begin where their parents end.
+/// A plant of `count` segments with branches. Lengths, radii, masses and springs are between
+/// 10^-range and 10^range. Some segments do not begin at the end of their parent.
 inline Skeleton random_plant(std::mt19937& numbers, std::uint32_t count, double range) {
     Skeleton plant;
     for (std::uint32_t i = 0; i < count; ++i) {

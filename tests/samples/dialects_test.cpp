@@ -1,5 +1,5 @@
-// Grammars of other dialects: word lengths as given by their own programs, and equal words from the
-// output of `lsc import`.
+// Grammars of other dialects: words have the lengths that the programs of the dialects give, and
+// the output of `lsc import` derives equal words.
 #include "grammar/dialects/dialect.h"
 #include "tests/support/lsc_run.h"
 
@@ -58,7 +58,7 @@ const std::vector<Lengths> kOfL3d{
     {"round.l++", true, {6, 20, 145, 267, 335, 460, 579}},
 };
 
-/// A late generation of a file of which Lengths has only the first generations.
+/// A late generation of a file; Lengths has only the first generations of the file.
 struct Last {
     std::string file;
     std::string generation;
@@ -92,7 +92,7 @@ std::vector<fs::path> grammars() {
 
 } // namespace
 
-TEST_CASE("words have the lengths that L3D gives them") {
+TEST_CASE("words have the same lengths as in L3D") {
     for (const Lengths& each : kOfL3d) {
         const std::string path = (kCases / "l3d/parts" / each.file).string();
         std::string expected;
@@ -124,7 +124,7 @@ TEST_CASE("words have the lengths that L3D gives them") {
     }
 }
 
-TEST_CASE("surfaces have the vertices that L3D gives them") {
+TEST_CASE("surfaces have as many vertices as in L3D") {
     // L3D makes 2 * 20 to 2 * 100 vertices per segment, by thickness, and 8 per leaf.
     struct Surface {
         std::string text; // text after the three numbers of the header
@@ -170,7 +170,7 @@ TEST_CASE("surfaces have the vertices that L3D gives them") {
     CHECK(of_segments % 40 == 0);
 }
 
-TEST_CASE("what is imported derives the same words") {
+TEST_CASE("imported grammars derive the same words") {
     const ScratchFolder scratch;
     std::size_t without_warning = 0;
     std::size_t imported = 0;
@@ -288,7 +288,7 @@ TEST_CASE("the rules of Carey's generator replace text, with parameters") {
     CHECK(compared > 50);
 }
 
-TEST_CASE("a note says when the order of L3D's rules matters, and only then") {
+TEST_CASE("a note appears if and only if the order of L3D's rules matters") {
     std::mt19937 random(11);
     const std::string letters = "ABCD";
     std::size_t notes = 0;

@@ -1,5 +1,5 @@
-// The systems of the literature from which the language and its dialects come: words, counts and
-// probabilities that the texts print, or that follow from them.
+// Systems from the literature behind the language and its dialects: words, counts and probabilities
+// that the texts print, or that follow from the texts.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -88,7 +88,7 @@ TEST_CASE("Crankshaw 2019, figure 2.5: every edge of the gasket is drawn") {
     }
 }
 
-TEST_CASE("Crankshaw 2019, 2.6 and 2.7: lengths are handed on") {
+TEST_CASE("Crankshaw 2019, 2.6 and 2.7: lengths are passed on by parameters") {
     CHECK(word_of("crankshaw-2-6-parametric", 1) == "F(5)+(90)F(5)+(90)F(5)+(90)F(5)\n");
     CHECK(occurrences(word_of("crankshaw-2-6-parametric", 4), "F(5)") == 256);
     CHECK(word_of("crankshaw-2-7-objects", 1) == "F(1)F(1)F(1)F(1)S(1)\n");
@@ -201,7 +201,7 @@ TEST_CASE("Crankshaw 2019, 7.1 and 7.2: as printed") {
     }
 }
 
-TEST_CASE("Crankshaw 2019, 7.3: as printed, and with its bracket, module and sphere mended") {
+TEST_CASE("Crankshaw 2019, 7.3: as printed, and with its bracket, module and sphere corrected") {
     CHECK(word_of("crankshaw-7-3", 1) ==
           "!(1.9599999)F(2.2)/(45)!(1.4)F(2)[&(22.5)F(2)A S(1)!(1.4)]/(112.5)"
           "[&(22.5)F(2)A S(1)!(1.4)]/(157.5)[&(22.5)F(2)A S(1)!(1.4)]\n");
@@ -241,7 +241,7 @@ TEST_CASE("the .sys report, figure 1: the word letter for letter") {
     CHECK(without(word_of("sys-figure-1", 3), "`\n") == printed);
 }
 
-TEST_CASE("Naderi's slides: what the loop of replacements makes") {
+TEST_CASE("Naderi's slides: words of the loop of replacements") {
     std::string sample_word = "fA";
     std::string plant_word = "X";
     for (int n = 0; n < 2; ++n) {

@@ -18,7 +18,7 @@ struct Foreign {
     std::string file;   // in samples/dialects
     std::string system; // name of the system; empty if the file has one
     std::string generations;
-    std::string count; // count of modules after the generations; empty if random
+    std::string count; // number of modules after the generations; empty if random
 };
 
 std::vector<Foreign> foreign_samples() {
@@ -77,7 +77,7 @@ TEST_CASE("the .sys figure is one program in every syntax") {
                                "#r1 : F : * : F[-F][+F]F;\n",
                                {{"turtle lsys", "turtle"}}));
     CHECK(of_sys == program_of("f.hlsys", "F\nF=F[-F][+F]F\n", {{"turtle sidefx", "turtle"}}));
-    // cpfg's + turns left, and its files say how many steps there are.
+    // The + of cpfg turns left, and files of cpfg give the number of generations.
     CHECK(of_sys == program_of("f.l",
                                "Lsystem: 1\nderivation length: 3\nAxiom: F\n"
                                "F --> F[+F][-F]F\nendlsystem\n",
@@ -89,7 +89,7 @@ TEST_CASE("the .sys figure is one program in every syntax") {
                                 {" ~ ", " - "}}));
 }
 
-TEST_CASE("an imported grammar derives what the original derives") {
+TEST_CASE("an imported grammar derives the word of the original") {
     const std::string folder = LSYS_SOURCE_DIR "/samples/dialects/";
     for (const Foreign& foreign : foreign_samples()) {
         const std::string file = folder + foreign.file;

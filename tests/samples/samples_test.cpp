@@ -1,4 +1,4 @@
-// Every sample of the gallery does what its first lines state.
+// The first lines of each sample of the gallery are true.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using lsys::tests::Sample;
 
 } // namespace
 
-TEST_CASE("samples check clean") {
+TEST_CASE("lsc check reports nothing about the samples") {
     const std::vector<Sample> samples = all_samples();
     REQUIRE(samples.size() > 40);
     for (const Sample& sample : samples) {
@@ -42,7 +42,7 @@ TEST_CASE("the command lines of samples succeed") {
     }
 }
 
-TEST_CASE("samples have as many modules as they say") {
+TEST_CASE("samples have the stated numbers of modules") {
     std::size_t counted = 0;
     for (const Sample& sample : all_samples()) {
         if (sample.count_count == 0) {
@@ -94,7 +94,7 @@ TEST_CASE("samples in the dialect of their source derive the same words") {
     CHECK(tried == 9);
 }
 
-TEST_CASE("samples and their parts are laid out as lsc fmt does") {
+TEST_CASE("samples and their included files have the layout of lsc fmt") {
     std::vector<std::string> command{"fmt", "--check"};
     for (const Sample& sample : all_samples()) {
         for (const auto& entry : std::filesystem::directory_iterator(sample.file.parent_path())) {

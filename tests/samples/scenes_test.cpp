@@ -1,5 +1,5 @@
-// The sample scenes and their grammars have no mistakes, and each scene has as many trees as its
-// text suggests.
+// The sample scenes and their grammars have no mistakes, and each scene has about the number of
+// trees that its options suggest.
 #include "runtime/base/grey_map.h"
 #include "runtime/placement/placement.h"
 #include "runtime/scene/scene.h"
@@ -57,7 +57,7 @@ std::vector<SampleScene> all_scenes() {
 
 } // namespace
 
-TEST_CASE("grammars of sample scenes can be instanced and are laid out") {
+TEST_CASE("grammars of sample scenes can be instanced and have the layout of lsc fmt") {
     std::set<fs::path> grammars;
     for (const SampleScene& sample : all_scenes()) {
         for (const lsys::SceneSpecies& species : sample.scene.species) {

@@ -1,4 +1,4 @@
-// The plants of the gallery stand under their weight.
+// Tests that the plants of the gallery stand under their weight.
 #include "runtime/physics/physics.h"
 #include "runtime/physics/stability.h"
 #include "runtime/pipeline/plant.h"
@@ -134,8 +134,8 @@ float tip_height(const PlacedObject& object) {
     return object.position.y + std::abs(object.size) * heading(object.frame).y;
 }
 
-/// Depth below y = 0, m, of the deepest point that is not below it at rest: ends of segments and
-/// objects, corners of polygons.
+/// Depth below y = 0, m, of the deepest point among ends of segments, objects and corners of polygons
+/// that are not below y = 0 at rest.
 float depth_below_ground(const Skeleton& rest, const Skeleton& bent) {
     float depth = 0.0F;
     const auto see = [&](float before, float after) {
@@ -185,8 +185,8 @@ TEST_CASE("trees sag less than herbs") {
     CHECK(height_left("abop-1-24c") < 0.95);
 }
 
-TEST_CASE("plants of up to 100,000 segments that fall lie after the rounds of such plants") {
-    // Upper bounds of the energy at rest: those reached without stages
+TEST_CASE("falling plants of up to 100,000 segments come to rest within their number of rounds") {
+    // Upper bounds of the energy at rest: the values reached without stages
     // (runtime/physics/physics.cpp).
     const std::map<std::string, double> energies = {{"abop-5-11-compound-leaf", -8.4787e9},
                                                     {"crankshaw-2-8-bush", -7.6949e7}};
@@ -206,7 +206,7 @@ TEST_CASE("plants of up to 100,000 segments that fall lie after the rounds of su
     }
 }
 
-TEST_CASE("plants stand or lie after few rounds, and nothing is pulled below the ground") {
+TEST_CASE("plants come to rest after few rounds, and no part is pulled below the ground") {
     std::vector<std::string> plants = kTrees;
     plants.insert(plants.end(), kOthers.begin(), kOthers.end());
     for (const auto& [name, reason] : kExceptions) {

@@ -26,8 +26,8 @@ constexpr bool kInstrumented = true;
 constexpr bool kInstrumented = false;
 #endif
 constexpr double kMaxSeconds = 20.0;
-// With sanitizers, runs take about three times as long; most still keep the limit. Twice the limit
-// suffices for the others, also on a busy machine.
+// With sanitizers, runs take about three times as long; most still stay within the limit. Twice the
+// limit suffices for the others, also on a busy machine.
 constexpr double kInstrumentedFactor = 2.0;
 
 struct ProcessResult {
@@ -109,7 +109,7 @@ struct Case {
     std::function<void(const std::string& path)> make;
     std::vector<std::string> command; // % stands for the file
     int status = 0;
-    std::string says; // must occur in standard error; may be empty
+    std::string message; // must occur in standard error; may be empty
     const char* out = "/dev/null";
 };
 
@@ -294,7 +294,7 @@ int main(int argc, char** argv) {
         }
     };
     expect(result.status == wanted.status, "exit status");
-    expect(result.errors.find(wanted.says) != std::string::npos, wanted.says.c_str());
+    expect(result.errors.find(wanted.message) != std::string::npos, wanted.message.c_str());
     expect(kInstrumented || result.peak_kib <= kMaxKib, "peak memory");
     expect(result.seconds <= kMaxSeconds * (kInstrumented ? kInstrumentedFactor : 1.0), "time");
     return fine ? 0 : 1;

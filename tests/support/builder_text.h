@@ -1,4 +1,4 @@
-// Reading the short texts of BytecodeBuilder: modules, productions, and expressions compiled to
+// Parser of the short texts of BytecodeBuilder: modules, productions, and expressions compiled to
 // instructions. A mistake in a text ends the test program.
 #pragma once
 

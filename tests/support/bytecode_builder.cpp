@@ -164,7 +164,7 @@ private:
     std::map<std::vector<std::uint32_t>, Code> folded_;
 };
 
-/// The names and parameter counts of a pattern, compared by rules and groups.
+/// The names and parameter counts of a pattern; equal texts belong to one rule or group.
 std::string shape_of(const std::optional<std::string>& text) {
     std::string shape = text ? "present " : "absent ";
     for (const ModuleText& module : read_modules(text.value_or(""))) {

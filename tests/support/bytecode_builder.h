@@ -28,7 +28,7 @@ public:
     BytecodeBuilder& parameter(std::string name, std::string value, float minimum, float maximum);
     /// Declares symbols, "A(x) B", before those of the texts, so that a test knows their numbers.
     BytecodeBuilder& declare(std::string modules);
-    /// Declares symbols nobody uses, so that codes need two or four bytes.
+    /// Declares unused symbols, so that codes need two or four bytes.
     BytecodeBuilder& unused_symbols(std::uint32_t count);
 
     /// The verified bytecode; a mistake in a text ends the test program.

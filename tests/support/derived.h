@@ -1,5 +1,5 @@
 // Derived words as text, by all methods of the runtime: any number of threads, any size of chunks,
-// stored or streamed, reachable modules folded or not. All must agree.
+// stored or streamed, with or without folding of reachable modules. All words must be equal.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -19,7 +19,7 @@ struct UiRun {
 
 /// An annotation: `//~ error: part of the text [code]`.
 struct UiAnnotation {
-    std::uint32_t line = 0;       // line of the diagnostic; 0: anywhere
+    std::uint32_t line = 0;       // line of the diagnostic; 0: any line
     std::uint32_t written_at = 0; // line of the annotation
     std::string severity;
     std::string text; // part of the message; may be empty
@@ -30,7 +30,7 @@ struct UiCase {
     std::filesystem::path file;
     std::vector<UiRun> runs;
     std::vector<UiAnnotation> annotations;
-    std::vector<std::string> mistakes; // mistakes in the form of the case
+    std::vector<std::string> mistakes; // mistakes in the first lines or annotations of the case
 };
 
 /// Reads the runs and annotations of a case.

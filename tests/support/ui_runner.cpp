@@ -113,8 +113,8 @@ public:
         compare(".fixed", fix(scratch.path()));
     }
 
-    /// Runs a case without annotations, whose exit status and standard output do not count.
-    /// It sees the files whose name begins with `prefix`.
+    /// Runs a case without annotations; its exit status and standard output are not checked.
+    /// The folder of the run has the files whose name begins with `prefix`.
     void run_listed(const std::string& prefix) {
         const Scratch scratch;
         const fs::path folder = scratch.path() / "case"; // the run may write files
@@ -201,7 +201,7 @@ private:
         }
     }
 
-    /// The result of `check --fix` on a copy of the case; empty if unchanged or if the first run is
+    /// The text of the case after `check --fix` on a copy; empty if unchanged or if the first run is
     /// not `check`. Checks that no certain fix is left.
     std::string fix(const fs::path& scratch) {
         if (case_.runs.empty() || case_.runs.front().words.empty() ||

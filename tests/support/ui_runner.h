@@ -22,15 +22,15 @@ struct UiOutcome {
     std::set<std::string> codes;       // codes of all annotations
 };
 
-/// A case whose command stands in a table instead of in its file.
+/// A case whose command is in a table instead of in its file.
 struct ListedCase {
     std::string name;
     std::filesystem::path file;
     std::vector<std::string> words; // of the command, with `%` for the file and `%t` as in a case
 };
 
-/// Runs listed cases in the folder of each and compares standard error with `<file>.stderr` and the
-/// text repaired by `check --fix` with `<file>.fixed`.
+/// Runs each listed case in its folder and compares standard error with `<file>.stderr` and the text
+/// repaired by `check --fix` with `<file>.fixed`.
 [[nodiscard]] UiOutcome run_listed_cases(const std::vector<ListedCase>& cases,
                                          const UiOptions& options);
 

@@ -5,8 +5,8 @@
 
 namespace lsys::tests {
 
-/// Height, m, of the drawn surface at a place, also outside of the view. `eye`: that of the last
-/// TerrainLod::select().
+/// Height, m, of the drawn surface at a place, also outside of the view. `eye`: the position given to
+/// the last TerrainLod::select().
 [[nodiscard]] float
 drawn_height(const view::TerrainLod& lod, const glm::vec3& eye, float x, float z);
 

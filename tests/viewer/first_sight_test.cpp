@@ -27,7 +27,7 @@ struct PictureContrast {
 /// Pixels with trees differ in a channel by more than this, of 255.
 constexpr int kTreeDifference = 24;
 
-/// `bare`: the picture without trees.
+/// `bare`: the same picture without trees.
 PictureContrast sight_of(const Picture& picture, const Picture& bare) {
     const std::size_t first = std::size_t{4} * picture.width * (picture.height / 3);
     double sum = 0.0;
@@ -41,11 +41,12 @@ PictureContrast sight_of(const Picture& picture, const Picture& bare) {
         const double luma = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
         sum += luma;
         squares += luma * luma;
-        int most = 0;
+        int max_difference = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            most = std::max(most, std::abs(int{picture.texels[i + c]} - int{bare.texels[i + c]}));
+            max_difference = std::max(
+                max_difference, std::abs(int{picture.texels[i + c]} - int{bare.texels[i + c]}));
         }
-        changed += most > kTreeDifference ? 1.0 : 0.0;
+        changed += max_difference > kTreeDifference ? 1.0 : 0.0;
         count += 1.0;
     }
     const double mean = sum / count;
@@ -124,7 +125,7 @@ TEST_CASE("the default picture of each sample scene shows its trees with contras
     CHECK(sight.trees > wood.trees);
 }
 
-TEST_CASE("the default picture of a forest on mountains is not hidden by one") {
+TEST_CASE("no mountain hides the forest in the default picture") {
     const ScratchFolder folder;
     write_text(folder / "wood.toml",
                "[terrain]\nkind = \"noise\"\nsize = 5000\nfeature = 900\nheight = 600\n"
@@ -135,7 +136,7 @@ TEST_CASE("the default picture of a forest on mountains is not hidden by one") {
     CHECK(sight.trees > 0.3);
 }
 
-TEST_CASE("air thins with --air, and by default with the size of the ground") {
+TEST_CASE("the visibility of air depends on --air, and by default on the size of the ground") {
     const std::vector<std::string> wood = {sample("carey-type-0"), "--forest-size", "1000",
                                            "--count", "2000"};
     const auto with_air = [&](const char* visibility) {
@@ -158,7 +159,7 @@ TEST_CASE("air thins with --air, and by default with the size of the ground") {
     CHECK(shown({sample("abop-1-24a"), "--count", "4"}).stats["air_km"] == 10.0);
 }
 
-TEST_CASE("with a lens of its own the plant is in view as a whole, from the same side") {
+TEST_CASE("with another field of view the whole plant is visible from the same side") {
     const std::string bush = LSYS_SOURCE_DIR "/samples/abop-1-25-bush/abop-1-25-bush.lsys";
     const auto distance_with = [&](const std::vector<std::string>& options) {
         std::vector<std::string> arguments = {bush};

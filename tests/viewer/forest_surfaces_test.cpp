@@ -1,4 +1,4 @@
-// Picture files in forests: on the ground, on meshes, on polygons; drawn and exported.
+// Picture files on the ground, on meshes and on polygons of forests, drawn and exported.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -117,12 +117,12 @@ const nlohmann::json* find_named(const nlohmann::json& list, const std::string& 
 }
 
 constexpr const char* kPictured = "colour = \"ground.png\"\ntile = 8";
-// 8 m of the ground across, from straight above; +X is to the right.
+// A view of 8 m of the ground from straight above; +X is to the right.
 constexpr const char* kAbove = "eye 12,30,12.01 target 12,0,12 fov 15.2";
 
 } // namespace
 
-TEST_CASE("the ground shows its picture at its place, tile beside tile") {
+TEST_CASE("the ground shows its picture in tiles from its origin") {
     const Surfaces files(kPictured);
     const Picture picture = files.picture(kAbove);
     // The picture shows the tile from x = 8 to 16, red up to 12, blue beyond, and the beginnings of
@@ -133,7 +133,7 @@ TEST_CASE("the ground shows its picture at its place, tile beside tile") {
         CHECK(is_blue(texel(picture, 36, y)));
         CHECK(is_blue(texel(picture, 52, y)));
     }
-    SECTION("options of the command line replace it") {
+    SECTION("options of the command line replace the picture") {
         const Picture small = files.picture(kAbove, {"--ground-tile", "4"});
         CHECK(is_red(texel(small, 8, 32)));
         CHECK(is_blue(texel(small, 24, 32)));
@@ -146,29 +146,29 @@ TEST_CASE("the ground shows its picture at its place, tile beside tile") {
     }
 }
 
-TEST_CASE("far away a picture of the ground is its mean") {
+TEST_CASE("far away the ground has the mean colour of its picture") {
     const Surfaces files("colour = \"ground.png\"\ntile = 0.25");
     const Picture picture = files.picture("eye 10,40,10.01 target 10,0,10 fov 4");
     // Each pixel is the mean of red and blue.
-    std::array<int, 3> least{255, 255, 255};
-    std::array<int, 3> most{};
+    std::array<int, 3> darkest{255, 255, 255};
+    std::array<int, 3> brightest{};
     for (std::uint32_t y = 0; y < 64; y += 4) {
         for (std::uint32_t x = 0; x < 64; x += 4) {
             const std::array<int, 3> at = texel(picture, x, y);
             for (std::size_t c = 0; c < 3; ++c) {
-                least[c] = std::min(least[c], at[c]);
-                most[c] = std::max(most[c], at[c]);
+                darkest[c] = std::min(darkest[c], at[c]);
+                brightest[c] = std::max(brightest[c], at[c]);
             }
         }
     }
     for (std::size_t c = 0; c < 3; ++c) {
-        CHECK(most[c] - least[c] <= 4);
+        CHECK(brightest[c] - darkest[c] <= 4);
     }
-    CHECK(least[0] > 2 * most[1]);
-    CHECK(least[2] > 2 * most[1]);
+    CHECK(darkest[0] > 2 * brightest[1]);
+    CHECK(darkest[2] > 2 * brightest[1]);
 }
 
-TEST_CASE("normals of the ground turn its light") {
+TEST_CASE("the normal map of the ground changes its shading") {
     // The sun is in direction +X.
     const Surfaces bumpy("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
     write_text(bumpy.folder / "ground.png", encode_png(halves(kRed, kRed)));
@@ -176,7 +176,7 @@ TEST_CASE("normals of the ground turn its light") {
     CHECK(brightness(texel(picture, 48, 32)) > brightness(texel(picture, 16, 32)) + 30);
 }
 
-TEST_CASE("the relief of a mesh of a forest turns its light") {
+TEST_CASE("the relief of a mesh of a forest changes its shading") {
     const Surfaces files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
     write_text(files.folder / "card.obj",
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
@@ -192,7 +192,7 @@ TEST_CASE("the relief of a mesh of a forest turns its light") {
     CHECK(seen("norm slopes.png\n") > seen("") + 10);
 }
 
-TEST_CASE("pictures of the ground cost no draw call, and no picture leaves the ground as it was") {
+TEST_CASE("a picture of the ground needs no draw call, and no picture changes nothing") {
     const Surfaces plain("");
     const Surfaces pictured(kPictured);
     const auto draws_of = [](const Surfaces& files) {
@@ -205,7 +205,7 @@ TEST_CASE("pictures of the ground cost no draw call, and no picture leaves the g
 
 TEST_CASE("a picture of the ground that cannot be shown is an error at its place") {
     const Surfaces files(kPictured);
-    const auto said = [&] {
+    const auto messages = [&] {
         const LscRun view = run_lsview({files.folder / "wood.toml", "--screenshot", "-"});
         CHECK(view.status == 2);
         const LscRun check = run_lsc({"forest", files.folder / "wood.toml", "--check"}, "");
@@ -214,9 +214,9 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         return view.err;
     };
     std::filesystem::remove(files.folder / "ground.png");
-    CHECK(said().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
+    CHECK(reports().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
     write_text(files.folder / "ground.png", "GIF89a and so on");
-    CHECK(said().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
+    CHECK(reports().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
     // An IHDR of 20,000 by 20,000 pixels.
     std::string large = encode_png(halves(kRed, kBlue));
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
@@ -224,10 +224,10 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         large[at + 3] = '\x20';
     }
     write_text(files.folder / "ground.png", large);
-    CHECK(said().find("ground.png") != std::string::npos);
+    CHECK(reports().find("ground.png") != std::string::npos);
 }
 
-TEST_CASE("files of a forest have the pictures of its ground") {
+TEST_CASE("exported files of a forest have the pictures of its ground") {
     const Surfaces files("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
     const std::string colour = read_text(files.folder / "ground.png");
     const std::string normals = read_text(files.folder / "slopes.png");
@@ -327,7 +327,7 @@ TEST_CASE("impostors show pictures of meshes") {
     CHECK(is_red(texel(picture, 32, 30)));
 }
 
-TEST_CASE("a relief of a mesh file is read, as heights or as normals") {
+TEST_CASE("a relief of a mesh file is read as heights or as normals") {
     const Texture heights = halves({0, 0, 0, 255}, {255, 255, 255, 255});
     const Texture made = normals_of(heights, 1.0F);
     const auto at = [&](std::uint32_t x) {

@@ -1,4 +1,4 @@
-// The picture of a mesh file: found, shown, exported, and watched for changes.
+// The picture of a mesh file is found, shown, exported, and watched for changes.
 #include "runtime/meshing/texture.h"
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
@@ -50,7 +50,7 @@ struct CardFolder {
 
 } // namespace
 
-TEST_CASE("a mesh of a file shows its picture, with holes") {
+TEST_CASE("a mesh file is shown with its picture, which may have holes") {
     const CardFolder card;
     const LscRun run = card.view();
     CAPTURE(run.err);
@@ -63,10 +63,10 @@ TEST_CASE("a mesh of a file shows its picture, with holes") {
     CHECK(right[2] >= right[0]);
 }
 
-TEST_CASE("a mesh without its picture is shown plain, with a warning at the place") {
+TEST_CASE("a mesh whose picture cannot be read is shown plain, with a warning at its place") {
     const CardFolder card;
     const std::string before = card.view().out;
-    SECTION("it is missing") {
+    SECTION("missing") {
         std::filesystem::remove(card.folder / "a card.png");
         const LscRun run = card.view();
         CHECK(run.status == 0);
@@ -74,13 +74,13 @@ TEST_CASE("a mesh without its picture is shown plain, with a warning at the plac
         CHECK(decode_picture(run.out).width == 64);
         CHECK(run.out != before);
     }
-    SECTION("it is neither PNG nor JPEG") {
+    SECTION("neither PNG nor JPEG") {
         write_text(card.folder / "a card.png", "GIF89a and so on");
         const LscRun run = card.view();
         CHECK(run.status == 0);
         CHECK(run.err.find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
     }
-    SECTION("it is damaged") {
+    SECTION("damaged") {
         const std::string bytes = read_text(card.folder / "a card.png");
         write_text(card.folder / "a card.png", bytes.substr(0, bytes.size() / 2));
         const LscRun run = card.view();
@@ -89,7 +89,7 @@ TEST_CASE("a mesh without its picture is shown plain, with a warning at the plac
     }
 }
 
-TEST_CASE("files with pictures have that of a mesh") {
+TEST_CASE("exported files with pictures have the picture of a mesh") {
     const CardFolder card;
     const LscRun run =
         run_lsc({"export", card.folder / "plant.lsys", "-o", card.folder / "out.obj"}, "");
@@ -99,7 +99,7 @@ TEST_CASE("files with pictures have that of a mesh") {
     CHECK(lsys::tests::read_picture(card.folder / "out.card.png").texels == half_red().texels);
 }
 
-TEST_CASE("files that a mesh asks for are recorded, so that they can be watched") {
+TEST_CASE("the files of a mesh are listed, so that they can be watched") {
     const CardFolder card;
     std::filesystem::remove(card.folder / "a card.png");
     ViewOptions options;
@@ -112,7 +112,7 @@ TEST_CASE("files that a mesh asks for are recorded, so that they can be watched"
     }
 }
 
-TEST_CASE("pictures are read whatever their samples, and their colours are known") {
+TEST_CASE("a PNG is read and has a mean colour, and other or too large files are refused") {
     const Texture picture = half_red();
     const Result<Texture> read = lsys::read_picture(encode_png(picture), 256);
     REQUIRE(read);

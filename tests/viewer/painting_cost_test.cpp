@@ -55,7 +55,7 @@ struct PaintingCost {
 
 constexpr std::uint32_t kPainted = 1000;
 
-/// Plants trees one by one on a free strip of the forest, then removes them, by undo if `undoes`.
+/// Paints trees one by one on a free strip of the forest, then removes them, by undo if `undoes`.
 PaintingCost cost_in(std::uint64_t count, bool undoes) {
     const Region region{0.0, 0.0, 2000.0, 2000.0};
     const Terrain terrain = Terrain::flat(region).value();
@@ -133,6 +133,6 @@ TEST_CASE("a painted tree costs the same in a forest of 1,000 and of 1,000,000")
     INFO("microseconds a tree: " << microseconds(small) << " of 1,000, " << microseconds(large)
                                  << " of 1,000,000; " << small.allocations << " allocations of "
                                  << small.allocated << " bytes for " << kPainted << " trees");
-    // The goal is 0.1 ms; the limit is larger, so that a busy machine does not fail.
+    // The goal is 0.1 ms; the limit is larger, so that the test does not fail on a busy machine.
     CHECK(microseconds(large) < 1000.0);
 }

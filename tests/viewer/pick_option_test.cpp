@@ -1,4 +1,4 @@
-// `lsview --pick` and `--colours`: the text about the part that a pixel shows.
+// `lsview --pick` and `--colours`: the text about the part of the plant at a pixel.
 #include "runtime/program/host.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
@@ -61,7 +61,7 @@ std::vector<std::string> with_front(const std::string& file, std::vector<std::st
 
 } // namespace
 
-TEST_CASE("a pixel of a plant tells the module, its production, place and generation") {
+TEST_CASE("--pick on a plant prints the module with its production, place and generation") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -81,7 +81,7 @@ TEST_CASE("a pixel of a plant tells the module, its production, place and genera
     CHECK(at(1.2, 3.0).lines == std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("a pixel of a plant that moves shows it where it is") {
+TEST_CASE("--pick on a moving plant uses its pose") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -105,7 +105,7 @@ TEST_CASE("a pixel of a plant that moves shows it where it is") {
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
 }
 
-TEST_CASE("a pixel with --why tells what lsc trace does") {
+TEST_CASE("--pick with --why prints the text of lsc trace") {
     const ScratchFolder folder;
     const std::string file = folder / "bud.lsys";
     write_text(file, "#n = 2;\n"
@@ -146,7 +146,7 @@ TEST_CASE("a pixel with --why tells what lsc trace does") {
           std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("a moment of growth with --why tells of its word") {
+TEST_CASE("--why at a moment of growth traces the word of that moment") {
     const ScratchFolder folder;
     const std::string file = folder / "two.lsys";
     write_text(file, "#n = 3;\n#w : !(0.4) A;\n#up : A : step() < steps() - 1 : F(2) A;\n");
@@ -154,15 +154,15 @@ TEST_CASE("a moment of growth with --why tells of its word") {
         picked(with_front(file, {"--grow", "--frames", "4", "--why", "written"}), pixel(0.0, 1.0));
     CAPTURE(grown.run.err, grown.run.out);
     REQUIRE(grown.run.status == 0);
-    const auto says = [&](const char* text) {
+    const auto prints = [&](const char* text) {
         return grown.run.out.find(text) != std::string::npos;
     };
-    CHECK(says("F(2) at position 1 of generation 1, written by `up`"));
-    CHECK(says("F(2) at position 1 of generation 2, written by `up`"));
-    CHECK(says("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
+    CHECK(prints("F(2) at position 1 of generation 1, written by `up`"));
+    CHECK(prints("F(2) at position 1 of generation 2, written by `up`"));
+    CHECK(prints("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
 }
 
-TEST_CASE("a pixel of a forest tells the branch and how often it stands there") {
+TEST_CASE("--pick on a forest prints the branch and its number of instances") {
     const ScratchFolder folder;
     const std::string file = folder / "bush.lsys";
     write_text(file, "#n = 4;\n#set names letters;\n#set angle 25;\n#set width 0.3;\n#w : A;\n"
@@ -244,50 +244,53 @@ TEST_CASE("a pixel of a forest tells the branch and how often it stands there") 
     Picked branch;
     branch.kind = PickedKind::Branch;
     branch.tree = document.grown.forest.trees.front();
-    const Outcome<view::Description> told =
+    const Outcome<view::Description> described =
         view::describe(branch, {}, document, file, make_project(console, options.run));
-    REQUIRE(told);
-    CHECK_FALSE(told.value().module); // nothing to trace, and the window says why
-    CHECK(told.value().hint.find("open its grammar alone") != std::string::npos);
+    REQUIRE(described);
+    CHECK_FALSE(described.value().module); // nothing to trace, and the window says why
+    CHECK(described.value().hint.find("open its grammar alone") != std::string::npos);
 }
 
-TEST_CASE("mistakes of --pick and --colours are told") {
-    const auto said = [](std::vector<std::string> arguments) {
+TEST_CASE("invalid arguments of --pick and --colours are reported") {
+    const auto message_of = [](std::vector<std::string> arguments) {
         const LscRun run = run_lsview(arguments);
         CHECK(run.status == 2);
         CHECK(run.out.empty());
         return run.err;
     };
     const std::string plant = sample("abop-1-24a");
-    CHECK(said({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") != std::string::npos);
-    CHECK(said({plant, "--pick", "3", "--screenshot", "a.png"}).find("no pixel of a picture") !=
+    CHECK(message_of({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") !=
           std::string::npos);
-    CHECK(said({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
+    CHECK(
+        message_of({plant, "--pick", "3", "--screenshot", "a.png"}).find("no pixel of a picture") !=
+        std::string::npos);
+    CHECK(message_of({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
               .find("outside of the picture of 32 x 24 pixels") != std::string::npos);
-    CHECK(said({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=
+    CHECK(message_of({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=
           std::string::npos);
-    CHECK(said({plant, "--why", "back", "--screenshot", "a.png"}).find("add `--pick X,Y`") !=
+    CHECK(message_of({plant, "--why", "back", "--screenshot", "a.png"}).find("add `--pick X,Y`") !=
           std::string::npos);
-    CHECK(said({plant, "--count", "3", "--why", "back", "--pick", "3,3", "--screenshot", "a.png"})
+    CHECK(message_of(
+              {plant, "--count", "3", "--why", "back", "--pick", "3,3", "--screenshot", "a.png"})
               .find("show its grammar alone") != std::string::npos);
-    CHECK(said({plant, "--colours", "id", "--screenshot", "a.png"}).find("`--count 1`") !=
+    CHECK(message_of({plant, "--colours", "id", "--screenshot", "a.png"}).find("`--count 1`") !=
           std::string::npos);
-    CHECK(said({plant, "--colours", "order", "--count", "3", "--screenshot", "a.png"})
+    CHECK(message_of({plant, "--colours", "order", "--count", "3", "--screenshot", "a.png"})
               .find("--colours") != std::string::npos);
 }
 
-TEST_CASE("a plant that falls is told beside its picture") {
+TEST_CASE("a message beside the picture says that a plant falls") {
     const ScratchFolder folder;
     const std::string file = folder / "stalk.lsys";
     write_text(file, "#n = 1;\n#set width 0.02;\n#w : F(2) +(10) F(4) F(4);\n");
-    const auto said = [&](std::vector<std::string> more) {
+    const auto shown = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments = {file, "--size", "32x24", "--screenshot",
                                               folder / "a.png"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_lsview(arguments);
     };
-    CHECK(said({}).err.empty());
-    const LscRun fallen = said({"--gravity", "9.81"});
+    CHECK(shown({}).err.empty());
+    const LscRun fallen = shown({"--gravity", "9.81"});
     CHECK(fallen.status == 0);
     CAPTURE(fallen.err);
     CHECK(fallen.err.find("under 9.81 m/s2 [weak-stem]") != std::string::npos);

@@ -32,13 +32,13 @@ PictureDifference difference_of(const Picture& a, const Picture& b) {
     double sum = 0.0;
     std::size_t far = 0;
     for (std::size_t i = 0; i < a.texels.size(); i += 4) {
-        int most = 0;
+        int max_difference = 0;
         for (std::size_t c = 0; c < 4; ++c) {
             const int difference = std::abs(int{a.texels[i + c]} - int{b.texels[i + c]});
             sum += difference;
-            most = std::max(most, difference);
+            max_difference = std::max(max_difference, difference);
         }
-        far += most > kFar ? 1U : 0U;
+        far += max_difference > kFar ? 1U : 0U;
     }
     const auto count = static_cast<double>(a.texels.size());
     return {sum / count, 4.0 * static_cast<double>(far) / count};

@@ -1,4 +1,4 @@
-// Compares pictures of lsview with stored ones that were approved by eye. With LSYS_BLESS=1 in the
+// Compares pictures of lsview with stored pictures that were checked by eye. With LSYS_BLESS=1 in the
 // environment, the drawn pictures are stored instead: look at them before committing.
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
@@ -176,7 +176,7 @@ TEST_CASE("forests look as they did") {
     })));
 }
 
-TEST_CASE("cells at the horizon are as light as their trees") {
+TEST_CASE("clusters at the horizon are as bright as their trees") {
     const auto view = [](const char* size) {
         return decode_picture(
             drawn({LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--air", "9.78", "--camera",
@@ -188,7 +188,7 @@ TEST_CASE("cells at the horizon are as light as their trees") {
     CHECK(difference.mean < 1.2);
 }
 
-TEST_CASE("impostors are as light as their branches, with the sun behind and against it") {
+TEST_CASE("impostors are as bright as branches, with the sun in front and behind") {
     const char* const camera =
         GENERATE("eye -10,40,-20 target 110,5,110", "eye 230,40,240 target 110,5,110");
     CAPTURE(camera);
@@ -201,7 +201,7 @@ TEST_CASE("impostors are as light as their branches, with the sun behind and aga
     CHECK(difference.mean < 1.9);
 }
 
-TEST_CASE("the counts of a forest are reported, and the same every run") {
+TEST_CASE("the counts of a forest are reported and are the same in every run") {
     const std::vector<std::string> arguments = {
         LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--count", "4000",   "--camera",
         "eye 350,0,350 target 290,0,290 fov 60",         "--size",  "160x90", "--screenshot"};
@@ -233,7 +233,7 @@ TEST_CASE("the counts of a forest are reported, and the same every run") {
     CHECK(less["trees_expanded"] == 0);
 }
 
-TEST_CASE("the same picture every run, and of any stripes") {
+TEST_CASE("a picture is the same in every run and for any stripes") {
     const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
     CHECK(drawn(arguments) == drawn(arguments));
     // Compare a picture with more pixels than are drawn at once with a smaller one of the same
@@ -257,13 +257,13 @@ TEST_CASE("the same picture every run, and of any stripes") {
     CHECK(difference.far < 0.02);
 }
 
-TEST_CASE("a picture may be one pixel") {
+TEST_CASE("a picture may have only one pixel") {
     const Picture picture = decode_picture(drawn({sample("abop-1-24a"), "--size", "1x1"}));
     CHECK(picture.width == 1);
     CHECK(picture.height == 1);
 }
 
-TEST_CASE("a series has as many pictures as asked for, each another") {
+TEST_CASE("a series has the requested number of pictures, all different") {
     const ScratchFolder folder;
     const LscRun run =
         run_lsview({sample("teach-bending"), "--screenshot", folder / "a.png", "--frames", "3",
@@ -281,7 +281,7 @@ TEST_CASE("a series has as many pictures as asked for, each another") {
     CHECK(stats["width"] == 64);
 }
 
-TEST_CASE("a series that grows shows whole generations and moments between them") {
+TEST_CASE("a series of growth shows whole generations and moments between them") {
     const ScratchFolder folder;
     // Without the ground, whose size is that of the last generation.
     const std::vector<std::string> view = {sample("abop-2-8a"),
@@ -335,9 +335,9 @@ TEST_CASE("a forest of domination grows year by year in a series") {
     }
 }
 
-TEST_CASE("a series in which nothing moves says so") {
+TEST_CASE("a message says that nothing moves in a series") {
     const ScratchFolder folder;
-    const auto said = [&folder](std::vector<std::string> more) {
+    const auto messages = [&folder](std::vector<std::string> more) {
         std::vector<std::string> arguments = {
             sample("abop-1-24a"), "-n", "1", "--size", "32x24", "--frames", "2", "--screenshot",
             folder / "a.png"};
@@ -346,13 +346,13 @@ TEST_CASE("a series in which nothing moves says so") {
         CHECK(run.status == 0);
         return run.err;
     };
-    CHECK(said({}).find("nothing moves") != std::string::npos);
-    CHECK(said({"--grow"}).empty());
-    CHECK(said({"--turntable"}).empty());
-    CHECK(said({"--wind", "9,0,0"}).empty());
+    CHECK(messages({}).find("nothing moves") != std::string::npos);
+    CHECK(messages({"--grow"}).empty());
+    CHECK(messages({"--turntable"}).empty());
+    CHECK(messages({"--wind", "9,0,0"}).empty());
 }
 
-TEST_CASE("wind moves a plant, and no wind leaves it as it is") {
+TEST_CASE("wind moves a plant, and without wind it does not move") {
     const std::vector<std::string> still = {sample("teach-bending"), "--size", "160x120"};
     std::vector<std::string> calm = still;
     calm.insert(calm.end(), {"--wind", "0,0,0"});
@@ -362,7 +362,7 @@ TEST_CASE("wind moves a plant, and no wind leaves it as it is") {
     CHECK(difference_of(decode_picture(drawn(still)), decode_picture(drawn(windy))).far > 0.001);
 }
 
-TEST_CASE("what cannot be shown ends with a message") {
+TEST_CASE("lsview ends with a message if it cannot show the file") {
     struct Mistake {
         std::vector<std::string> arguments;
         int status;
@@ -408,7 +408,7 @@ TEST_CASE("what cannot be shown ends with a message") {
     }
 }
 
-TEST_CASE("a shader with a mistake is shown with its place") {
+TEST_CASE("a mistake in a shader is reported with its place") {
     const ScratchFolder folder;
     const std::string shaders = LSYS_SOURCE_DIR "/viewer/shaders/";
     for (const char* const name : {"frame.glsl", "light.glsl", "sky.vert.glsl"}) {

@@ -1,4 +1,4 @@
-// Wood: a small forest, for tests of its draw lists and pictures.
+// Wood: a small forest, for tests of draw lists and pictures.
 #pragma once
 
 #include "viewer/scene/forest_lod.h"

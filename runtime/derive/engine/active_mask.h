@@ -1,7 +1,7 @@
 // ActiveMask: two bits per module, 64 modules at a time: whether it may be rewritten, and whether
 // it stores a parameter. Vectors of codes are looked up at once, so that a module that is certain
 // to be copied costs a fraction of a table lookup. A module that only productions with contexts may
-// rewrite is active only if its neighbours may be those of a context.
+// rewrite is active only if its neighbours can match one of these contexts.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -35,7 +35,7 @@ public:
     static constexpr std::size_t kModules = 4096;
     static constexpr std::size_t kBlock = 64;
 
-    /// Builds the tables for the current rows of the plan. `contexts` knows the modules that a
+    /// Builds the tables for the current rows of the plan. `contexts` has the modules that a
     /// context search skips; it may be null if no active production has a context.
     void prepare(const Plan& plan, const ContextTables* contexts);
 

@@ -25,7 +25,7 @@ std::size_t rows_of(const BatchProgram& program) {
     return std::size_t{program.formal_rows} + program.stack_rows + program.slot_rows;
 }
 
-/// Which modules of a batch compute a value: all ones, or 0.
+/// The modules of a batch that compute a value: all bits set for these, 0 for the others.
 using Mask = std::array<std::int32_t, kLanes>;
 
 std::int32_t mask_of(bool is_set) {
@@ -60,7 +60,7 @@ public:
     // NOLINTNEXTLINE: units_ is set with block_
     explicit RowsOfNumbers(const BatchRun& batch) : batch_(batch) { mask_.fill(mask_of(true)); }
 
-    /// Whether some draw of a module is at fault.
+    /// Whether any module has an invalid random range or distribution.
     [[nodiscard]] bool is_faulty() const {
         std::int32_t any = 0;
         for (const std::int32_t fault : faults_) {
@@ -233,7 +233,7 @@ private:
     /// Replaces `x` by draw_in_range(x, y, u).
     [[gnu::always_inline]] void draw_ranges(Lanes& x, const Lanes& y, const Lanes& u) {
         Lanes result;
-        std::int32_t at_end = 0; // some result was rounded to the end of its range
+        std::int32_t at_end = 0; // set if any result was rounded to the end of its range
         for (std::size_t i = 0; i < kLanes; ++i) {
             const float low = x.values[i];
             const float high = y.values[i];
@@ -273,7 +273,7 @@ private:
     std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_
 };
 
-/// Runs a batch; returns whether a draw is at fault.
+/// Runs a batch; returns whether a random range or distribution is invalid.
 [[gnu::always_inline]] inline bool run_inline(const BatchRun& batch) {
     RowsOfNumbers rows(batch);
     const WordTemplate& successor = batch.bytecode.productions[batch.program.production].successor;

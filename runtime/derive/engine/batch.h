@@ -79,8 +79,8 @@ public:
     }
     /// add() for a program that gathers.
     void add_copy(std::uint32_t index, const float* formals, std::uint64_t position, float* out);
-    /// Runs all batches that wait. Returns false if some random range or distribution of any added
-    /// module is at fault. Parameters may still be infinite or not a number.
+    /// Runs all unfinished batches. Returns false if a random range or distribution of any added
+    /// module is invalid. Parameters may still be infinite or not a number.
     [[nodiscard]] bool finish();
 
 private:

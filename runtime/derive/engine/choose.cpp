@@ -163,11 +163,11 @@ bool Chooser<C>::choose_among(const Family& family,
     const float u = bytecode.settings.choice == ChoiceScope::Generation
                         ? plan_.rule_draw(rule, keys_.generation)
                         : module_draw(place.index);
-    float running = 0.0F;
+    float cumulative = 0.0F;
     for (const Matching& each : matching_) {
         record = each.candidate + 1;
-        running += each.weight / sum;
-        if (running > u) {
+        cumulative += each.weight / sum;
+        if (cumulative > u) {
             break;
         }
     }

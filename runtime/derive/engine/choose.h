@@ -1,5 +1,5 @@
-// Chooser: which production rewrites a module (docs/language.md section 5). Conditions and draws
-// are evaluated here and nowhere else; the answer is a record, which the writing pass reads.
+// Chooser: chooses the production that rewrites a module (docs/language.md section 5). Conditions
+// and draws are evaluated only here; the result is a record, which the writing pass reads.
 #pragma once
 
 #include "runtime/base/random.h"

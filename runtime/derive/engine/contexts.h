@@ -1,7 +1,7 @@
-// ContextTables: the next module towards the root and the next one along the axis for each place of
-// a word, in constant time, so that no long branch or run of ignored modules is walked twice. Built
-// per word if an active production has a context. A word without brackets and ignored modules needs
-// no table: its neighbours are adjacent.
+// ContextTables: tables of the next module towards the root and the next module along the axis for
+// each place of a word. A lookup takes constant time, however long a branch or run of ignored
+// modules is. Built per word if an active production has a context. A word without brackets and
+// ignored modules needs no table: its neighbours are adjacent.
 //
 // A gap g is the place before module g; gap count is the end of the word.
 #pragma once

@@ -39,7 +39,7 @@ find_match(const Plan& plan, Chooser<C>& chooser, const WordView<C>& word) {
     return std::nullopt;
 }
 
-/// The error that the module at `place` still matches.
+/// The error TooDeep for the module at `place`, which still matches.
 template <typename C>
 [[nodiscard]] RuntimeError too_deep(const Plan& plan,
                                     Chooser<C>& chooser,

@@ -1,6 +1,6 @@
-// Levels: words that are never stored. Blocks of modules go down a row of levels, depth first: the
-// rest of a level's block is rewritten, piece by piece, into the block of the level below. Each
-// level counts the modules that have passed, which gives the position of the next.
+// Levels: derives a word depth first without storing any word. Each level holds a block of modules
+// of one generation and rewrites it, piece by piece, into the block of the level below. Each level
+// counts its modules, so the position of the next module is known.
 #pragma once
 
 #include "runtime/derive/derive.h"

@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// A word, or a block of a streamed word, as the passes read it. Positions count from
+/// A word, or a block of a streamed word, as input of a pass. Positions count from
 /// `first_position`, which is 0 for a whole word.
 template <typename C>
 struct WordView {

@@ -186,7 +186,7 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
     }
 }
 
-/// Judges by the share of active modules among the first ones of the chunk.
+/// Estimates the share of active modules from the first modules of the chunk.
 template <typename C>
 bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
     if (!mask_.usable()) {

@@ -93,7 +93,7 @@ private:
     ContextTables contexts_;
     ActiveMask mask_;
     std::vector<Chunk> chunks_;
-    Arena records_;                     // those of a chunk begin at its first module's index
+    Arena records_;                     // records of a chunk begin at the index of its first module
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;
     bool by_census_ = false;    // this pass takes sizes from the census and writes in order

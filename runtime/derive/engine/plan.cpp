@@ -181,15 +181,16 @@ void Plan::make_families() {
                                 own_end);
         candidate.gathers = candidate.reads_context || item.first_formal != 0 ||
                             (production.predecessor.count > 1 && own_count > 0);
-        family.several = family.several || candidate.modules > 1;
+        family.replaces_several = family.replaces_several || candidate.modules > 1;
         family.has_context = family.has_context || candidate.has_context;
         family.reads_context = family.reads_context || candidate.reads_context;
-        family.varies = family.varies || (one_choice && production.stochastic) ||
-                        uses_step(bytecode_, production);
+        family.depends_on_generation = family.depends_on_generation ||
+                                       (one_choice && production.stochastic) ||
+                                       uses_step(bytecode_, production);
     }
     for (std::uint32_t i = 0; i < families_.size(); ++i) {
-        if (families_[i].varies) {
-            varying_families_.push_back(i);
+        if (families_[i].depends_on_generation) {
+            generation_families_.push_back(i);
         }
     }
 }
@@ -217,7 +218,8 @@ void Plan::make_guards() {
         for (const Candidate& candidate : candidates(family)) {
             const BytecodeProduction& production = bytecode_.productions[candidate.production];
             all_left = all_left && production.has_left;
-            all_right = all_right && production.has_right && !(parallel_ && family.several) &&
+            all_right = all_right && production.has_right &&
+                        !(parallel_ && family.replaces_several) &&
                         bytecode_.patterns[production.right.first].kind == PatternKind::Module;
         }
         for (const Candidate& candidate : candidates(family)) {
@@ -330,7 +332,7 @@ void Plan::prepare(std::uint32_t generation) {
     if (glibc_draws_) {
         glibc_draws_->prepare(generation);
     }
-    for (const std::uint32_t index : varying_families_) {
+    for (const std::uint32_t index : generation_families_) {
         families_[index].current = false;
         if (parallel_) {
             activate_family(index);
@@ -366,7 +368,7 @@ std::uint64_t Plan::held_bytes() const {
            bytes_of(choices_.list) + bytes_of(choices_.thresholds) + bytes_of(choices_.records) +
            bytes_of(codes_.pool) + bytes_of(codes_.first_of_symbol) + bytes_of(codes_.by_symbol) +
            bytes_of(choices_.of_code) + bytes_of(tests_.of_code) + bytes_of(tests_.lists) +
-           bytes_of(tests_.list) + bytes_of(guards_) + bytes_of(varying_families_) +
+           bytes_of(tests_.list) + bytes_of(guards_) + bytes_of(generation_families_) +
            bytes_of(folding_.codes) + bytes_of(folding_.block_of_code);
 }
 

@@ -3,9 +3,9 @@
 // something depends on step(), and for each rule if a pass rewrites one rule only. Read by the
 // passes, by many threads at once.
 //
-// A row says how modules of a code are rewritten: by one entry, by a choice among a fixed set, by
-// the first of some comparisons that holds, or by conditions and contexts. An entry is one way to
-// rewrite: the codes to copy, and for each parameter an AffineTerm (shape.h) or an expression.
+// A row says how modules of a code are rewritten: by one entry, by a random choice among a fixed
+// set, by the first comparison that holds, or by conditions and contexts. An entry is a successor:
+// the codes to copy, and for each parameter an AffineTerm (shape.h) or an expression.
 // Entry c < code_count belongs to code c: the successor of a Fixed row, or the copy that other rows
 // write if nothing matches. The other entries follow in the order of the families, so that record
 // r > 0 of a module means entry row.base + r. A code whose arguments are known and whose successors
@@ -82,12 +82,12 @@ struct Family {
     std::uint32_t count = 0;
     std::uint32_t left_guard = kNone; // codes accepted to the left of a rewritten module
     std::uint32_t right_guard = kNone;
-    bool several = false; // a candidate rewrites several modules
+    bool replaces_several = false; // a match of a candidate replaces several modules
     bool has_context = false;
-    bool reads_context = false; // a formal of a context is used
-    bool reads_own = false;     // an entry reads the module's parameters
-    bool varies = false;        // depends on the generation: step(), or a choice per generation
-    bool current = false;       // candidates and entries are up to date
+    bool reads_context = false;         // a formal of a context is used
+    bool reads_own = false;             // an entry reads the module's parameters
+    bool depends_on_generation = false; // by step(), or a choice per generation
+    bool current = false;               // candidates and entries are up to date
 };
 
 enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression };
@@ -111,7 +111,7 @@ struct Candidate {
     bool reads_context = false; // some formals belong to contexts
 };
 
-/// The fixed set of a Choice row. The first record whose running weight exceeds the draw is taken.
+/// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is taken.
 struct Choice {
     std::uint32_t first = 0; // in thresholds and records
     std::uint32_t count = 0;
@@ -261,10 +261,10 @@ private:
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
     void set_special(Entry& entry) const;
-    /// Whether the family does not depend on the generation, or the plan is made for one
-    /// generation.
+    /// Whether the plan knows every value on which the family depends: either the family does not
+    /// depend on the generation, or prepare() is called for each generation.
     [[nodiscard]] bool knows_generation(const Family& family) const {
-        return each_generation_ || !family.varies;
+        return each_generation_ || !family.depends_on_generation;
     }
 
     /// Codes at the word's width, and the codes of each symbol.
@@ -279,7 +279,7 @@ private:
     /// Alternatives of Choice rows.
     struct ChoiceTables {
         std::vector<Choice> list;
-        std::vector<float> thresholds;      // running weights
+        std::vector<float> thresholds;      // cumulative weights
         std::vector<std::uint32_t> records; // one per threshold
         std::vector<std::uint32_t> of_code; // index in list; kNone: none yet
     };
@@ -318,7 +318,8 @@ private:
     std::vector<Entry> entries_;
     std::vector<AffineTerm> terms_; // of entries with more than kEntryTerms parameters
     std::vector<Family> families_;
-    std::vector<std::uint32_t> varying_families_; // indexes of families with Family::varies
+    std::vector<std::uint32_t>
+        generation_families_; // indexes of families with depends_on_generation
     std::vector<Candidate> candidates_;
     std::vector<Comparison> comparisons_;
     std::vector<BatchProgram> batch_programs_;

@@ -15,7 +15,7 @@ constexpr std::uint32_t kMaxOwnEntries = 256;
 } // namespace
 
 /// Makes an entry write folded modules only, if the arguments of the module are known and the
-/// program has all folded modules needed. Returns whether it does.
+/// program has all folded modules needed. Returns whether the entry was changed.
 bool Plan::fold(Code code, Entry& entry) {
     if (!folding_.index || rows_[code].stored != 0 || entry.parameter_count == 0) {
         return false;

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether the term 0 * input + value yields `value` for every finite input. It does not for -0:
+/// Whether the term 0 * input + value yields `value` for every finite input. False for -0, because
 /// the sign of the sum would depend on the input.
 bool is_term_constant(float value) {
     return std::isfinite(value) && !(value == 0.0F && std::signbit(value));
@@ -189,7 +189,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.right_guard = family.right_guard;
     const float* const own = own_constants(row);
     row.slow = own != nullptr && family.reads_own;
-    if (family.several) {
+    if (family.replaces_several) {
         set_kind(code, RowKind::General);
         return;
     }
@@ -222,7 +222,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
 }
 
 /// Makes the tests of a row if single comparisons suffice to choose a production: no contexts, no
-/// draws, no other conditions. Returns whether they do.
+/// draws, no other conditions. Returns whether the tests were made.
 bool Plan::resolve_tests(const Family& family, Code code) {
     constexpr std::size_t kMaxTests = 16;
     Row& row = rows_[code];
@@ -300,11 +300,11 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         resolve_fixed(code, entries_[row.base + records[0]]);
         return;
     }
-    std::vector<float> running;
+    std::vector<float> cumulative;
     float total = 0.0F;
     for (const std::uint32_t record : records) {
         total += candidates_[family.first + record - 1].weight / sum;
-        running.push_back(total);
+        cumulative.push_back(total);
     }
     if (bytecode_.settings.choice == ChoiceScope::Generation) {
         if (!each_generation_) {
@@ -313,7 +313,7 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         }
         const float u = rule_draw(bytecode_.productions[first.production].rule, generation_);
         std::size_t taken = 0;
-        while (taken + 1 < records.size() && !(running[taken] > u)) {
+        while (taken + 1 < records.size() && !(cumulative[taken] > u)) {
             ++taken;
         }
         resolve_fixed(code, entries_[row.base + records[taken]]);
@@ -333,7 +333,7 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         choices_.records.resize(choices_.records.size() + count);
     }
     choice.count = count;
-    std::copy(running.begin(), running.end(), choices_.thresholds.begin() + choice.first);
+    std::copy(cumulative.begin(), cumulative.end(), choices_.thresholds.begin() + choice.first);
     std::copy(records.begin(), records.end(), choices_.records.begin() + choice.first);
     row.source = index;
     set_kind(code, RowKind::Choice);

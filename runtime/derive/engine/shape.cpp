@@ -60,7 +60,8 @@ public:
             return constant_term(arithmetic::apply(opcode, x.constant, 0.0F));
         }
         if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
-            Term term = x; // not with an offset: negating a sum of +0 gives -0, which no term does
+            Term term =
+                x; // only without an offset: the negative of a sum of +0 is -0, no term yields it
             term.affine.scale = -term.affine.scale;
             term.scaled = true;
             return term;
@@ -153,13 +154,13 @@ private:
         }
     }
 
-    /// Whether `x` is a finite constant with this truth.
+    /// Whether `x` is a finite constant with the truth value `truth`.
     static bool is_truth(const Term& x, bool truth) {
         return x.kind == ShapeKind::Constant && std::isfinite(x.constant) &&
                (x.constant != 0.0F) == truth;
     }
 
-    /// Both, if they are comparisons that were found one after the other.
+    /// The conjunction of x and y if both are comparisons found one after the other, else unknown.
     static Term conjunction(const Term& x, const Term& y) {
         if (x.kind != ShapeKind::Comparisons || y.kind != ShapeKind::Comparisons ||
             x.first_comparison + x.comparison_count != y.first_comparison) {
@@ -170,7 +171,7 @@ private:
         return term;
     }
 
-    /// Not `x`, if that is one comparison. Its sides are never NaN.
+    /// The negation of `x` if it is a single comparison, else unknown. Sides are never NaN.
     Term complement(const Term& x) {
         if (x.kind != ShapeKind::Comparisons || x.comparison_count != 1) {
             return {};

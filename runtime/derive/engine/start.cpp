@@ -56,10 +56,10 @@ const BytecodeAxiom& chosen_axiom(const Bytecode& bytecode, std::uint64_t seed) 
         sum += axiom.weight;
     }
     const float u = unit_interval(draw_block(seed, kStartGeneration, kPosition, 0)[0]);
-    float running = 0.0F;
+    float cumulative = 0.0F;
     for (const BytecodeAxiom& axiom : axioms) {
-        running += axiom.weight / sum;
-        if (running > u) {
+        cumulative += axiom.weight / sum;
+        if (cumulative > u) {
             return axiom;
         }
     }

@@ -69,8 +69,8 @@ struct MixedRun {
     float* parameters;
 };
 
-/// Writes the modules of `run` up to the first one with a special entry that is not batched. Like
-/// write_general() no part of Writer, whose fields stay in registers only if no call knows it.
+/// Writes the modules of `run` up to the first one with a special entry that is not batched. A free
+/// function like write_general(): fields of Writer stay in registers if no call gets its address.
 template <typename C, typename R>
 [[gnu::noinline]] void run_mixed(MixedRun<C, R>& run, Batches& batches) {
     MixedRun<C, R> at = run;

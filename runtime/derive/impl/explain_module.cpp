@@ -116,7 +116,7 @@ private:
         return true;
     }
 
-    /// Whether the predecessor's further modules and the contexts match.
+    /// Whether the contexts and the modules of the predecessor after the first one match.
     bool follows(const BytecodeProduction& tried, Attempt& attempt) const {
         for (std::uint32_t i = 1; i < tried.predecessor.count; ++i) {
             const std::uint64_t at = position_ + i;
@@ -155,14 +155,14 @@ private:
                       formals_.begin() + bytecode_.patterns[pattern.first + item].first_formal);
         };
         bind(tried.predecessor, 0, trace_.module);
-        for (const MetModule& met : attempt.predecessor) {
-            bind(tried.predecessor, met.item, met.module);
+        for (const VisitedModule& visited : attempt.predecessor) {
+            bind(tried.predecessor, visited.item, visited.module);
         }
-        for (const MetModule& met : attempt.left.met) {
-            bind(tried.left, met.item, met.module);
+        for (const VisitedModule& visited : attempt.left.visited) {
+            bind(tried.left, visited.item, visited.module);
         }
-        for (const MetModule& met : attempt.right.met) {
-            bind(tried.right, met.item, met.module);
+        for (const VisitedModule& visited : attempt.right.visited) {
+            bind(tried.right, visited.item, visited.module);
         }
         const auto index = static_cast<std::size_t>(attempt.production);
         const std::vector<ProductionNames>& names = pass_.inputs.names;
@@ -220,13 +220,13 @@ private:
                 {trace_.attempts[matching_[i]].production, weights_[i], 0.0F});
             sum += weights_[i];
         }
-        float running = 0.0F;
+        float cumulative = 0.0F;
         taken_ = choice.alternatives.size();
         for (std::size_t i = 0; i < choice.alternatives.size(); ++i) {
             ChoiceTrace::Alternative& alternative = choice.alternatives[i];
-            running += alternative.weight / sum;
-            alternative.running = running;
-            if (taken_ == choice.alternatives.size() && running > choice.unit) {
+            cumulative += alternative.weight / sum;
+            alternative.cumulative = cumulative;
+            if (taken_ == choice.alternatives.size() && cumulative > choice.unit) {
                 taken_ = i;
             }
         }

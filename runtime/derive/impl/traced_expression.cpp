@@ -76,11 +76,11 @@ std::string number_text(float value) {
 }
 
 /// A value with its text.
-struct Shown {
+struct PrintedValue {
     float number = 0.0F;
     std::string text;
     Binding binding = Binding::Leaf;
-    bool is_new_slot = true; // of a slot that has just been set: it has no name yet
+    bool is_new_slot = true; // a slot was set to this value and has no name yet
     bool is_truth = false;   // a comparison or a logical operation
 };
 
@@ -92,21 +92,21 @@ std::string cut(std::string text) {
     return text;
 }
 
-Shown leaf(float number, std::string text) {
+PrintedValue leaf(float number, std::string text) {
     return {number, std::move(text), Binding::Leaf};
 }
 
 /// The value of an operand of `&&`, `||` or `!`: `true` or `false` if it is a truth value.
-std::string truth_text(const Shown& shown) {
-    if (!shown.is_truth) {
-        return number_text(shown.number);
+std::string truth_text(const PrintedValue& printed) {
+    if (!printed.is_truth) {
+        return number_text(printed.number);
     }
-    return shown.number != 0.0F ? "true" : "false";
+    return printed.number != 0.0F ? "true" : "false";
 }
 
-/// The text of an operand, in parentheses where it binds less tightly than `least`.
-std::string operand(const Shown& shown, Binding least) {
-    return shown.binding < least ? "(" + shown.text + ")" : shown.text;
+/// The text of an operand, in parentheses if its precedence is below `min_binding`.
+std::string operand(const PrintedValue& printed, Binding min_binding) {
+    return printed.binding < min_binding ? "(" + printed.text + ")" : printed.text;
 }
 
 Binding tighter(Binding binding) {
@@ -114,22 +114,22 @@ Binding tighter(Binding binding) {
 }
 
 /// The Domain of interpret() whose values are numbers with their texts.
-struct ShownNumbers : UnknownDomain<Shown> {
+struct PrintedNumbers : UnknownDomain<PrintedValue> {
     static constexpr bool kRunsOneSide = true;
 
-    ShownNumbers(const TracedFrame& given, RangeDraws* from, std::uint64_t first)
+    PrintedNumbers(const TracedFrame& given, RangeDraws* from, std::uint64_t first)
         : frame(given), draws(from), first_draw(first), slots(given.bytecode.local_count) {}
 
     const TracedFrame& frame;
     RangeDraws* draws;
     std::uint64_t first_draw;
     bool is_successor = false; // only successors have local values
-    std::vector<Shown> slots;
+    std::vector<PrintedValue> slots;
     std::vector<TracedPart> parts;
     std::vector<TracedRange> ranges;
     std::map<std::size_t, TracedLocal> locals; // by slot
     std::vector<std::string> choices;          // conditions of `if` in the next local value
-    std::vector<Shown> taken;
+    std::vector<PrintedValue> taken;
     std::string fault;
 
     /// Names the slots of local values that the last instruction has set. Other slots hold
@@ -138,7 +138,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         const std::size_t named =
             frame.names == nullptr || !is_successor ? 0 : frame.names->locals.size();
         for (std::size_t i = 0; i < slots.size(); ++i) {
-            Shown& slot = slots[i];
+            PrintedValue& slot = slots[i];
             if (slot.is_new_slot && !slot.text.empty() && i < named) {
                 locals[i] = {frame.names->locals[i].name, slot.text, slot.number,
                              std::exchange(choices, {})};
@@ -149,28 +149,29 @@ struct ShownNumbers : UnknownDomain<Shown> {
         }
         return true;
     }
-    static Shown literal(float value) { return leaf(value, number_text(value)); }
-    [[nodiscard]] Shown formal(std::uint32_t index) const {
+    static PrintedValue literal(float value) { return leaf(value, number_text(value)); }
+    [[nodiscard]] PrintedValue formal(std::uint32_t index) const {
         const bool named = frame.names != nullptr && index < frame.names->formals.size();
         return leaf(frame.values.formals[index],
                     named ? frame.names->formals[index] : "$" + std::to_string(index));
     }
-    [[nodiscard]] Shown global(std::uint32_t index) const {
+    [[nodiscard]] PrintedValue global(std::uint32_t index) const {
         return leaf(frame.values.globals[index], frame.bytecode.globals[index].name);
     }
-    [[nodiscard]] Shown step() const { return leaf(frame.values.step, "step()"); }
-    [[nodiscard]] Shown steps() const { return leaf(frame.values.steps, "steps()"); }
-    [[nodiscard]] Shown branch_draw(std::uint32_t branch) const {
+    [[nodiscard]] PrintedValue step() const { return leaf(frame.values.step, "step()"); }
+    [[nodiscard]] PrintedValue steps() const { return leaf(frame.values.steps, "steps()"); }
+    [[nodiscard]] PrintedValue branch_draw(std::uint32_t branch) const {
         return leaf(draws == nullptr ? 0.0F : draws->draw_branch(branch), "branch");
     }
 
-    Shown add(Shown shown, std::string values, bool is_truth) {
-        shown.text = cut(std::move(shown.text));
-        shown.is_truth = is_truth;
-        parts.push_back({shown.text, std::move(values), shown.number, is_truth});
-        return shown;
+    PrintedValue add(PrintedValue printed, std::string values, bool is_truth) {
+        printed.text = cut(std::move(printed.text));
+        printed.is_truth = is_truth;
+        parts.push_back({printed.text, std::move(values), printed.number, is_truth});
+        return printed;
     }
-    Shown call(std::string_view name, std::vector<const Shown*> operands, float number) {
+    PrintedValue
+    call(std::string_view name, std::vector<const PrintedValue*> operands, float number) {
         std::string text(name);
         std::string values(name);
         for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -179,11 +180,11 @@ struct ShownNumbers : UnknownDomain<Shown> {
         }
         return add(leaf(number, text + ")"), values + ")", false);
     }
-    Shown unary(Opcode opcode, const Shown& x) {
+    PrintedValue unary(Opcode opcode, const PrintedValue& x) {
         const float number = arithmetic::apply(opcode, x.number, 0.0F);
         if (opcode == Opcode::Negate || opcode == Opcode::Not) {
             const char* const sign = opcode == Opcode::Not ? "!" : "-";
-            Shown result{number, sign + operand(x, Binding::Unary), Binding::Unary};
+            PrintedValue result{number, sign + operand(x, Binding::Unary), Binding::Unary};
             if (opcode == Opcode::Negate && x.binding == Binding::Leaf) {
                 return result; // its value is seen where it is used
             }
@@ -193,7 +194,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         }
         return call(info(opcode).mnemonic, {&x}, number);
     }
-    Shown binary(Opcode opcode, const Shown& x, const Shown& y) {
+    PrintedValue binary(Opcode opcode, const PrintedValue& x, const PrintedValue& y) {
         const float number = arithmetic::apply(opcode, x.number, y.number);
         const Infix infix = infix_of(opcode);
         if (infix.sign.empty()) {
@@ -204,24 +205,24 @@ struct ShownNumbers : UnknownDomain<Shown> {
         const bool to_right = infix.binding == Binding::Power;
         const Binding next = tighter(infix.binding);
         const std::string sign = " " + std::string(infix.sign) + " ";
-        Shown result{number,
-                     operand(x, chains && !to_right ? infix.binding : next) + sign +
-                         operand(y, to_right ? infix.binding : next),
-                     infix.binding};
+        PrintedValue result{number,
+                            operand(x, chains && !to_right ? infix.binding : next) + sign +
+                                operand(y, to_right ? infix.binding : next),
+                            infix.binding};
         const bool joins = opcode == Opcode::And || opcode == Opcode::Or;
         return add(std::move(result),
                    joins ? truth_text(x) + sign + truth_text(y)
                          : number_text(x.number) + sign + number_text(y.number),
                    infix.binding <= Binding::Less);
     }
-    Shown curve(std::uint32_t index, const Shown& x) {
+    PrintedValue curve(std::uint32_t index, const PrintedValue& x) {
         const BytecodeCurve& curve = frame.bytecode.curves[index];
         return call(curve.name, {&x}, curve_value(curve.points, x.number));
     }
-    Shown mix(const Shown& x, const Shown& y, const Shown& t) {
+    PrintedValue mix(const PrintedValue& x, const PrintedValue& y, const PrintedValue& t) {
         return call("mix", {&x, &y, &t}, arithmetic::mix(x.number, y.number, t.number));
     }
-    bool holds(const Shown& x) {
+    bool holds(const PrintedValue& x) {
         if (!x.is_truth) { // a truth value is a part already
             parts.push_back({"if(" + x.text + ", ...)", "if(" + number_text(x.number) + ", ...)",
                              x.number != 0.0F ? 1.0F : 0.0F, true});
@@ -229,8 +230,11 @@ struct ShownNumbers : UnknownDomain<Shown> {
         choices.push_back(x.text + " is " + (x.is_truth ? truth_text(x) : number_text(x.number)));
         return x.number != 0.0F;
     }
-    bool random_draw(
-        Opcode opcode, Shown& x, const Shown& y, std::uint32_t index, const std::uint32_t* /*at*/) {
+    bool random_draw(Opcode opcode,
+                     PrintedValue& x,
+                     const PrintedValue& y,
+                     std::uint32_t index,
+                     const std::uint32_t* /*at*/) {
         TracedRange range;
         range.opcode = opcode;
         range.number = first_draw + index;
@@ -275,7 +279,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
         return range.text + " cannot be drawn from " + number_text(x) +
                (range.arguments.size() > 1 ? " and " + number_text(y) : std::string());
     }
-    bool take(const Shown& x, const std::uint32_t* /*at*/) {
+    bool take(const PrintedValue& x, const std::uint32_t* /*at*/) {
         if (!std::isfinite(x.number)) {
             fault = x.text + " is " + number_text(x.number);
         }
@@ -289,12 +293,12 @@ struct ShownNumbers : UnknownDomain<Shown> {
         const std::size_t named = frame.names == nullptr ? 0 : frame.names->locals.size();
         for (std::size_t i = 0; i < named; ++i) {
             const ProductionNames::Local& local = frame.names->locals[i];
-            if (const std::optional<Shown> shown = leaf_of(local)) {
-                locals[i] = {local.name, shown->text, shown->number, {}};
+            if (const std::optional<PrintedValue> printed = leaf_of(local)) {
+                locals[i] = {local.name, printed->text, printed->number, {}};
             }
         }
     }
-    [[nodiscard]] std::optional<Shown> leaf_of(const ProductionNames::Local& local) const {
+    [[nodiscard]] std::optional<PrintedValue> leaf_of(const ProductionNames::Local& local) const {
         switch (local.leaf) {
         case Opcode::Literal:
             return literal(local.literal);
@@ -315,7 +319,8 @@ struct ShownNumbers : UnknownDomain<Shown> {
 
     /// Runs the code at `first`, if there is any.
     bool run(std::uint32_t first) {
-        std::vector<Shown> stack(std::max<std::size_t>(frame.bytecode.stack_depth, kUsualStack));
+        std::vector<PrintedValue> stack(
+            std::max<std::size_t>(frame.bytecode.stack_depth, kUsualStack));
         return first == kNone || interpret(frame.bytecode.instructions.data() + first, *this,
                                            stack.data(), slots.data());
     }
@@ -324,7 +329,7 @@ struct ShownNumbers : UnknownDomain<Shown> {
 } // namespace
 
 ExpressionTrace trace_condition(const TracedFrame& frame, std::uint32_t first) {
-    ShownNumbers numbers(frame, nullptr, 0);
+    PrintedNumbers numbers(frame, nullptr, 0);
     static_cast<void>(numbers.run(first));
     ExpressionTrace trace;
     if (!numbers.taken.empty()) {
@@ -340,7 +345,7 @@ SuccessorTrace trace_successor(const TracedFrame& frame,
                                const WordTemplate& word,
                                RangeDraws draws,
                                std::uint64_t first_draw) {
-    ShownNumbers numbers(frame, &draws, first_draw);
+    PrintedNumbers numbers(frame, &draws, first_draw);
     numbers.is_successor = true;
     const bool ok = numbers.run(word.locals) && numbers.run(word.arguments);
     SuccessorTrace trace;
@@ -349,7 +354,7 @@ SuccessorTrace trace_successor(const TracedFrame& frame,
         trace.locals.push_back(std::move(local));
     }
     trace.ranges = std::move(numbers.ranges);
-    for (const Shown& taken : numbers.taken) {
+    for (const PrintedValue& taken : numbers.taken) {
         trace.arguments.push_back(taken.number);
     }
     if (!ok) {

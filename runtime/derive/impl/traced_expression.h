@@ -25,8 +25,8 @@ struct TracedFrame {
 struct SuccessorTrace {
     std::vector<TracedLocal> locals;
     std::vector<TracedRange> ranges;
-    std::vector<float> arguments; // those before a fault
-    std::string fault;            // what is wrong with a value; empty: nothing
+    std::vector<float> arguments; // up to the first fault
+    std::string fault;            // describes a value that cannot be used; empty: none
 };
 /// `draws`: of the module; `first_draw`: the number of range 0.
 [[nodiscard]] SuccessorTrace trace_successor(const TracedFrame& frame,

@@ -50,8 +50,8 @@ bool TracedWord::is_ignored(std::uint64_t position) const {
     return bytecode_.symbol(symbol(position)).ignored;
 }
 
-/// The next module on the path to the root: finished branches are passed over, an open `[` is
-/// walked out of.
+/// The next module on the path to the root: skips closed branches, and leaves an open branch
+/// through its `[`.
 std::optional<std::uint64_t> TracedWord::left_of(std::uint64_t position,
                                                  ContextTrace& trace) const {
     while (position > 0) {
@@ -97,7 +97,7 @@ std::uint64_t TracedWord::after_branch(std::uint64_t open) const {
     return count();
 }
 
-/// The next module along the axis at or after `gap`: branches are passed over, a `]` ends it.
+/// The next module along the axis at or after `gap`: skips branches; a `]` ends the axis.
 std::optional<std::uint64_t> TracedWord::next_from(std::uint64_t gap, ContextTrace& trace) const {
     while (gap < count()) {
         switch (kind(gap)) {
@@ -128,7 +128,7 @@ ContextTrace TracedWord::left(const BytecodeProduction& production, std::uint64_
             return trace;
         }
         position = *found;
-        trace.met.push_back({position, i, module(position)});
+        trace.visited.push_back({position, i, module(position)});
         if (symbol(position) != bytecode_.patterns[production.left.first + i].symbol) {
             trace.end = ContextEnd::OtherModule;
             return trace;
@@ -140,7 +140,7 @@ ContextTrace TracedWord::left(const BytecodeProduction& production, std::uint64_
 
 ContextTrace TracedWord::right(const BytecodeProduction& production, std::uint64_t gap) const {
     ContextTrace trace;
-    std::vector<std::uint64_t> after; // of the branches of the pattern that are open
+    std::vector<std::uint64_t> after; // gaps after the open branches of the pattern
     for (std::uint32_t i = 0; i < production.right.count; ++i) {
         trace.item = i;
         const PatternItem& item = bytecode_.patterns[production.right.first + i];
@@ -151,7 +151,7 @@ ContextTrace TracedWord::right(const BytecodeProduction& production, std::uint64
                 trace.end = ContextEnd::EndOfPath;
                 return trace;
             }
-            trace.met.push_back({*found, i, module(*found)});
+            trace.visited.push_back({*found, i, module(*found)});
             if (symbol(*found) != item.symbol) {
                 trace.end = ContextEnd::OtherModule;
                 return trace;

@@ -1,5 +1,5 @@
-// A word as a trace reads it: modules by position, and the neighbours of a module by walking
-// (docs/language.md section 5). Slow and direct; holds no table but the places of parameters.
+// TracedWord: a word as input of a trace. It finds modules by position, and neighbours by walking
+// (docs/language.md section 5). Slow and direct; its only table holds the places of parameters.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -28,7 +28,7 @@ public:
                                     std::uint64_t position) const;
     /// Searches the right context from gap `gap`, the place before module `gap`.
     [[nodiscard]] ContextTrace right(const BytecodeProduction& production, std::uint64_t gap) const;
-    /// The cut that takes out the module at `position`; the module itself if it cuts.
+    /// The position of the `%` that cuts off the module at `position`; itself if it is a `%`.
     [[nodiscard]] std::optional<std::uint64_t> cut_of(std::uint64_t position) const;
 
 private:

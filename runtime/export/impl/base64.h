@@ -1,4 +1,4 @@
-// Base64Writer: Base64 (RFC 4648) of bytes that arrive in pieces.
+// Base64Writer: writes bytes that arrive in pieces as Base64 (RFC 4648).
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"

@@ -15,9 +15,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlaceTolerance = 1e-5; // of the plant's size: smaller errors need no joints
-// Max displacement of the plant by leaving out a key, relative to the max displacement of a tip in
-// the clip.
+constexpr double kPlaceTolerance = 1e-5; // error that needs no joint, relative to the plant's size
+// Max error of positions due to a left-out key, relative to the max displacement of a tip in the
+// clip.
 constexpr double kKeyTolerance = 2e-3;
 constexpr double kMaxKeyAngle = 0.01;     // rad
 constexpr std::uint32_t kMaxSamples = 16; // frames in which errors are measured
@@ -59,7 +59,7 @@ Tree tree_of(const Skeleton& plant) {
     tree.parents.assign(count, kNoSegment);
     tree.first_child = tree.next_sibling = tree.thickest = tree.parents;
     tree.sizes.assign(count, 1);
-    for (std::uint32_t i = count; i-- > 0;) { // backwards: children end up in rising order
+    for (std::uint32_t i = count; i-- > 0;) { // backwards, which lists children in ascending order
         const std::uint32_t parent = plant.segments[i].parent;
         if (parent >= i) {
             continue;
@@ -68,7 +68,7 @@ Tree tree_of(const Skeleton& plant) {
         tree.next_sibling[i] = tree.first_child[parent];
         tree.first_child[parent] = i;
         tree.sizes[parent] += tree.sizes[i];
-        // Of equally thick children the one in fewer brackets continues the segment.
+        // Among equally thick children the one in fewer brackets continues the segment.
         std::uint32_t& thickest = tree.thickest[parent];
         const Segment& child = plant.segments[i];
         if (thickest == kNoSegment || child.base_radius > plant.segments[thickest].base_radius ||
@@ -135,18 +135,18 @@ private:
         return glm::dvec3(place.base + plant_.segments[segment].length * heading(place.frame));
     }
 
-    /// Max distance of the tip of a segment from where the motion of `root` takes it.
+    /// Max distance over all frames between the tip of a segment and the tip moved rigidly with `root`.
     [[nodiscard]] double error(std::uint32_t root, std::uint32_t segment) const {
         const glm::dvec3 at_start = tip(segment, start_);
-        double most = 0.0;
+        double max_error = 0.0;
         for (const std::span<const SegmentPlace> sample : samples_) {
             const glm::dvec3 taken = root == kNoSegment ? at_start
                                                         : motion(place_of(start_[root]),
                                                                  place_of(sample[root]))(at_start);
             const glm::dvec3 off = taken - tip(segment, sample);
-            most = std::max(most, glm::dot(off, off));
+            max_error = std::max(max_error, glm::dot(off, off));
         }
-        return std::sqrt(most);
+        return std::sqrt(max_error);
     }
 
     /// Moves `top` and its descendants in the same piece to `piece`, and measures their errors.
@@ -165,14 +165,14 @@ private:
             open_.pop_back();
             owners_[segment] = piece;
             const glm::dvec3 at_start = tip(segment, start_);
-            double most = 0.0;
+            double max_error = 0.0;
             for (std::size_t i = 0; i < moves.size(); ++i) {
                 const glm::dvec3 off = moves[i](at_start) - tip(segment, samples_[i]);
-                most = std::max(most, glm::dot(off, off));
+                max_error = std::max(max_error, glm::dot(off, off));
             }
-            most = std::sqrt(most);
-            if (most > pieces_[piece].error) {
-                pieces_[piece].error = most;
+            max_error = std::sqrt(max_error);
+            if (max_error > pieces_[piece].error) {
+                pieces_[piece].error = max_error;
                 pieces_[piece].worst = segment;
             }
             for (std::uint32_t child = tree_.first_child[segment]; child != kNoSegment;
@@ -193,12 +193,12 @@ private:
         for (std::uint32_t at = worst; at != kNoSegment && at != root; at = tree_.parents[at]) {
             way.push_back(at);
         }
-        if (way.empty()) { // the error is one of rounding, far from the origin
+        if (way.empty()) { // a rounding error, far from the origin
             pieces_[piece].error = 0.0;
             return;
         }
-        // The nearer the cut is to the root, the larger is the error of the part behind it, and the
-        // smaller that of the part before it.
+        // A cut nearer to the root increases the error of the part above the cut and decreases the
+        // error of the part below it.
         std::size_t low = 0;
         std::size_t high = way.size() - 1;
         while (low < high) {
@@ -242,15 +242,15 @@ private:
     std::vector<std::uint32_t> open_;
 };
 
-/// A point of a piece, which the joint of the piece should move to its place in each frame.
+/// A point of a piece, for fitting the rotation of the joint of the piece.
 struct FitPoint {
     std::uint32_t segment = 0;
     bool is_base = false; // the point is the base of the segment, else its tip
     double weight = 1.0;
 };
 
-/// The rotation that takes `arms` nearest to `targets` by weighted least squares, found from
-/// `start` on. Both are relative to the joint.
+/// The rotation that takes `arms` nearest to `targets` by weighted least squares, iterated from
+/// `start`. Both are relative to the joint.
 glm::dquat fitted(const glm::dquat& start,
                   std::span<const glm::dvec3> arms,
                   std::span<const glm::dvec3> targets,
@@ -265,8 +265,8 @@ glm::dquat fitted(const glm::dquat& start,
             matrix += weights[i] * (glm::dmat3(square) - glm::outerProduct(arm, arm));
             torque += weights[i] * glm::cross(arm, targets[i] - arm);
         }
-        // Damping: points on a line do not determine the twist about the line, which then stays as
-        // it is.
+        // Damping: points on a line do not determine the twist about the line, so the twist stays
+        // unchanged.
         const double trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
         if (!(trace > 0.0)) {
             break;
@@ -278,7 +278,7 @@ glm::dquat fitted(const glm::dquat& start,
     return turn;
 }
 
-/// Frames that need keys, so that rotations interpolated between keys are off by at most the angle
+/// Frames that need keys, so that rotations interpolated between keys are off by at max_error the angle
 /// whose half has the sine `half_sine`. Empty: the rotation never changes.
 std::vector<std::uint32_t> keys_of(std::span<const glm::quat> rotations, double half_sine) {
     const auto is_near = [half_sine](const glm::dquat& a, const glm::dquat& b) {
@@ -383,8 +383,7 @@ private:
         return moves_[std::size_t{joint} * animation_.frame_count + frame];
     }
 
-    /// Turns a joint in each frame so that its piece, and the joints that are its children, are
-    /// nearest to their places.
+    /// Turns a joint in each frame so that its piece and its child joints are nearest to their places.
     void fit(std::uint32_t joint) {
         Bone& bone = bones_.joints[joint];
         const std::vector<FitPoint>& points = points_[joint];
@@ -480,8 +479,8 @@ private:
     /// The axis of a piece: from its first segment on, always the thickest child.
     struct Axis {
         double length = 0.0;
-        std::uint32_t next = kNoBone;     // joint of the piece that continues it
-        std::uint32_t previous = kNoBone; // joint of the piece that it continues
+        std::uint32_t next = kNoBone;     // joint of the next piece along the axis
+        std::uint32_t previous = kNoBone; // joint of the previous piece along the axis
     };
 
     void make_weights() {
@@ -507,7 +506,7 @@ private:
             const std::uint32_t parent = tree_.parents[i];
             const BoneWeights at_parent =
                 parent == kNoSegment ? BoneWeights{{0}, {1.0F}} : bones_.segments[parent][1];
-            if (joint == 0 || along[i] < 0.0) { // stands still, or is no part of the axis: rigid
+            if (joint == 0 || along[i] < 0.0) { // rigid: stands still, or is not on the axis
                 bones_.segments[i] = {at_parent, at_parent};
                 continue;
             }
@@ -522,7 +521,7 @@ private:
     }
 
     /// Weights at `along` metres from the start of the axis of a piece. `root`: the weights at the
-    /// place that the piece grows from.
+    /// place from which the piece grows.
     static BoneWeights weights_on(std::span<const Axis> axes,
                                   std::uint32_t joint,
                                   double along,

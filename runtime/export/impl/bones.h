@@ -1,8 +1,8 @@
-// Bones: a light skeleton that moves a mesh nearly as all its segments do. The tree of segments is
-// cut into connected pieces, and each piece has one joint at its base, a child of the joint that the
-// piece grows from. Joints turn and do not shift, so that pieces stay joined and an animator can
-// pose them. Weights change linearly between the middles of pieces (linear blend skinning with
-// smooth weights).
+// Bones: a skeleton of few joints that approximates the motion of all segments of a plant. The tree
+// of segments is cut into connected pieces. Each piece has one joint at its base, a child of the
+// joint of the piece that it grows from. Joints turn and do not shift, so that pieces stay joined
+// and an animator can pose them. Weights change linearly between the middles of pieces (linear blend
+// skinning with smooth weights).
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -18,8 +18,8 @@
 
 namespace lsys {
 
-/// Joints that move a point and their weights, the greatest first; the weights add up to 1. Unused
-/// ones have weight 0 and joint 0.
+/// Joints that move a point, and their weights, the greatest first; the weights add up to 1. Unused
+/// entries have weight 0 and joint 0.
 struct BoneWeights {
     std::array<std::uint16_t, 4> joints{};
     std::array<float, 4> weights{};
@@ -27,12 +27,12 @@ struct BoneWeights {
 
 /// A joint. Joint 0 stands still at the origin, in the axes of the world.
 struct Bone {
-    std::uint32_t segment = kNoSegment; // at whose base the joint is; kNoSegment: joint 0
-    std::uint32_t parent = 0;           // a joint before this one
-    glm::dvec3 place{0.0};              // in the first frame, in the world
+    std::uint32_t segment = kNoSegment; // the joint is at its base; kNoSegment: joint 0
+    std::uint32_t parent = 0;           // an earlier joint
+    glm::dvec3 place{0.0};              // in world coordinates, in the first frame
     glm::dquat frame{1.0, 0.0, 0.0, 0.0};
     glm::vec3 translation{0.0F}; // relative to the parent
-    /// Relative to the parent, in all frames; consecutive ones have a positive dot product.
+    /// Relative to the parent, in all frames; consecutive rotations have a positive dot product.
     std::vector<glm::quat> rotations;
     /// Frames with a key, ascending; rotations between two keys are interpolated. Empty: the
     /// rotation never changes.
@@ -50,9 +50,9 @@ struct Bones {
                                          const glm::vec3& position) const;
 };
 
-/// Makes at most `max_joints` joints, joint 0 included. Each cut divides the piece that has the
-/// segment farthest from its place. Precondition: `max_joints` is at least 2. `plant` is the first
-/// frame of `animation`, and outlives the result.
+/// Makes at most `max_joints` joints, joint 0 included. Each cut divides the piece with the largest
+/// error of a segment. Preconditions: `max_joints` is at least 2; `plant` is the first frame of
+/// `animation`, and outlives the result.
 [[nodiscard]] Bones
 make_bones(const Skeleton& plant, const PlantAnimation& animation, std::uint32_t max_joints);
 

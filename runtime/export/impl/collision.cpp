@@ -27,7 +27,7 @@ constexpr float kTaper = 1.6F;
 constexpr float kTaperSize = 0.002F;
 constexpr double kCoveredShare = 0.9; // share of the area of all pieces that shapes cover
 constexpr std::size_t kMinShapes = 10;
-/// Engines take hulls of at most 255 triangles; one of 128 vertices has 2 * 128 - 4.
+/// Engines accept hulls of at most 255 triangles; a hull of 128 vertices has 2 * 128 - 4.
 constexpr std::size_t kMaxRings = 128 / kSides;
 
 bool is_drawn(const Segment& segment) {
@@ -38,8 +38,8 @@ float mean_radius(const Segment& segment) {
     return 0.5F * (segment.base_radius + segment.tip_radius);
 }
 
-/// For each segment the next of its bough: of the linked children the thickest, then the one in
-/// fewest brackets, then the longest, then the first.
+/// For each segment the next segment of its bough: the linked child that is thickest, then in fewest
+/// brackets, then longest, then first.
 std::vector<std::uint32_t> find_next(const Skeleton& skeleton) {
     const auto& segments = skeleton.segments;
     std::vector<std::uint32_t> next(segments.size(), kNoSegment);
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] std::vector<BoughPiece> take() { return std::move(pieces_); }
 
 private:
-    /// Cuts an axis into the longest runs that are straight and even enough.
+    /// Cuts an axis into the longest runs that are nearly straight and equally thick.
     void divide(const std::vector<std::uint32_t>& axis) {
         std::size_t first = 0;
         while (first < axis.size()) {
@@ -163,8 +163,8 @@ private:
     std::vector<BoughPiece> pieces_;
 };
 
-/// Two unit vectors at right angles to `axis` and to each other; with `axis` as the third they are
-/// right-handed.
+/// Two unit vectors perpendicular to `axis` and to each other; the two and `axis`, in this order,
+/// are right-handed.
 std::array<glm::vec3, 2> across(const glm::vec3& axis) {
     const glm::vec3 other =
         std::abs(axis.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
@@ -189,8 +189,8 @@ void add_ring(const glm::vec3& middle,
     }
 }
 
-/// A pole, four rings and a pole. The poles are the two vertices that are farthest apart, by which
-/// importers find the axis. The round ends lie within the piece where it is long enough.
+/// A pole, four rings and a pole. The poles are the two vertices that are farthest apart, since
+/// importers find the axis by them. The round ends lie within the piece if it is long enough.
 void make_capsule(const BoughPiece& piece, CollisionShape& shape) {
     const glm::vec3 chord = piece.to - piece.from;
     const float length = glm::length(chord);
@@ -232,7 +232,7 @@ void make_hull(const Skeleton& skeleton, const BoughPiece& piece, CollisionShape
         const std::size_t joint = i * (joints - 1) / (rings - 1);
         const Segment& segment = skeleton.segments[piece.segments[joint > 0 ? joint - 1 : 0]];
         const bool at_base = joint == 0;
-        // A tip without width is a point, which the hull takes once.
+        // A tip without width is a point; the hull removes its duplicates.
         add_ring(at_base ? segment.base : tip(segment), across(heading(segment.frame)),
                  at_base ? segment.base_radius : segment.tip_radius, points);
     }

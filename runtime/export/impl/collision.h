@@ -1,5 +1,5 @@
-// Shapes of collision of a plant: capsules or convex hulls along trunk and boughs, as small meshes
-// in glTF, whose names tell engines what they are.
+// Collision shapes of a plant: capsules or convex hulls along trunk and boughs, as small meshes in
+// glTF. Engines recognise collision shapes by their names.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -30,12 +30,12 @@ struct BoughPiece {
     glm::vec3 from{}; // ends of its chord
     glm::vec3 to{};
     float radius = 0.0F; // mean along its segments
-    double area = 0.0;   // 2 * radius * length: what can be hit from the side
+    double area = 0.0;   // 2 * radius * length: the area seen from the side
 };
 
-/// The pieces of trunk and boughs, those of the largest area first: as many as have nine tenths of
-/// the area of all, from 10 to kMaxCollisionShapes where there are so many. The trunk, and each
-/// bough, goes on in the thickest segment that begins at its end.
+/// The pieces of trunk and boughs, by descending area: as many as have nine tenths of the area of
+/// all, but at least 10, if there are as many, and at most kMaxCollisionShapes. The trunk and each
+/// bough continue in the thickest segment that begins at their end.
 [[nodiscard]] std::vector<BoughPiece> find_boughs(const Skeleton& skeleton);
 
 /// The shapes of find_boughs(). `info`: kind of shapes and of names, and name of the plant.

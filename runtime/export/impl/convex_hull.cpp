@@ -1,5 +1,5 @@
 // Incremental hull (Preparata and Hong 1977; de Berg et al., "Computational Geometry", chapter 11):
-// a point outside replaces the triangles that it sees by a fan to their outer edge, the horizon.
+// a point outside replaces the triangles that face it by a fan to their outer edge, the horizon.
 // The points have whole coordinates of at most 20 bits, so that six times the volume of a
 // tetrahedron fits into 64 bits.
 #include "runtime/export/impl/convex_hull.h"
@@ -34,7 +34,7 @@ bool is_zero(const Point& a) {
     return a[0] == 0 && a[1] == 0 && a[2] == 0;
 }
 
-/// Points on the grid, each once, in the order of their coordinates.
+/// The points rounded to the grid, without duplicates, in the order of their coordinates.
 std::vector<Point> on_grid(std::span<const glm::vec3> points, glm::dvec3& low, double& step) {
     low = glm::dvec3(points[0]);
     glm::dvec3 high = low;
@@ -109,8 +109,8 @@ private:
         return true;
     }
 
-    /// Extends the hull to the point `apex`. A point outside the hull also sees the triangles in
-    /// whose planes it lies, so that no edge of the horizon is in line with it.
+    /// Extends the hull to the point `apex`. Triangles whose planes contain the point count as
+    /// facing it, so that no edge of the horizon is collinear with the point.
     void add(std::uint32_t apex) {
         volumes_.clear();
         for (const Corners& triangle : triangles_) {
@@ -138,7 +138,8 @@ private:
     std::vector<Point> points_;
     std::vector<Corners> triangles_;
     std::vector<std::int64_t> volumes_;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> edges_; // of the triangles that are seen
+    std::set<std::pair<std::uint32_t, std::uint32_t>>
+        edges_; // of the triangles that face the point
 };
 
 } // namespace

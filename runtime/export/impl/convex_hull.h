@@ -15,9 +15,9 @@ struct ConvexHull {
     std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
 };
 
-/// The hull of the points, each moved by at most 2^-20 of the largest extent to a node of a grid,
-/// on which all decisions are exact. Closed, with triangles only. Empty for points that lie in a
-/// plane. Time: the number of points times that of triangles.
+/// The hull of the points after rounding to a grid, which moves each by at most 2^-20 of the largest
+/// extent and makes all decisions exact. The hull is closed and has triangles only; it is empty for
+/// points in a plane. Time: number of points times number of triangles.
 [[nodiscard]] ConvexHull convex_hull(std::span<const glm::vec3> points);
 
 } // namespace lsys

@@ -18,7 +18,7 @@ Outcome<void> nothing_to_draw(ExportSubject subject);
 Outcome<void> too_large_for_format(ExportSubject subject);
 /// Limit: a skin of more than kMaxJoints.
 Outcome<void> too_many_joints();
-/// Done, or Cancelled where the sink has stopped.
+/// Success, or Cancelled if the sink has stopped.
 Outcome<void> finish(PieceWriter& out);
 
 /// The outcome of `run()`, or OutOfMemory with a message about `what`.

@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// Counts of the vertices and indices of a piece of the trees; later the next free position of each
-/// in the mesh.
+/// Counts of the vertices and indices of a piece of the trees; later the next free position of
+/// vertices and indices in the mesh.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -46,7 +46,7 @@ public:
                     messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
         };
         if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
-            return limit(); // without the work of counting shares
+            return limit(); // before the slow counting of shares
         }
         count_shares();
         std::uint64_t vertices = ground_vertices();

@@ -14,8 +14,8 @@ namespace {
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 
-/// The view of an array of several slices, for which glTF asks for a stride; in buffer 0. That of a
-/// compressed array is in buffer 1, which holds decoded items.
+/// The view, in buffer 0, of an array of several slices, for which glTF requires a stride. The view
+/// of a compressed array is in buffer 1, which holds decoded items.
 void put_array_view(JsonWriter& json, const ForestView& view) {
     const bool is_indices = view.array == GltfArray::Indices;
     const bool compressed = !view.compressed.empty();
@@ -32,7 +32,7 @@ void put_array_view(JsonWriter& json, const ForestView& view) {
     json.end();
 }
 
-/// The view of compressed transforms, without a target: items of instances are no vertices.
+/// The view of compressed transforms, without a target, because the items are not vertices.
 void put_transform_view(JsonWriter& json, const ForestView& view) {
     json.object().member("buffer", 1).member("byteOffset", view.decoded_offset);
     json.member("byteLength", view.item_bytes());
@@ -41,7 +41,7 @@ void put_transform_view(JsonWriter& json, const ForestView& view) {
     json.end();
 }
 
-/// A view of bytes that are no vertices.
+/// A view of bytes that are not vertices.
 void put_plain_view(JsonWriter& json, std::uint64_t offset, std::uint64_t bytes) {
     json.object().member("buffer", 0).member("byteOffset", offset);
     json.member("byteLength", bytes).end();
@@ -83,7 +83,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         json.object().member("name", "ground").member("mesh", 0).end(); // never quantised
     }
     std::uint64_t child = 1 + ground + cells;
-    std::vector<bool> met(collisions_.size()); // as in for_each_collider()
+    std::vector<bool> written(collisions_.size()); // as in for_each_collider()
     for (const ForestCell& cell : plan_.cells()) {
         json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
         json.array("children");
@@ -91,8 +91,8 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         // Nodes of collision shapes follow the node of their group, as its siblings.
         for (std::size_t i = 0; instanced() && !collisions_.empty() && i < cell.group_count; ++i) {
             const std::uint32_t instance = plan_.groups()[cell.first_group + i].instance;
-            if (!(met[instance] && collides_once())) {
-                met[instance] = true;
+            if (!(written[instance] && collides_once())) {
+                written[instance] = true;
                 count += collisions_[instance].shapes.size();
             }
         }
@@ -111,7 +111,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
 
 void ForestDocument::put_instanced_nodes(JsonWriter& json) const {
     std::size_t accessor = first_group_accessor_;
-    std::vector<bool> met(collisions_.size());
+    std::vector<bool> written(collisions_.size());
     for (const ForestGroup& group : plan_.groups()) {
         const auto put_instances = [&](std::size_t mesh) {
             json.member("mesh", mesh).object("extensions");
@@ -121,8 +121,8 @@ void ForestDocument::put_instanced_nodes(JsonWriter& json) const {
         };
         json.object();
         put_instances(mesh_of_instance_[group.instance]);
-        if (!collisions_.empty() && !(met[group.instance] && collides_once())) {
-            met[group.instance] = true;
+        if (!collisions_.empty() && !(written[group.instance] && collides_once())) {
+            written[group.instance] = true;
             const std::vector<CollisionShape>& shapes = collisions_[group.instance].shapes;
             for (std::size_t i = 0; i < shapes.size(); ++i) {
                 json.object().member("name", shapes[i].name);
@@ -152,7 +152,7 @@ std::string ForestDocument::mesh_name(const ExportedStage& stage, std::uint32_t 
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
     std::uint64_t child =
         1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() + plan_.branches();
-    std::vector<bool> met(collisions_.size());
+    std::vector<bool> written(collisions_.size());
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(cell, [&](const ExportedStage& stage, std::uint32_t instance,
                                         const BranchInstance& branch) {
@@ -166,8 +166,8 @@ void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
             const glm::quat& r = pose.rotation;
             json.object().member("mesh", mesh_of_instance_[instance]);
             if (!collisions_.empty() && !collisions_[instance].shapes.empty() &&
-                !(met[instance] && collides_once())) {
-                met[instance] = true;
+                !(written[instance] && collides_once())) {
+                written[instance] = true;
                 json.array("children");
                 for (std::size_t i = 0; i < collisions_[instance].shapes.size(); ++i) {
                     json.value(child++);

@@ -1,5 +1,5 @@
-// ForestDocument: a forest in glTF: the layout of its buffer, and the document that describes it.
-// The document is made anew for each put_members() and never stored.
+// ForestDocument: the JSON document of a forest in glTF, and the layout of its buffer. Each call of
+// put_members() generates the document again; it is never stored.
 #pragma once
 
 #include "runtime/export/impl/forest_formats.h"
@@ -40,7 +40,7 @@ struct ForestView {
     [[nodiscard]] std::uint64_t item_bytes() const { return type.stride * count; }
 };
 
-/// Arrays of one material of a surface.
+/// The arrays of one material of a surface.
 struct ForestBlock {
     GltfForm form;
     std::vector<ForestView> attributes;
@@ -54,7 +54,8 @@ struct ForestBlock {
 struct ForestSurface {
     std::size_t stage = kNoStage; // index in ForestPlan::stages(); kNoStage: the ground
     const Mesh* mesh = nullptr;
-    const std::vector<std::uint32_t>* materials = nullptr; // numbers among all of the scene
+    const std::vector<std::uint32_t>* materials =
+        nullptr; // numbers among all materials of the scene
     SlicedMesh sliced;
     std::vector<ForestBlock> blocks; // by material of the mesh
 };
@@ -84,7 +85,7 @@ public:
     /// Size of buffer 1, the decoded items of compressed arrays (GltfFile::decoded_bytes); 0:
     /// nothing is compressed.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
-    /// Writes all members of the document but `buffers`.
+    /// Writes all members of the document except `buffers`.
     void put_members(JsonWriter& json) const;
     /// Writes the buffer to the sink.
     void put_data(const GltfSink& write) const;
@@ -99,16 +100,16 @@ private:
                      std::span<const PartList> lists);
     /// Plans the forms of texture coordinates, by material of the scene.
     void plan_texture_forms();
-    /// Makes the shapes of collision of all instances in use.
+    /// Makes the collision shapes of all instances in use.
     void add_collisions();
-    /// Whether the shapes are written for the first tree of a hero only: Unreal Engine adds them to
-    /// the mesh, which all trees of the hero share.
+    /// Whether only the first tree of a hero gets collision shapes: Unreal Engine adds the shapes
+    /// to the mesh, which all trees of the hero share.
     [[nodiscard]] bool collides_once() const {
         return info_.collision_names == CollisionNames::Unreal;
     }
     [[nodiscard]] std::string mesh_name(const ExportedStage& stage, std::uint32_t instance) const;
-    /// Calls visit(instance among all stages) for each tree that has shapes of its own, in the order
-    /// of nodes.
+    /// Calls visit(instance) for each tree with collision shapes of its own, in the order of nodes;
+    /// `instance` is numbered among all stages.
     template <typename Visit>
     void for_each_collider(const Visit& visit) const;
     /// Plans the views of a surface, without their offsets in the buffer.
@@ -116,7 +117,7 @@ private:
     void compress_views();
     void compress_transforms();
     void place_views();
-    /// Sets the offsets of a view, behind the views before it.
+    /// Sets the offset of a view, after all earlier views.
     void place(ForestView& view);
     /// Calls visit(surface, material of the mesh, view) for each view in order.
     template <typename Visit>
@@ -163,10 +164,10 @@ private:
     std::size_t view_count_ = 0;
     std::vector<std::string> images_;
     std::vector<PackedTransforms> packed_; // empty: transforms are floats
-    std::size_t transforms_view_ = 0;      // the first one of transforms
+    std::size_t transforms_view_ = 0;      // first view of transforms
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
-    std::uint64_t transforms_offset_ = 0; // of transforms that are floats, else of the images
+    std::uint64_t transforms_offset_ = 0; // offset of float transforms; if packed, of the images
     std::uint64_t bytes_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };
@@ -193,16 +194,16 @@ void ForestDocument::for_each_collider(const Visit& visit) const {
     if (collisions_.empty()) {
         return;
     }
-    std::vector<bool> met(collisions_.size());
-    const auto take = [&](std::uint32_t instance) {
-        if (!collisions_[instance].shapes.empty() && !(met[instance] && collides_once())) {
-            met[instance] = true;
+    std::vector<bool> written(collisions_.size());
+    const auto visit_once = [&](std::uint32_t instance) {
+        if (!collisions_[instance].shapes.empty() && !(written[instance] && collides_once())) {
+            written[instance] = true;
             visit(instance);
         }
     };
     if (instanced()) {
         for (const ForestGroup& group : plan_.groups()) {
-            take(group.instance);
+            visit_once(group.instance);
         }
         return;
     }
@@ -210,7 +211,7 @@ void ForestDocument::for_each_collider(const Visit& visit) const {
         plan_.for_each_branch(
             cell, [&](const ExportedStage&, std::uint32_t instance, const BranchInstance&) {
                 if (plan_.uses()[instance] > 0) {
-                    take(instance);
+                    visit_once(instance);
                 }
             });
     }

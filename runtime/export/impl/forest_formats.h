@@ -35,18 +35,19 @@ struct ItemGrid {
     glm::vec3 low{0.0F};
     float step = 1.0F;
 };
-/// The pose that puts the items of a surface where `pose` puts its positions.
+/// The pose for the quantised items of a surface that equals `pose` for its positions.
 [[nodiscard]] InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid);
 
-/// Hands over the transforms of all groups in order, until `write` returns false. `grids`: by stage.
+/// Gives the transforms of all groups to `write`, in order, until it returns false. `grids`: by
+/// stage.
 void write_transforms(const ForestPlan& plan,
                       std::span<const ItemGrid> grids,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);
 
-/// Calls visit(groups, floats) for runs of consecutive groups of one cell or several, in order: as
-/// many as fit into ForestExportInfo::window_bytes, at least one. `floats` are what
-/// write_transforms() hands over for them.
+/// Calls visit(groups, floats) for runs of consecutive groups of one or more cells, in order: as
+/// many as fit into ForestExportInfo::window_bytes, at least one. `floats`: the transforms of these
+/// groups as write_transforms() writes them.
 void for_each_transform_window(
     const ForestPlan& plan,
     std::span<const ItemGrid> grids,

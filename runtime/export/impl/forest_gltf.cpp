@@ -1,7 +1,7 @@
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
-// species share arrays, of which each primitive has a slice: many readers copy, upload and bound
-// whole accessors.
+// species share arrays. Each primitive has accessors for a slice of these arrays, because many
+// readers copy, upload and bound whole accessors.
 #include "runtime/base/size_text.h"
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/export_outcome.h"
@@ -143,7 +143,7 @@ void ForestDocument::add_surface(std::size_t stage,
     }
     GltfForm form = form_of(info_.compression, bounds);
     if (stage == kNoStage) {
-        form.step = 0.0F; // quantised heights of a wide ground would leave trees in the air
+        form.step = 0.0F; // not quantised: with rounded heights of a wide ground trees would float
     } else if (form.step > 0.0F) {
         grids_[stage] = {form.low, form.step};
     }
@@ -227,8 +227,7 @@ void ForestDocument::add_views(ForestSurface& surface) {
 namespace {
 
 /// The indices of a part, within its slice. `ordered`, for compression: triangles are sorted by
-/// their highest index, so that those of nested lists come first, as if each slice were a mesh of
-/// its own.
+/// their highest index, so that triangles of nested lists come first, as in a separate mesh.
 void read_indices(const ForestSurface& surface,
                   std::size_t number,
                   bool ordered,
@@ -245,7 +244,7 @@ void read_indices(const ForestSurface& surface,
     const auto last_of = [&](std::ptrdiff_t first) {
         return std::max({from[first], from[first + 1], from[first + 2]});
     };
-    LargeVector<std::uint32_t> places; // of the triangles of each highest index
+    LargeVector<std::uint32_t> places; // by highest index: place of the next triangle
     places.assign(slice.vertex_count + 1, 0);
     for (std::ptrdiff_t i = 0; i + 2 < count; i += 3) {
         ++places[last_of(i) + 1];
@@ -258,7 +257,7 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Calls visit(indices) for the parts of one material whose slices are wide, or for the others.
+/// Calls visit(indices) for the parts of one material whose slices are wide, or for all others.
 template <typename Visit>
 void for_each_part(const ForestSurface& surface,
                    std::size_t material,

@@ -1,6 +1,6 @@
-// Transforms of instances compressed by EXT_meshopt_compression (Khronos, vendor extension), whose
-// filters are implemented here, because those of meshoptimizer round differently on different
-// machines.
+// Transforms of instances compressed by EXT_meshopt_compression (Khronos, vendor extension). The
+// filters of this extension are implemented here, because the filters of meshoptimizer round
+// differently on different machines.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_document.h"
 
@@ -21,7 +21,7 @@ void append(std::string& items, const T& value) {
     items.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// The exponent of the largest power of two that is not above `value`.
+/// The exponent of the largest power of two up to `value`.
 int exponent_of(float value) {
     int exponent = 0;
     static_cast<void>(std::frexp(value, &exponent));
@@ -36,9 +36,9 @@ std::uint32_t exponential_item(float value, int exponent) {
     for (; std::abs(steps) > kMaxMantissa && exponent < kMaxExponent; ++exponent) {
         steps /= 2.0;
     }
-    const double most = kMaxMantissa;
+    const double max_mantissa = kMaxMantissa;
     const auto mantissa =
-        static_cast<std::int32_t>(std::clamp(std::floor(steps + 0.5), -most, most));
+        static_cast<std::int32_t>(std::clamp(std::floor(steps + 0.5), -max_mantissa, max_mantissa));
     return static_cast<std::uint32_t>(exponent) << 24U |
            (static_cast<std::uint32_t>(mantissa) & 0xFFFFFFU);
 }
@@ -92,7 +92,7 @@ PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
             const float* const rotations = translations + 3 * group.count;
             const float* const scales = rotations + 4 * group.count;
             for (std::uint64_t i = 0; i < group.count; ++i) {
-                const float scale = scales[3 * i]; // the same along all axes
+                const float scale = scales[3 * i]; // equal along all axes
                 if (view.array == GltfArray::Rotations) {
                     append(items, quaternion_item(std::span(rotations + 4 * i, 4)));
                     continue;

@@ -105,7 +105,8 @@ void ForestPlan::cut_cells() {
     }
 }
 
-/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() sums them.
+/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() then adds up
+/// the counts of earlier pieces.
 void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];
@@ -190,8 +191,8 @@ InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& p
     InstanceVertices instance_vertices;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
     instance_vertices.indices.resize(indices.size());
-    // For each vertex the last instance that uses it, and the vertex's number there.
-    std::vector<std::uint32_t> met_by(mesh.positions.size(), kNone);
+    // For each vertex the last instance that uses it, and the number of the vertex in this instance.
+    std::vector<std::uint32_t> last_user(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
     for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
         instance_vertices.first.push_back(instance_vertices.vertices.size());
@@ -201,8 +202,8 @@ InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& p
         for (const MeshPart& part : stage.meshes->parts_of(i)) {
             for (std::uint64_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
                 const std::uint32_t vertex = indices[k];
-                if (met_by[vertex] != i) {
-                    met_by[vertex] = i;
+                if (last_user[vertex] != i) {
+                    last_user[vertex] = i;
                     numbers[vertex] = static_cast<std::uint32_t>(instance_vertices.vertices.size() -
                                                                  instance_vertices.first[i]);
                     instance_vertices.vertices.push_back(vertex);

@@ -1,5 +1,5 @@
-// ForestPlan: counts of instances in each cell of the ground, made by expanding all trees once.
-// Transforms are not stored: writers that need them expand the trees again.
+// ForestPlan: counts the instances in each cell of the ground by expanding all trees once.
+// Transforms are not stored: writers that need transforms expand the trees again.
 #pragma once
 
 #include "runtime/export/export_forest.h"
@@ -24,7 +24,7 @@ struct ExportedStage {
 /// All copies of one instance in one cell.
 struct ForestGroup {
     std::uint32_t instance = 0; // number among all stages
-    std::uint64_t first = 0;    // instances in all groups before
+    std::uint64_t first = 0;    // number of instances in all earlier groups
     std::uint64_t count = 0;
 };
 
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] std::span<const ExportedStage> stages() const { return stages_; }
     /// Cells with triangles, by z, then x.
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
-    /// Groups of all cells, within a cell by rising number of the instance.
+    /// Groups of all cells, within a cell by ascending number of the instance.
     [[nodiscard]] std::span<const ForestGroup> groups() const { return groups_; }
     [[nodiscard]] std::span<const ForestPiece> pieces_of(const ForestCell& cell) const {
         return std::span(pieces_).subspan(cell.first_piece, cell.piece_count);
@@ -122,8 +122,8 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
     }
 }
 
-/// Distinct materials of a scene, and the numbers of the stages' and the ground's materials among
-/// them.
+/// Distinct materials of a scene, and the numbers among these for each material of the stages and
+/// of the ground.
 struct ForestMaterials {
     Mesh samples; // of material_samples.h: a part for each material
     std::vector<std::vector<std::uint32_t>> of_stages;
@@ -137,7 +137,7 @@ struct InstanceVertices {
     std::vector<std::uint64_t> first;    // of each instance, in `vertices`; one more at the end
     LargeVector<std::uint32_t> vertices; // of the mesh
     LargeVector<std::uint32_t>
-        indices; // parallel to those of the mesh, in the numbers of the instance
+        indices; // parallel to the indices of the mesh, numbered within the instance
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t instance) const {
         return std::span(vertices).subspan(first[instance], first[instance + 1] - first[instance]);

@@ -7,8 +7,8 @@ namespace lsys {
 
 namespace {
 
-/// Calls visit(begin, end) for each run of items of an instance. One numbering has all items of the
-/// heroes: segments, then polygons, then objects.
+/// Calls visit(begin, end) for each run of items of an instance. All items of the heroes are
+/// numbered together: segments, then polygons, then objects.
 template <typename Visit>
 void for_each_run(const InstanceCache& cache, const Instance& instance, const Visit& visit) {
     const std::uint64_t segments = cache.skeleton.segments.size();
@@ -21,7 +21,7 @@ void for_each_run(const InstanceCache& cache, const Instance& instance, const Vi
     }
 }
 
-/// For each used instance the innermost used one around it, kNone if there is none. Instances are
+/// For each used instance the innermost used instance that encloses it, or kNone. Instances are
 /// numbered in the order in which they begin, so enclosing instances have lower numbers.
 std::vector<std::uint32_t> find_parents(const ExportedStage& stage, const ForestPlan& plan) {
     const InstanceCache& cache = *stage.cache;
@@ -81,8 +81,8 @@ public:
     }
 
 private:
-    /// Adds the vertices of a part that the lists nested in its own do not have. `begin`: the place
-    /// in SlicedMesh::vertices of the first vertex of these lists.
+    /// Adds the vertices of a part that no nested list has. `begin`: the index in
+    /// SlicedMesh::vertices of the first vertex of the nested lists.
     void add_part(std::size_t number, std::uint64_t begin, SliceBlock& block) {
         const MeshPart& part = mesh_.parts[number];
         LargeVector<std::uint32_t>& vertices = result_.vertices;
@@ -120,8 +120,8 @@ std::vector<PartList> nested_lists(const ExportedStage& stage, const ForestPlan&
     const std::vector<std::uint32_t> parents = find_parents(stage, plan);
     const auto count = static_cast<std::uint32_t>(parents.size());
     const auto is_used = [&](std::uint32_t i) { return plan.uses()[stage.first + i] > 0; };
-    // Children of each instance as linked lists, by rising number; the last entry: instances
-    // without a parent.
+    // Children of each instance as linked lists, by ascending number; the last entry is the list of
+    // instances without a parent.
     std::vector<std::uint32_t> first_child(count + std::size_t{1}, kNone);
     std::vector<std::uint32_t> next(count, kNone);
     for (std::uint32_t i = count; i-- > 0;) {

@@ -18,7 +18,7 @@ namespace lsys {
 /// Slices with fewer vertices than this have indices of 16 bits; glTF reserves the largest number.
 inline constexpr std::uint64_t kMinWideVertices = 65536;
 
-/// Parts of a mesh that are drawn together: those of an instance.
+/// The parts of a mesh that an instance draws.
 struct PartList {
     std::size_t first_part = 0;
     std::size_t part_count = 0;
@@ -26,8 +26,8 @@ struct PartList {
     std::size_t first_nested = 0;
 };
 
-/// The used instances of a stage, each behind those nested in it. The triangles of a nested list are
-/// among those of the enclosing one; lists that are not nested share none.
+/// The used instances of a stage, each after the instances nested in it. The triangles of a nested
+/// list are among the triangles of the enclosing list; lists that are not nested share no triangles.
 [[nodiscard]] std::vector<PartList> nested_lists(const ExportedStage& stage,
                                                  const ForestPlan& plan);
 
@@ -51,14 +51,14 @@ struct SliceBlock {
 
 struct SlicedMesh {
     LargeVector<std::uint32_t> vertices; // of the mesh, by block
-    LargeVector<std::uint32_t> indices;  // parallel to the mesh's, numbered within their slice
+    LargeVector<std::uint32_t> indices;  // parallel to the indices of the mesh, numbered per slice
     std::vector<Slice> slices;           // by part of the mesh
     std::vector<SliceBlock> blocks;      // by material of the mesh
     std::vector<std::size_t> order;      // the parts of all lists, list by list
 };
 
-/// Orders the vertices of `mesh` list by list. A vertex is repeated only where lists that are not
-/// nested share it. Vertices of no list are left out. Time is linear in the indices.
+/// Orders the vertices of `mesh` list by list. A vertex is repeated only if lists that are not
+/// nested share it. Vertices of no list are left out. Time is linear in the number of indices.
 [[nodiscard]] SlicedMesh slice_mesh(const Mesh& mesh, std::span<const PartList> lists);
 
 } // namespace lsys

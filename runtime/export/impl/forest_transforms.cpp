@@ -1,6 +1,6 @@
 // Transforms in the order of a file: cell by cell, group by group. One pass over the trees fills a
-// window of consecutive groups; threads share the pieces of their cells. A group larger than the
-// window is written without it, by one pass for each of its three arrays.
+// window of consecutive groups; the pieces of their cells are distributed to threads. A group larger
+// than the window is written without a window, by one pass for each of its three arrays.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_formats.h"
 
@@ -72,7 +72,7 @@ private:
         return groups.first(some);
     }
 
-    /// Makes the floats of `groups`, which begin with number `first` in number `cell` of the cells.
+    /// Computes the floats of `groups`. `first`: number of the first group; `cell`: its cell.
     void fill_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;

@@ -1,7 +1,7 @@
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
-// "UsdGeomPointInstancer"). Prototypes are the instances, each with vertices of its own, relative
-// to the frame in which it begins: orientations are half floats, whose rounding would displace
-// vertices far from the origin.
+// "UsdGeomPointInstancer"). Each instance is a prototype with vertices of its own, relative to the
+// frame in which the instance begins: orientations are half floats, and their rounding would
+// displace vertices far from the origin.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_formats.h"
 #include "runtime/export/impl/formats.h"
@@ -219,7 +219,7 @@ private:
     PieceWriter* out_ = nullptr; // of write()
     ForestMaterials materials_;
     std::vector<std::string> names_;        // of materials
-    std::vector<std::uint32_t> prototypes_; // of each instance, its number among those used
+    std::vector<std::uint32_t> prototypes_; // of each instance: its number among the used instances
     HalfDigits halves_;
 };
 

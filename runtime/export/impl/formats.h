@@ -1,5 +1,5 @@
 // The writers of formats.def. Each writes one whole file and may stop early once the PieceWriter
-// has stopped. The mesh has at least one triangle and no more than the format can count; its
+// has stopped. The mesh has at least one triangle and at most as many as the format can count; its
 // optional arrays are empty or complete.
 #pragma once
 

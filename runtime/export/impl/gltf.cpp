@@ -1,6 +1,6 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64 or in
-// a file beside it. One mesh with a primitive for each part, or for many parts that differ in
-// colour only. glTF is in metres and +Y up by definition.
+// a file beside it. A plant is one mesh with a primitive for each part; parts that differ only in
+// colour share one primitive. glTF is in metres and +Y up by definition.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_collision.h"
@@ -39,7 +39,7 @@ struct Contents {
     }
 };
 
-/// Writes the members of the document but its buffers.
+/// Writes the members of the document except `buffers`.
 class Document {
 public:
     Document(const ExportJob& job, const Contents& contents, JsonWriter& json)
@@ -157,8 +157,8 @@ private:
         return film_ != nullptr ? drawn_shapes(*film_).size() : 1;
     }
 
-    /// The children of the node of the plant: the shapes of a film or the node that decodes, and the
-    /// shapes of collision, which are the last nodes.
+    /// The children of the node of the plant: the shapes of a film or the node that decodes, then the
+    /// collision shapes, which are the last nodes.
     void put_children() {
         std::size_t shape_count = has_decoding_node() ? 1 : 0;
         shape_count = film_ != nullptr ? drawn_shapes(*film_).size() : shape_count;
@@ -252,7 +252,7 @@ private:
         for (std::size_t i = 0; i < streams_.primitives.list.size(); ++i) {
             const GltfPrimitive& primitive = streams_.primitives.list[i];
             if (materials_[i] < count) {
-                continue; // an earlier shape has it
+                continue; // an earlier shape has this material
             }
             ++count;
             const std::uint32_t number = mesh_.parts[primitive.parts.front().part].material;

@@ -40,14 +40,15 @@ enum class GltfArray : std::uint8_t {
 }
 /// The unit vector of a direction; an axis if it has no length.
 [[nodiscard]] glm::vec3 unit_normal(const glm::vec3& normal);
-/// As unit_normal(); w is 1 or -1.
+/// Like unit_normal(); w is 1 or -1.
 [[nodiscard]] glm::vec4 unit_tangent(const glm::vec4& tangent);
 
-/// The direction itself if it is of unit length, else as unit_normal(). Inline, as nearly all are.
+/// The normal itself if it has unit length, else unit_normal(). Inline, because nearly all normals
+/// have unit length.
 [[nodiscard]] inline glm::vec3 valid_normal(const glm::vec3& normal) {
     return is_unit(normal) ? normal : unit_normal(normal);
 }
-/// As valid_normal(); w is 1 or -1.
+/// Like valid_normal(); w is 1 or -1.
 [[nodiscard]] inline glm::vec4 valid_tangent(const glm::vec4& tangent) {
     const bool valid = is_unit(glm::vec3(tangent)) && std::abs(tangent.w) == 1.0F;
     return valid ? tangent : unit_tangent(tangent);

@@ -10,13 +10,13 @@ namespace lsys {
 
 namespace {
 
-/// A frame from which on a shape is shown or hidden.
+/// A frame at which a shape appears or disappears.
 struct Switch {
     std::uint32_t frame = 0;
     bool shown = false;
 };
 
-/// Switches of a shape in order of time, from frame 0 on; none if the film has no other shape.
+/// Switches of a shape in order of time, from frame 0 on; none if the film has one shape only.
 std::vector<Switch> switches_of(const MeshFilm& film, std::uint32_t number) {
     std::vector<Switch> switches;
     if (film.shapes.size() == 1) {

@@ -19,20 +19,20 @@ struct GltfFilmCounts {
     std::uint64_t weights = 0;
 };
 [[nodiscard]] GltfFilmCounts count_film_items(const MeshFilm& film);
-/// Times of the frames, then those at which each shape appears and disappears.
+/// Times of the frames, then times at which each shape appears and disappears.
 void write_film_times(const MeshFilm& film, const GltfBytes& write);
 /// Scales at the times at which shapes appear and disappear: 1 while a shape is shown, else 0.
 void write_film_scales(const MeshFilm& film, const GltfBytes& write);
 /// Weights of the targets of each shape, frame by frame.
 void write_film_weights(const MeshFilm& film, const GltfBytes& write);
 
-/// Shapes with something to draw. Only these have a mesh, in order from mesh 0 on, and a node.
+/// Shapes that are not empty. Each of these has a node and a mesh, in order from mesh 0 on.
 [[nodiscard]] std::vector<std::uint32_t> drawn_shapes(const MeshFilm& film);
 /// A node for each mesh. Readers without animations show the last shape.
 void put_film_nodes(JsonWriter& json, const MeshFilm& film);
-/// Accessors: for each shape times and scales, then times and weights, without those that have no
-/// items. The views of times, scales and weights follow each other from `first_view` on, without
-/// empty ones.
+/// Accessors: for each shape times and scales, then times and weights; accessors without items are
+/// left out. The views of times, scales and weights are consecutive from `first_view` on; empty
+/// views are left out.
 void put_film_accessors(JsonWriter& json, const MeshFilm& film, std::size_t first_view);
 /// The member `animations`. `first_node`: of put_film_nodes(); `accessor`: the first of
 /// put_film_accessors().

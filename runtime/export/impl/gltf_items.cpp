@@ -21,7 +21,7 @@ namespace {
 constexpr unsigned kPositionBits = 16;
 constexpr unsigned kCompressedPositionBits = 14;
 // Bits of a texture coordinate: the fewest that keep a step within half a texel of the built-in
-// textures, which are 256 texels wide. Floats where 16 bits leave steps of more than 4 texels.
+// textures, which are 256 texels wide. Floats are used if 16 bits leave steps of more than 4 texels.
 constexpr unsigned kMinTextureBits = 12;
 constexpr unsigned kMaxTextureBits = 16;
 constexpr float kMaxTextureStep = 1.0F / 512.0F;
@@ -34,10 +34,10 @@ float max_value(unsigned bits) {
     return static_cast<float>((1U << bits) - 1U);
 }
 
-/// Rounds half up, the same on any machine. The clamped value is not negative, so that a cast
-/// rounds down; std::floor() is a function call on processors without SSE 4.1.
-std::uint16_t rounded(float value, float most) {
-    return static_cast<std::uint16_t>(std::clamp(value + 0.5F, 0.0F, most));
+/// Rounds half up, with the same result on every machine. The clamped value is not negative, so a
+/// cast rounds down; std::floor() is a function call on processors without SSE 4.1.
+std::uint16_t rounded(float value, float highest) {
+    return static_cast<std::uint16_t>(std::clamp(value + 0.5F, 0.0F, highest));
 }
 
 std::uint8_t linear_byte(float value) {
@@ -60,11 +60,11 @@ class PositionSteps {
 public:
     explicit PositionSteps(const GltfForm& form)
         : low_(form.low), steps_(1.0 / static_cast<double>(form.step)),
-          most_(static_cast<double>(max_value(position_bits(form.compression)))) {}
+          max_step_(static_cast<double>(max_value(position_bits(form.compression)))) {}
 
     [[nodiscard]] Item<std::uint16_t, 4> operator()(const glm::vec3& position) const {
         const glm::dvec3 item =
-            glm::clamp((glm::dvec3(position) - low_) * steps_ + 0.5, glm::dvec3(0.0), most_);
+            glm::clamp((glm::dvec3(position) - low_) * steps_ + 0.5, glm::dvec3(0.0), max_step_);
         return {static_cast<std::uint16_t>(item.x), static_cast<std::uint16_t>(item.y),
                 static_cast<std::uint16_t>(item.z), 0};
     }
@@ -72,19 +72,19 @@ public:
 private:
     glm::dvec3 low_;
     double steps_; // in a unit of length
-    glm::dvec3 most_;
+    glm::dvec3 max_step_;
 };
 
 /// Quantises texture coordinates.
 class TextureSteps {
 public:
     explicit TextureSteps(const GltfTextureForm& form)
-        : low_(form.low), most_(form.bits == 0 ? 0.0F : max_value(form.bits)),
-          steps_(most_ / form.extent), unit_(form.transform ? 1.0F : 65535.0F / most_),
+        : low_(form.low), max_step_(form.bits == 0 ? 0.0F : max_value(form.bits)),
+          steps_(max_step_ / form.extent), unit_(form.transform ? 1.0F : 65535.0F / max_step_),
           is_scaled_(!form.transform) {}
 
     [[nodiscard]] Item<std::uint16_t, 2> operator()(const glm::vec2& coordinates) const {
-        if (most_ == 0.0F) {
+        if (max_step_ == 0.0F) {
             return {0, 0};
         }
         const glm::vec2 steps = (coordinates - low_) * steps_;
@@ -93,13 +93,13 @@ public:
 
 private:
     [[nodiscard]] std::uint16_t item(float steps) const {
-        const std::uint16_t whole = rounded(steps, most_);
+        const std::uint16_t whole = rounded(steps, max_step_);
         // Without a transform the steps are scaled to 16 bits, so that the highest one reads as 1.
         return is_scaled_ ? rounded(static_cast<float>(whole) * unit_, 65535.0F) : whole;
     }
 
     glm::vec2 low_;
-    float most_; // the highest step; 0: no texture is read
+    float max_step_; // the highest step; 0: no texture is read
     glm::vec2 steps_;
     float unit_; // 16-bit value of a step
     bool is_scaled_;
@@ -120,8 +120,8 @@ void write_colours(const Mesh& mesh,
     });
 }
 
-/// Selects the versions of the codecs that EXT_meshopt_compression has. meshoptimizer keeps them in
-/// global variables, so they are set once.
+/// Selects the codec versions of EXT_meshopt_compression, once, because meshoptimizer stores them in
+/// global variables.
 void set_versions() {
     static const bool set = [] {
         meshopt_encodeVertexVersion(0);
@@ -173,11 +173,11 @@ texture_form_of(ExportCompression compression, const glm::vec2& low, const glm::
         return form;
     }
     const glm::vec2 extent = high - low;
-    const float most = std::max(extent.x, extent.y);
-    while (form.bits < kMaxTextureBits && most > kMaxTextureStep * max_value(form.bits)) {
+    const float max_extent = std::max(extent.x, extent.y);
+    while (form.bits < kMaxTextureBits && max_extent > kMaxTextureStep * max_value(form.bits)) {
         ++form.bits;
     }
-    form.quantized = most <= kMaxCoarseTextureStep * max_value(form.bits);
+    form.quantized = max_extent <= kMaxCoarseTextureStep * max_value(form.bits);
     if (!form.quantized) {
         return form;
     }
@@ -203,9 +203,9 @@ GltfForm form_of(ExportCompression compression, const Bounds& bounds) {
         return form;
     }
     const glm::vec3 extent = bounds.high - bounds.low;
-    const float most = std::max({extent.x, extent.y, extent.z});
+    const float max_extent = std::max({extent.x, extent.y, extent.z});
     form.low = bounds.low;
-    form.step = most > 0.0F ? most / max_value(position_bits(compression)) : 1.0F;
+    form.step = max_extent > 0.0F ? max_extent / max_value(position_bits(compression)) : 1.0F;
     if (compression == ExportCompression::Meshopt) {
         // The power of two at or below the step of positions: its multiples are floats with few
         // bits, which compress well.

@@ -48,15 +48,15 @@ struct GltfTextureForm {
     glm::vec2 low{0.0F};                           // coordinates whose item is 0
     glm::vec2 extent{1.0F};
 };
-/// The form of quantised coordinates from `low` to `high`: floats where 16 bits are too few. Those
-/// within 0 to 1 need no transform, but with one they compress better.
+/// The form of quantised coordinates from `low` to `high`: floats if 16 bits are too few. Coordinates
+/// within 0 to 1 need no transform, but compress better with a transform.
 [[nodiscard]] GltfTextureForm
 texture_form_of(ExportCompression compression, const glm::vec2& low, const glm::vec2& high);
 
 /// The form of the arrays of vertices.
 struct GltfForm {
     ExportCompression compression = ExportCompression::None;
-    /// Positions are `low + step * item`; step 0: items are positions, also in quantised files.
+    /// Positions are `low + step * item`; step 0: items are float positions, even in quantised files.
     glm::vec3 low{0.0F};
     float step = 0.0F;
     /// TEXCOORD_1 is a multiple of this; 0: not rounded.
@@ -64,7 +64,7 @@ struct GltfForm {
     GltfTextureForm texture;
 
     [[nodiscard]] bool quantized() const { return compression != ExportCompression::None; }
-    /// Turns the items of positions into positions.
+    /// The transform from quantised items to positions.
     [[nodiscard]] glm::mat4 decoding() const;
 };
 /// The form for positions within `bounds`, without `texture`.
@@ -91,15 +91,14 @@ struct GltfItem {
 [[nodiscard]] std::array<std::uint8_t, 4> colour_item(const glm::vec3& colour);
 
 using GltfBytes = std::function<void(std::span<const std::byte>)>;
-/// Write an item for each vertex: positions, normals, texture coordinates, tangents, and colours of
-/// the palette. Normals and tangents that are not of unit length, which glTF does not allow, are
-/// replaced on the way.
+/// Writes an item for each vertex: positions, normals, texture coordinates, tangents, or colours of
+/// the palette. glTF requires normals and tangents of unit length, so others are replaced.
 void write_items(const Mesh& mesh,
                  std::span<const std::uint32_t> vertices,
                  GltfArray array,
                  const GltfForm& form,
                  const GltfBytes& write);
-/// As write_items(), of GltfArray::WindPivots or WindMotions.
+/// Like write_items(), for GltfArray::WindPivots or WindMotions.
 void write_wind_items(const Mesh& mesh,
                       std::span<const std::uint32_t> vertices,
                       GltfArray array,
@@ -123,7 +122,7 @@ void write_each(std::span<const std::uint32_t> vertices,
 }
 
 using GltfBuffer = LargeVector<std::byte>;
-/// Writes a stream of `bytes` into memory: calls write(put) with the GltfBytes that does so.
+/// Collects a stream of `bytes` bytes in memory: calls write(put), where `put` appends bytes.
 template <typename Write>
 GltfBuffer written_items(std::uint64_t bytes, const Write& write) {
     GltfBuffer items;

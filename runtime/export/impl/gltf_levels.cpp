@@ -163,7 +163,7 @@ private:
                                              view["byteLength"].get<std::size_t>());
     }
 
-    /// The number of a view of another file, whose bytes are appended when it is first asked for.
+    /// The new number of a view of another file; the first call for a view appends its bytes.
     std::size_t view_number(const Json& views, const std::string& data, const Json& old) {
         const auto [found, is_new] =
             views_.emplace(old.get<std::size_t>(), count_of("bufferViews"));
@@ -202,7 +202,7 @@ private:
         return numbers;
     }
 
-    /// As add_missing(); a material that looks different from one of its name gets a new name.
+    /// Like add_missing(); a material that differs from an earlier one of the same name is renamed.
     template <typename Adapt>
     std::vector<std::size_t> add_materials(Json items, std::size_t level, const Adapt& adapt) {
         Json& there = file_.document["materials"];
@@ -277,7 +277,7 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
             return written;
         }
         ids.push_back(joined.add(parse_glb(bytes), i + 1));
-        // Each level is shown down to the coverage at which the next one begins; the last one is
+        // Each level is shown down to the coverage at which the next level begins; the last level is
         // always shown.
         coverages.push_back(coarser[i].coverage);
     }

@@ -1,5 +1,5 @@
-// Levels of detail of a plant in one glTF file: the extension MSFT_lod. Each level is written as a
-// file of its own by the writer of one mesh, and the files are joined.
+// Levels of detail of a plant in one glTF file: the extension MSFT_lod. The writer of single meshes
+// writes each level as a file in memory, and the files are joined.
 #pragma once
 
 #include "grammar/base/outcome.h"

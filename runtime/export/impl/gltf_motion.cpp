@@ -19,14 +19,15 @@ struct Influence {
     std::array<std::uint8_t, 4> weights{};
 };
 
-/// Weights add up to 255. glTF wants joint 0 where the weight is 0, and no joint twice.
+/// Weights add up to 255. glTF requires joint 0 where the weight is 0, and no joint twice.
 Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     const std::uint16_t first = skin.joint_of(segments[0]);
     const std::uint16_t second = skin.joint_of(segments[1]);
     return first == second ? Influence{{first}, {255}} : Influence{{first, second}, {128, 127}};
 }
 
-/// Weights as bytes that add up to 255: each rounded down, the rest to those that lost most.
+/// Weights as bytes that add up to 255: rounded down, and the rest added to the weights that lost
+/// most by rounding.
 Influence influence_of(const BoneWeights& weights) {
     Influence influence;
     std::array<float, 4> lost{};
@@ -39,9 +40,9 @@ Influence influence_of(const BoneWeights& weights) {
         left -= whole;
     }
     for (; left > 0; --left) {
-        const auto most = std::max_element(lost.begin(), lost.end());
-        ++influence.weights[static_cast<std::size_t>(most - lost.begin())];
-        *most -= 1.0F;
+        const auto largest_loss = std::max_element(lost.begin(), lost.end());
+        ++influence.weights[static_cast<std::size_t>(largest_loss - lost.begin())];
+        *largest_loss -= 1.0F;
     }
     for (std::size_t i = 0; i < lost.size(); ++i) {
         influence.joints[i] = influence.weights[i] > 0 ? weights.joints[i] : std::uint16_t{0};
@@ -183,7 +184,7 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write) {
 
 namespace {
 
-/// Nodes of Bones: each joint is a child of the one that its piece grows from.
+/// Nodes of Bones: each joint is a child of the joint of the piece from which its piece grows.
 void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
     std::vector<std::vector<std::size_t>> children(bones.joints.size());
     for (std::size_t i = 1; i < bones.joints.size(); ++i) {

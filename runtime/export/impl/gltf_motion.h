@@ -1,5 +1,5 @@
 // The part of a glTF file that makes its mesh move: a skin, its joints as nodes, and an animation
-// that turns and shifts each of them (glTF 2.0, sections 3.7.3 and 3.11).
+// that rotates and translates each joint (glTF 2.0, sections 3.7.3 and 3.11).
 #pragma once
 
 #include "runtime/export/impl/bones.h"
@@ -33,7 +33,8 @@ struct GltfMotion {
     [[nodiscard]] std::uint64_t rotation_count() const;
 };
 
-/// Write the arrays, in the order of GltfArray, of some vertices of the mesh or of all joints.
+// The functions below write the arrays of some vertices of the mesh or of all joints, in the order
+// of GltfArray.
 void write_vertex_joints(const Mesh& mesh,
                          std::span<const std::uint32_t> vertices,
                          const GltfMotion& motion,
@@ -42,7 +43,7 @@ void write_vertex_weights(const Mesh& mesh,
                           std::span<const std::uint32_t> vertices,
                           const GltfMotion& motion,
                           const GltfBytes& write);
-/// `decode`, which turns items of positions into positions, is the first matrix, that of joint 0.
+/// `decode`, the transform from items to positions, is the matrix of joint 0, the first matrix.
 void write_inverse_binds(const GltfMotion& motion, const glm::mat4& decode, const GltfBytes& write);
 void write_times(const GltfMotion& motion, const GltfBytes& write);
 /// Joint by joint, frame by frame within a joint.

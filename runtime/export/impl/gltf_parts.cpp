@@ -37,7 +37,7 @@ void put_position_bounds(JsonWriter& json, const GltfForm& form, const Bounds& b
         json.member("min", {low[0], low[1], low[2]}).member("max", {high[0], high[1], high[2]});
         return;
     }
-    // Digits of doubles: readers parse the shortest text of a float as another double.
+    // Written as doubles: the shortest text of a float reads back as a different double.
     const glm::dvec3 low(bounds.low);
     const glm::dvec3 high(bounds.high);
     json.member("min", {low.x, low.y, low.z}).member("max", {high.x, high.y, high.z});

@@ -48,36 +48,36 @@ void put_packed_view(JsonWriter& json, const GltfPackedView& view);
 /// Appearance of a material in a file.
 struct GltfMaterial {
     std::string name;
-    glm::vec3 colour{1.0F}; // in place of the material's
+    glm::vec3 colour{1.0F}; // replaces the colour of the material
     std::optional<GltfTextureTransform> transform;
 };
 void put_material(JsonWriter& json,
                   const Material& material,
                   const MaterialPictures& shown,
                   const GltfMaterial& look);
-/// Samplers, textures and images. The images lie in buffer views from `first_view` on; without it
-/// beside the file, with the names of the pictures.
+/// Samplers, textures and images. The images are in buffer views from `first_view` on; without
+/// `first_view` they are files beside the glTF, with the names of the pictures.
 void put_images(JsonWriter& json,
                 const std::vector<Picture>& list,
                 std::optional<std::size_t> first_view);
 
-/// Takes the next bytes of a buffer; returns false to stop.
+/// Receives the next bytes of a buffer; returns false to stop.
 using GltfSink = std::function<bool(std::span<const std::byte>)>;
 /// The contents of a file.
 struct GltfFile {
     bool binary = false; // GLB
-    /// Writes the members of the document but `buffers`. Called twice for GLB, which begins with
+    /// Writes the members of the document except `buffers`. Called twice for GLB, which begins with
     /// the size of its document.
     std::function<void(JsonWriter&)> put_members;
     std::uint64_t data_bytes = 0; // of the buffer: a multiple of 4, at most kMaxGltfBytes
     std::function<void(const GltfSink&)> put_data;
-    /// Name of the file that holds the buffer; empty: this file does.
+    /// Name of the file that holds the buffer; empty: this file holds it.
     std::string data_name = {};
     /// Size of buffer 1, the fallback buffer of EXT_meshopt_compression: it holds the decoded items
     /// and is not stored. 0: there is none.
     std::uint64_t decoded_bytes = 0;
 };
-/// Returns false where a GLB would be too large; nothing is written then.
+/// Returns false, without writing anything, if a GLB would be too large.
 [[nodiscard]] bool put_gltf_file(const GltfFile& file, PieceWriter& out);
 
 } // namespace lsys

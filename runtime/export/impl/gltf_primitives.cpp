@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kUnused = ~std::uint32_t{0};
 
-/// Whether two materials are the same but for name, red, green and blue.
+/// Whether two materials differ at most in name, red, green and blue.
 bool differ_in_colour_only(const Material& a, const Material& b) {
     return a.kind == b.kind && a.colour.a == b.colour.a && a.two_sided == b.two_sided &&
            a.cut_out == b.cut_out && a.textured == b.textured && a.picture == b.picture &&
@@ -27,16 +27,17 @@ bool is_in_range(const glm::vec4& colour) {
     return colour == glm::clamp(colour, 0.0F, 1.0F);
 }
 
-/// Gives the primitive the max of its materials' colours in each channel, so that these are
-/// fractions of it, 0 to 1.
+/// Gives the primitive the max of the colours of its materials in each channel, so that the colours
+/// of the materials are fractions, 0 to 1, of the colour of the primitive.
 void merge_colours(const Mesh& mesh, GltfPrimitive& primitive) {
-    glm::vec3 most(0.0F);
+    glm::vec3 max_colour(0.0F);
     for (const GltfPart& part : primitive.parts) {
-        most = glm::max(most, glm::vec3(mesh.materials[mesh.parts[part.part].material].colour));
+        max_colour =
+            glm::max(max_colour, glm::vec3(mesh.materials[mesh.parts[part.part].material].colour));
     }
     primitive.colours = GltfColours::Material;
     for (int channel = 0; channel < 3; ++channel) {
-        primitive.colour[channel] = most[channel] > 0.0F ? most[channel] : 1.0F;
+        primitive.colour[channel] = max_colour[channel] > 0.0F ? max_colour[channel] : 1.0F;
     }
 }
 
@@ -92,7 +93,7 @@ group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count
     return list;
 }
 
-/// Whether an edge of one triangle is one of the other in the other direction.
+/// Whether the triangles share an edge, in opposite directions.
 bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
     const auto has = [b](std::uint32_t from, std::uint32_t to) {
         return (b[0] == from && b[1] == to) || (b[1] == from && b[2] == to) ||
@@ -190,14 +191,14 @@ void order_triangles(std::span<std::uint32_t> triangles) {
     std::uint32_t* const corners = triangles.data();
     const std::size_t count = triangles.size() / 3;
     std::size_t ordered = 0; // triangles that have their places
-    // The triangles from there on, in an order in which each shares an edge with the one before.
+    // The next triangles, in an order in which each shares an edge with the previous one.
     std::vector<std::uint32_t> run;
     std::vector<std::uint32_t> moved; // corners of the run
     const auto meet = [corners](std::size_t a, std::size_t b) {
         return share_edge(corners + 3 * a, corners + 3 * b);
     };
     const auto end_run = [&] {
-        // The last triangle may have been the first of a quad: looks at the one before, too.
+        // The last triangle may have been the first of a quad, so the triangle before it counts too.
         const auto meets_last = [&](std::uint32_t triangle) {
             const std::size_t back = std::min<std::size_t>(ordered, 2);
             for (std::size_t i = 1; i <= back; ++i) {

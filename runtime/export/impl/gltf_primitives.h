@@ -1,7 +1,7 @@
-// GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has arrays of
-// its own: bounds and attributes are those it needs, and its indices are as short as its vertices
-// allow. Vertices are in the order in which the triangles use them first, which is the order that
-// caches of GPUs and EXT_meshopt_compression favour. Made from a Mesh; read by gltf_streams.
+// GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has arrays of its
+// own with its bounds, the attributes it needs, and indices of the smallest type possible. Vertices
+// are in the order in which triangles first use them, which suits the vertex caches of GPUs and
+// EXT_meshopt_compression. Made from a Mesh; read by gltf_streams.
 #pragma once
 
 #include "runtime/export/impl/pictures.h"
@@ -22,15 +22,15 @@ struct GltfPart {
     std::uint32_t part = 0;         // in Mesh::parts
     std::uint64_t first_vertex = 0; // in GltfPrimitives::vertices
     std::uint64_t vertex_count = 0;
-    /// Indices that count from the first vertex of the part; empty: those of the mesh.
+    /// Indices that count from the first vertex of the part; empty: the indices of the mesh.
     LargeVector<std::uint32_t> indices = {};
 };
 
 /// Source of the colours of vertices.
 enum class GltfColours : std::uint8_t {
     None,     // the material has the colour
-    Palette,  // Mesh::colours, instead of the material's
-    Material, // materials of the parts, divided by GltfPrimitive::colour
+    Palette,  // Mesh::colours, instead of the colour of the material
+    Material, // colours of the materials of the parts, divided by GltfPrimitive::colour
 };
 
 /// Parts that are drawn with one material.
@@ -57,8 +57,8 @@ struct GltfPrimitives {
     [[nodiscard]] Bounds bounds() const; // of all vertices
 };
 
-/// Min number of materials that are merged into one with colours at the vertices. Colours take 4
-/// bytes a vertex, and a few materials are easier to change by hand.
+/// Min number of materials that are merged into one material with vertex colours. Colours take 4
+/// bytes per vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
 /// Attributes of the vertices of a file besides position and normal.
@@ -75,13 +75,12 @@ struct GltfVertexUse {
 [[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
                                                   const std::optional<GltfVertexUse>& compressed,
                                                   const MeshFilm* film = nullptr);
-/// Orders triangles so that most share an edge with the one before; EXT_meshopt_compression encodes
-/// such a triangle in one byte. The two triangles of a quad are swapped where the first one then
-/// shares an edge with the triangle before, and every other ring of a tube runs backwards. Time is
-/// linear.
+/// Orders triangles so that most share an edge with the previous triangle; EXT_meshopt_compression
+/// encodes such a triangle in one byte. The triangles of a quad are swapped if the second one shares
+/// an edge with the previous triangle, and every other ring of a tube is reversed. Time is linear.
 void order_triangles(std::span<std::uint32_t> triangles);
 
-/// The material of a primitive: all its properties but the colour.
+/// The material of a primitive: all its properties except the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
 
 /// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles

@@ -136,8 +136,8 @@ public:
         };
         add(GltfArray::Positions);
         add(GltfArray::Normals);
-        // Quantised files are for display: coordinates without a texture are left out, or 0 before
-        // those of wind data, because sets of coordinates are numbered from 0 on.
+        // Quantised files are for display: coordinates without a texture are left out or, if wind data
+        // follow, written as 0, because sets of coordinates are numbered from 0 on.
         const bool shown = textured || relief;
         if (is_complete(mesh, mesh.texture_coordinates) &&
             (shown || plant_.wind != nullptr || !form.quantized())) {

@@ -1,7 +1,7 @@
-// GltfStreams: the arrays of a plant in the buffer of a glTF file, as numbers of full size,
-// quantised (KHR_mesh_quantization) or compressed as well (EXT_meshopt_compression). A stream is
-// one buffer view, and one accessor where it belongs to a primitive. Made by plan_gltf_streams();
-// read by write_glb() and write_gltf(), which describe the streams and write the buffer.
+// GltfStreams: the arrays of a plant in the buffer of a glTF file: as floats and integers of full
+// size, quantised (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A
+// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_streams(); read by
+// write_glb() and write_gltf(), which describe the streams and write the buffer.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -25,7 +25,7 @@ struct GltfPlant {
     const Mesh& mesh;
     const GltfMotion* motion = nullptr; // null: no skin
     const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
-    const MeshFilm* film = nullptr;     // null: no film; else `mesh` is that of the film
+    const MeshFilm* film = nullptr;     // null: no film; else `mesh` is the mesh of the film
 };
 
 struct GltfStream {
@@ -46,8 +46,8 @@ struct GltfStream {
 
 struct GltfStreams {
     GltfPrimitives primitives;
-    std::vector<GltfForm> forms; // of primitives; all but the texture coordinates are the same
-    /// Streams of primitives, by GltfArray within each; then those of the motion and the images.
+    std::vector<GltfForm> forms; // of primitives; they differ only in texture coordinates
+    /// Streams of primitives, by GltfArray within a primitive; then streams of the motion and images.
     std::vector<GltfStream> list;
     std::size_t first_motion = 0; // in `list`
     std::size_t first_image = 0;
@@ -64,7 +64,7 @@ struct GltfStreams {
 /// Writes the buffer, from its first byte to its last.
 void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
 
-/// The view of a stream, in buffer 0. That of a compressed stream is in buffer 1, which holds
+/// The view of a stream, in buffer 0. The view of a compressed stream is in buffer 1, which holds
 /// decoded items.
 void put_stream_view(JsonWriter& json, const GltfStream& stream);
 /// The accessor of the stream of a primitive in view `view`.

@@ -21,10 +21,10 @@ constexpr int kMaxDigits = 5; // enough for any half float
 
 std::uint16_t half_bits(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
-    if (bits < kSmallestNormal) { // exact but for the rounding to an integer
+    if (bits < kSmallestNormal) { // the rounding to an integer is the only rounding
         return static_cast<std::uint16_t>(std::nearbyint(value * kSubnormalsInOne));
     }
-    // Rounds 13 bits of the fraction away, half to even, and lowers the bias of the exponent from
+    // Rounds off 13 bits of the fraction, half to even, and changes the bias of the exponent from
     // 127 to 15.
     const std::uint32_t rounded = bits + 0xFFFU + (bits >> 13U & 1U);
     return static_cast<std::uint16_t>((rounded >> 13U) - (112U << 10U));

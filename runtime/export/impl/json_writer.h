@@ -1,5 +1,5 @@
-// JsonWriter: a JSON document (RFC 8259) as a stream, without white space. It sets commas and
-// closing brackets; open brackets are all it stores. Used by the writers of glTF and by the
+// JsonWriter: writes a JSON document (RFC 8259) as a stream, without white space. It adds commas and
+// closing brackets, and stores only the open brackets. Used by the writers of glTF and by the
 // statistics of forests.
 //
 //     JsonWriter json(out);
@@ -51,9 +51,9 @@ public:
         constexpr std::uint64_t kFirstUnsafe = std::uint64_t{1} << 53U;
         return std::cmp_less(number, kFirstUnsafe) ? put(number) : value(std::to_string(number));
     }
-    /// JSON as it stands.
+    /// Raw JSON, unchanged.
     JsonWriter& literal(std::string_view json);
-    /// A string whose characters `write` puts into the PieceWriter, unescaped.
+    /// A string whose characters `write` writes to the PieceWriter, unescaped.
     template <typename Write>
     JsonWriter& text(const Write& write) {
         literal("\"");
@@ -83,7 +83,7 @@ private:
         out_.used(fmt::format_to(at, FMT_COMPILE("{}"), number));
         return *this;
     }
-    /// Room for `bytes - 1` bytes of a value, behind its comma if it needs one.
+    /// Room for `bytes - 1` bytes of a value, after its comma if it needs one.
     [[nodiscard]] char* begin_value(std::size_t bytes) {
         char* at = out_.room(bytes);
         if (comma_) {
@@ -98,7 +98,7 @@ private:
     bool comma_ = false;  // before the next value
 };
 
-/// The document that `write` writes.
+/// The document that `write` creates.
 [[nodiscard]] std::string json_document(const std::function<void(JsonWriter&)>& write);
 
 } // namespace lsys

@@ -1,5 +1,5 @@
-// The distinct materials of several meshes, as a mesh with one vertex and a part for each material:
-// all that the writers of materials and find_pictures() read of a mesh.
+// The distinct materials of several meshes, as a mesh with one vertex and a part for each material.
+// The writers of materials and find_pictures() read nothing else of a mesh.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// Adds a part with the material, unless there is one. Returns the number of the material.
+/// Adds a part with the material unless a part has it already. Returns the number of the material.
 std::uint32_t add_material(Mesh& samples, const Material& material);
 /// Called after the last material. Makes names unique, and adds the vertex: with texture
 /// coordinates if `textured`, with a tangent if `tangents`.

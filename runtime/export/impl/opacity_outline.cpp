@@ -157,20 +157,20 @@ float distance_to(const glm::vec2& point, const glm::vec2& a, const glm::vec2& b
     return glm::length(point - (a + at * along));
 }
 
-/// The closed line with fewer points; none of those left out is farther from it than `tolerance`
-/// (Douglas and Peucker, "Algorithms for the reduction of the number of points required to
-/// represent a digitized line", 1973).
+/// Simplifies a closed line so that no removed point is farther than `tolerance` from the new line
+/// (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent
+/// a digitized line", 1973).
 std::vector<glm::vec2> simplified(const std::vector<glm::vec2>& loop, float tolerance) {
     const std::size_t count = loop.size();
     const auto farthest = [&](std::size_t from, std::size_t to) {
-        std::pair<float, std::size_t> most{0.0F, from};
+        std::pair<float, std::size_t> best{0.0F, from};
         for (std::size_t i = from + 1; i < to; ++i) {
             const float distance = distance_to(loop[i], loop[from], loop[to % count]);
-            most = distance > most.first ? std::pair{distance, i} : most;
+            best = distance > best.first ? std::pair{distance, i} : best;
         }
-        return most;
+        return best;
     };
-    // The closed line is cut at the first point and at the one farthest from it.
+    // The closed line is cut at the first point and at the point farthest from the first.
     std::vector<bool> kept(count, false);
     const std::size_t middle = farthest(0, count).second;
     kept[0] = true;

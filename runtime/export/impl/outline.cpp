@@ -96,7 +96,7 @@ bool contains(const Card& card, const UserMesh& mesh, const Triangle& corners, f
     });
 }
 
-/// The cards that a mesh consists of; none if it has other parts.
+/// The cards of a mesh; none if the mesh has parts that are not cards.
 std::vector<Card> find_cards(const UserMesh& mesh) {
     constexpr std::size_t kMaxCards = 64;
     constexpr float kTolerance = 1e-3F; // of the size of the mesh
@@ -195,7 +195,7 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
             outlines.back().loops = picture_outline(mesh);
         }
     }
-    // The calyx, the last part of a flower, is drawn first: petals hide it.
+    // The calyx, the last part of a flower, is drawn first, so that petals cover it.
     std::rotate(outlines.begin(), outlines.end() - (outlines.size() > 1 ? 1 : 0), outlines.end());
     return outlines;
 }

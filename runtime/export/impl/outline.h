@@ -13,16 +13,17 @@
 namespace lsys {
 
 struct Outline {
-    /// Extreme points of the part: seen from any side, their hull is about the hull of the part. In
-    /// the coordinates of the object: size 1, at the origin, along +Y.
+    /// Extreme points of the part: from every direction their hull is nearly the hull of the part.
+    /// In the coordinates of the object: size 1, at the origin, along +Y.
     std::vector<glm::vec3> corners;
-    /// In place of the hull, if not empty: closed lines, inside by the even-odd rule.
+    /// Closed lines, filled by the even-odd rule, that replace the hull; empty: the hull is drawn.
     std::vector<std::vector<glm::vec3>> loops;
     glm::vec3 colour{1.0F}; // linear
 };
 
 /// Outlines of the parts of an object, back to front. Depend on kind, mesh file and colour. Empty
-/// for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour of it.
+/// for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour of the
+/// picture.
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const Looks* looks);

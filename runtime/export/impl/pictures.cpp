@@ -20,7 +20,7 @@ bool shows_texture(const Material& material) {
     return material.textured && (material.picture != nullptr || has_texture(material.kind));
 }
 
-/// Whether the material has a normal map: of a file, or of the bark texture.
+/// Whether the material has a normal map, from a file or of the bark texture.
 bool shows_relief(const Material& material) {
     return material.relief != nullptr ||
            (shows_texture(material) && material.kind == MaterialKind::Bark);
@@ -97,7 +97,7 @@ Texture paint(const Picture& picture) {
 std::string encode_picture(const Picture& picture) {
     const bool is_unchanged = picture.file != nullptr && picture.kind != PictureKind::Opacity &&
                               picture.tint == glm::vec3(1.0F);
-    if (is_unchanged) { // without a copy: the file may be large
+    if (is_unchanged) { // avoids a copy, since the file may be large
         return encode_png(*picture.file);
     }
     return encode_png(paint(picture));

@@ -25,7 +25,7 @@ struct Picture {
     PictureKind kind = PictureKind::Colour;
     MaterialKind material = MaterialKind::Bark;
     glm::vec3 tint{1.0F};                // linear
-    std::shared_ptr<const Texture> file; // in place of the texture of the material's kind
+    std::shared_ptr<const Texture> file; // replaces the texture of the material's kind; null: none
     std::string name;                    // of the file, or of the image in the document
 };
 
@@ -45,7 +45,7 @@ struct Pictures {
 /// ExportInfo::textures, and for pictures in files if ExportInfo::picture_prefix is empty.
 [[nodiscard]] Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& info);
 
-/// The value with six decimals, which its text as a double then has too.
+/// The value rounded to six decimals, so that its text as a double has at most six decimals.
 [[nodiscard]] inline double six_decimals(float value) {
     return std::round(static_cast<double>(value) * 1e6) / 1e6;
 }

@@ -1,6 +1,6 @@
-// PieceWriter: a buffer before a sink. Small writes are collected into pieces of kPieceBytes; large
-// arrays go to the sink in such pieces uncopied. Once the sink has returned false, bytes are
-// discarded.
+// PieceWriter: buffers the output of a sink. Small writes are collected into pieces of kPieceBytes;
+// large arrays go to the sink in pieces of this size without a copy. After the sink has returned
+// false, bytes are discarded.
 #pragma once
 
 #include "runtime/export/export.h"

@@ -57,7 +57,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
-    // `int` where it suffices: some readers do not know `uint`.
+    // `int` if it suffices, because some readers do not support `uint`.
     const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
     out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
                         "comment {}, {}\nelement vertex {}\n"

@@ -1,7 +1,7 @@
 // Skin: the joints that move a mesh by the poses of its segments (linear blend skinning:
 // Magnenat-Thalmann, Laperriere and Thalmann, "Joint-dependent local deformations", Graphics
-// Interface 1988; glTF 2.0, section 3.7.3.3). Joints are not nested: each is placed in the world,
-// so that depth costs nothing and rounding does not add up along a branch.
+// Interface 1988; glTF 2.0, section 3.7.3.3). Joints are not nested but placed in world coordinates,
+// so that depth costs nothing and rounding errors do not add up along a branch.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -26,14 +26,14 @@ struct Skin {
     }
 };
 
-/// A segment shares the joint of its parent if that moves it to its place in all frames, within
-/// 1e-5 of the size of the plant and 1e-4 radians. Joints without vertices are left out. Returns
-/// nothing if there are more than kMaxJoints.
+/// A segment shares the joint of its parent if this joint moves the segment to its place in all
+/// frames, within 1e-5 of the size of the plant and 1e-4 radians. Joints without vertices are left
+/// out. Returns nothing if there are more than kMaxJoints.
 [[nodiscard]] std::optional<Skin>
 make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& animation);
 
-/// Rotations of a segment in all frames, of unit length. Consecutive ones have a positive dot
-/// product, so that interpolation goes the shorter way.
+/// Rotations of a segment in all frames, of unit length. Consecutive rotations have a positive dot
+/// product, so that interpolation takes the shorter rotation.
 void joint_rotations(const PlantAnimation& animation,
                      std::uint32_t segment,
                      std::vector<glm::quat>& rotations);

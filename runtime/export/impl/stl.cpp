@@ -22,7 +22,7 @@ constexpr std::size_t kTriangleBytes = 4 * sizeof(glm::vec3) + 2;
 
 Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
     const Mesh& mesh = job.mesh;
-    // Not `solid`: readers take files that begin with it for text.
+    // The header must not begin with `solid`, by which readers recognise text files.
     std::string header =
         fmt::format("STL in {}, {}. {}: {}", unit_text(job.info.unit), axis_text(job.info.up),
                     one_line(job.info.generator), origin_line(job.info));

@@ -44,8 +44,8 @@ private:
     std::string bytes_;
 };
 
-/// Version, flags, method, time, date, checksum, sizes and length of the name, which both headers
-/// of an entry have.
+/// The fields common to both headers of an entry: version, flags, method, time, date, checksum, sizes
+/// and length of the name.
 void put_facts(Record& record, const std::string& name, const EntrySize& size) {
     constexpr std::uint16_t kStored = 0;
     record.u16(kVersion).u16(kUtf8Names).u16(kStored).u16(0).u16(kFirstDate);
@@ -61,10 +61,10 @@ std::uint64_t padding_of(std::uint64_t place) {
 } // namespace
 
 void EntrySize::add(std::string_view piece) {
-    constexpr std::size_t kMost = std::size_t{1} << 30; // zlib takes sizes as `unsigned`
+    constexpr std::size_t kMaxZlibBytes = std::size_t{1} << 30; // zlib takes sizes as `unsigned`
     bytes += piece.size();
     while (!piece.empty()) {
-        const std::string_view part = piece.substr(0, kMost);
+        const std::string_view part = piece.substr(0, kMaxZlibBytes);
         checksum = static_cast<std::uint32_t>(crc32(
             checksum, reinterpret_cast<const Bytef*>(part.data()), static_cast<uInt>(part.size())));
         piece.remove_prefix(part.size());

@@ -1,6 +1,6 @@
 // StoredZip: a zip archive without compression, whose entries begin at multiples of 64 bytes
 // (PKWARE, "APPNOTE.TXT - .ZIP file format specification", 6.3.3; OpenUSD, "USDZ file format
-// specification"). No times: entries have the earliest date that the format can state.
+// specification"). Entries have no times but the earliest date that the format can state.
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"

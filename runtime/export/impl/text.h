@@ -23,8 +23,8 @@ inline char* put_number(char* at, float value) {
 inline char* put_number(char* at, std::uint64_t value) {
     return fmt::format_to(at, FMT_COMPILE("{}"), value);
 }
-/// Writes `value` rounded to `decimals` digits behind the point, 0 to 9, without zeros at the end;
-/// returns the end.
+/// Writes `value` rounded to `decimals` decimal places, 0 to 9, without trailing zeros; returns the
+/// end.
 char* put_rounded(char* at, float value, int decimals);
 inline char* put_text(char* at, std::string_view text) {
     return at + text.copy(at, text.size());
@@ -46,14 +46,14 @@ inline char* put_text(char* at, std::string_view text) {
 [[nodiscard]] std::string json_text(std::string_view text);
 /// Escaped for XML, between tags or in an attribute.
 [[nodiscard]] std::string xml_text(std::string_view text);
-/// A name of a file as a relative reference (RFC 3986): all but its unreserved characters are
+/// A file name as a relative reference (RFC 3986): all characters except unreserved ones are
 /// percent-encoded.
 [[nodiscard]] std::string uri_text(std::string_view name);
-/// A name of OBJ: one line, blanks become underscores; `_` for an empty one.
+/// A name for OBJ: one line, blanks become underscores, an empty name becomes `_`.
 [[nodiscard]] std::string obj_identifier(std::string_view text);
 /// A letter or underscore, then letters, digits and underscores: other bytes become underscores.
 [[nodiscard]] std::string identifier(std::string_view text);
-/// `name`, with the first suffix _2, _3 ... that makes it differ from all of `taken` if need be.
+/// `name`, or if `taken` contains it, `name` with the first suffix _2, _3 ... that makes it unique.
 [[nodiscard]] std::string unique_name(const std::vector<std::string>& taken,
                                       const std::string& name);
 

@@ -39,7 +39,7 @@ struct PartCursor {
 
 /// `motion` may be null.
 void put_header(const ExportInfo& info, const UsdaMotion* motion, PieceWriter& out) {
-    // For the characters that one_line() leaves, USDA has the escapes of JSON.
+    // USDA has the escapes of JSON for all characters that one_line() leaves.
     out.put(fmt::format("#usda 1.0\n"
                         "(\n"
                         "    defaultPrim = \"Plant\"\n"
@@ -77,9 +77,9 @@ void put_mesh(const Mesh& mesh,
         [&cursor](std::uint64_t i) { return cursor.index(i); });
 }
 
-/// Writes a plant with variants. The first mesh lies outside the variant set, for readers without
-/// variants; the variants of the other meshes make it inactive. Its own prim has no opinion on
-/// `active`, which would be stronger than theirs.
+/// Writes a plant with variants. The prim of the first mesh lies outside the variant set, for readers
+/// without variants; the variants of the other meshes make it inactive. The prim itself must not set
+/// `active`, because its opinion would be stronger than the opinions of the variants.
 void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
     put_header(job.info, nullptr, out);
     out.put(fmt::format("def Xform \"Plant\" (\n"
@@ -145,7 +145,8 @@ void put_layer(const ExportJob& job, const UsdaMotion* motion, PieceWriter& out)
     out.put("}\n");
 }
 
-/// Makes the skin of a plant that moves, and calls `write` with its motion or null.
+/// Makes the skin of an animated plant, and calls `write` with its motion; with null if it stands
+/// still.
 template <typename Write>
 Outcome<void> with_motion(const ExportJob& job, const Write& write) {
     const PlantAnimation* const poses = job.info.animation;

@@ -59,7 +59,7 @@ template <std::size_t kCount>
     return put_text(at, ")");
 }
 
-/// A tuple of numbers with `decimals` digits behind the point; without `decimals` exact ones.
+/// A tuple of numbers with `decimals` decimal places; exact numbers if `decimals` is empty.
 template <std::size_t kCount>
 [[nodiscard]] char*
 put_tuple(char* at, const std::array<float, kCount>& values, const std::optional<int>& decimals) {
@@ -73,19 +73,19 @@ put_tuple(char* at, const std::array<float, kCount>& values, const std::optional
     return put_text(at, ")");
 }
 
-/// Digits behind the point of the numbers of a mesh prim.
+/// Decimal places of the numbers of a mesh prim.
 struct UsdaDigits {
     int points = 9;
     int normals = 4;             // off by at most 0.005 degrees
     int texture_coordinates = 5; // 1/100 of a texel of 1024 in a row
 };
-/// Digits behind the point that state places of a surface to a 100,000th of `size`, its largest
-/// extent in m.
+/// Decimal places needed to write positions of a surface to 1/100,000 of `size`, its largest extent
+/// in m.
 [[nodiscard]] int place_digits(float size);
 
 /// A mesh prim.
 struct UsdaSurface {
-    const Mesh& mesh; // may have vertices that the prim has not
+    const Mesh& mesh; // may have vertices that the prim does not use
     std::string name;
     std::uint64_t vertices = 0;
     std::span<const MeshPart> parts;

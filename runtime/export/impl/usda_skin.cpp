@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kStillJoint = "plant";
 
-/// Writes `head [...]` in one line, as readers want samples of an animation; put(i) writes item i.
+/// Writes `head [...]` in one line, which readers need for samples of an animation; put(i) writes
+/// item i.
 template <typename Put>
 void put_items(PieceWriter& out, std::string_view head, std::size_t count, const Put& put) {
     out.put(head);
@@ -27,7 +28,7 @@ void put_items(PieceWriter& out, std::string_view head, std::size_t count, const
     out.put("]");
 }
 
-/// Paths of the joints. Joint 0 is the parent of all others, or with UsdaMotion::bones their
+/// Paths of the joints. Joint 0 is the parent of all other joints; with UsdaMotion::bones it is the
 /// ancestor.
 std::vector<std::string> joint_paths(const UsdaMotion& motion) {
     std::vector<std::string> paths{std::string(kStillJoint)};

@@ -1,5 +1,5 @@
-// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton with the joints of glTF,
-// placed in the world or nested, and an animation with a sample for each frame. Time codes are
+// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton with the same joints as in glTF,
+// in world coordinates or nested, and an animation with a sample for each frame. Time codes are
 // frames.
 #pragma once
 

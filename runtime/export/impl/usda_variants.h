@@ -1,5 +1,5 @@
-// The variants of a USD layer, of which readers show one (OpenUSD, "VariantSet"): meshes of levels
-// of detail, or of plants.
+// The variants of a USD layer (OpenUSD, "VariantSet"): meshes of levels of detail, or of plants.
+// Readers show one of them.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -20,11 +20,11 @@ struct UsdaVariants {
     std::vector<std::vector<std::uint32_t>> materials; // of the parts of each mesh, in `samples`
 };
 
-/// The variants of a file; none where there is no choice. They refer to `mesh` and `info`.
+/// The variants of a file; none if it has one mesh only. The result refers to `mesh` and `info`.
 [[nodiscard]] std::optional<UsdaVariants> find_usda_variants(const Mesh& mesh,
                                                              const ExportInfo& info);
 
-/// A name that USD takes for a variant: `0_25` for `0.25`.
+/// A valid name for a variant of USD: `0_25` for `0.25`.
 [[nodiscard]] std::string usda_variant_name(const std::string& text);
 
 } // namespace lsys

@@ -17,15 +17,15 @@ double phase_of(std::uint32_t bough) {
     return turns - std::floor(turns);
 }
 
-/// Whether `child` continues the trunk rather than `other`: it is thicker, else in fewer brackets,
-/// else drawn first.
+/// Whether `child` continues the trunk rather than `other`: compares thickness, then the number of
+/// brackets; with both equal, the child drawn first continues.
 bool continues(const Segment& child, const Segment& other) {
     return child.base_radius > other.base_radius ||
            (child.base_radius == other.base_radius && child.order < other.order);
 }
 
-/// The segments that the trunks of a plant go through: from each root always to the child that
-/// continues.
+/// Marks the segments of the trunks of a plant: from each root, follows the child that continues the
+/// trunk.
 std::vector<bool> trunks_of(const Skeleton& plant) {
     const auto count = static_cast<std::uint32_t>(plant.segments.size());
     std::vector<std::uint32_t> next(count, kNoSegment);
@@ -54,7 +54,7 @@ WindData::WindData(const Skeleton& plant) : plant_(&plant) {
     // and tip.
     std::vector<double> angles(count, 0.0);
     std::vector<std::array<double, 2>> bends(count);
-    double most = 0.0;
+    double max_bend = 0.0;
     std::uint32_t boughs = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Segment& segment = plant.segments[i];
@@ -80,11 +80,11 @@ WindData::WindData(const Skeleton& plant) : plant_(&plant) {
         }
         angles[i] = angle + (radius > 0.0 ? length / radius : 0.0);
         bends[i][1] = bends[i][0] + length * angles[i];
-        most = std::max(most, bends[i][1]);
+        max_bend = std::max(max_bend, bends[i][1]);
     }
-    for (std::uint32_t i = 0; i < count && most > 0.0; ++i) {
-        places_[i].bend = {static_cast<float>(bends[i][0] / most),
-                           static_cast<float>(bends[i][1] / most)};
+    for (std::uint32_t i = 0; i < count && max_bend > 0.0; ++i) {
+        places_[i].bend = {static_cast<float>(bends[i][0] / max_bend),
+                           static_cast<float>(bends[i][1] / max_bend)};
     }
 }
 

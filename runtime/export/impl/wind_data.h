@@ -1,17 +1,17 @@
-// WindData: numbers of vertices from which a shader moves a plant in wind without a skin. A bough
-// is a branch that leaves the trunk, with all that grows on it. The trunk goes on in the thickest
-// branch, among equally thick ones in the one in fewest brackets.
+// WindData: vertex attributes with which a shader moves a plant in wind without a skin. A bough is a
+// branch that leaves the trunk, with everything that grows on it. The trunk continues in the
+// thickest branch; among equally thick branches, in the one in fewest brackets.
 //
-//   TEXCOORD_1: height of the pivot in m, which is where the bough begins, and the distance in m of
-//               the vertex from it, along the branches; the pivot of the trunk is its base
-//   TEXCOORD_2: phase of the bough, 0 to 1, and stiffness, from 1 at the pivot to 0 at the place of
-//               the plant that bends most; 1 on the trunk, which a shader bends by height, and
-//               its boughs with it
+//   TEXCOORD_1: height in m of the pivot, the point where the bough begins, and distance in m from
+//               the pivot to the vertex, along the branches; the pivot of the trunk is its base
+//   TEXCOORD_2: phase of the bough, 0 to 1, and stiffness, from 1 at the pivot to 0 at the point of
+//               the plant that bends most; stiffness is 1 on the trunk, which a shader bends, with
+//               its boughs, by height
 //
-// Stiffness is 1 - b / max b, where b is the bending of a branch with the same stress everywhere,
-// as in plants whose width follows their load: each joint between pivot and vertex turns by length
-// / radius of its segment, and moves the vertex by that angle times the distance from joint to
-// vertex.
+// Stiffness is 1 - b / max b, where b is the bending of a branch with the same stress everywhere, as
+// in plants whose width follows their load: each joint between pivot and vertex turns by the angle
+// length / radius of its segment, and moves the vertex by this angle times the distance from joint
+// to vertex.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -35,8 +35,8 @@ class WindData {
 public:
     explicit WindData(const Skeleton& plant);
 
-    /// Values of a vertex at `position` that is bound to the segments `bound`; without segments
-    /// those of the root.
+    /// Values of a vertex at `position` that is bound to the segments `bound`; for kNoSegment the
+    /// values of the root.
     [[nodiscard]] WindVertex at(const VertexSegments& bound, const glm::vec3& position) const;
 
 private:

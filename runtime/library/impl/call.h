@@ -1,5 +1,5 @@
-// Call: a public function at work: the project of the caller as one of the pipeline, and the outcome
-// of the pipeline as one for the caller.
+// Call: runs one public function: converts the caller's project to a project of the pipeline, and the
+// outcome of the pipeline to a public outcome.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -26,8 +26,8 @@ public:
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
 
-    /// Makes an outcome for the caller. `work` returns one of the pipeline, and `make` a public
-    /// value of its value. Throws what a function of the host has thrown.
+    /// Makes a public outcome. `work` returns an outcome of the pipeline, and `make` converts its
+    /// value to a public value. Rethrows an exception that a function of the host has thrown.
     template <typename T, typename Work, typename Make>
     [[nodiscard]] Outcome<T> run(const Work& work, const Make& make) {
         const auto make_outcome = [&]() -> Outcome<T> {
@@ -48,7 +48,7 @@ public:
         });
     }
 
-    /// `write` as a sink of an export, which keeps what it throws.
+    /// A sink for an export that calls `write`, with exceptions handled by guarded().
     template <typename Write>
     [[nodiscard]] auto guarded_sink(Write write) {
         return [this, write = std::move(write)](std::string_view piece) {
@@ -61,7 +61,7 @@ private:
     [[nodiscard]] static Messages public_messages(::lsys::Messages messages);
     [[nodiscard]] static Status public_status(Stop stop);
 
-    /// Calls `function`; if it throws, keeps the exception, cancels the call and returns
+    /// Calls `function`; if it throws, stores the exception, cancels the call and returns
     /// `otherwise`.
     template <typename T, typename Function>
     [[nodiscard]] T guarded(const Function& function, T otherwise) {
@@ -80,7 +80,7 @@ private:
     }
 
     ::lsys::Project inner_;
-    std::optional<std::string> refusal_; // a code of Project::allow or deny that does not exist
+    std::optional<std::string> refusal_; // error for an unknown code in Project::allow or deny
     std::atomic<bool> own_cancelled_{false};
     std::atomic<bool>* cancelled_ = &own_cancelled_; // or Host::cancelled
     std::exception_ptr caught_;

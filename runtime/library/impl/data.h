@@ -1,4 +1,4 @@
-// The data behind Grammar, Word, Plant and Mesh of the public headers.
+// The data of the public Grammar, Word, Plant and Mesh.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -1,4 +1,4 @@
-// What the public Messages hold.
+// The data of the public Messages.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -1,11 +1,11 @@
 /* liblsys for C, and for languages that call C: L-systems compiled, derived, drawn and meshed.
  *
- *   - Values are handles. A call that makes one hands it over; free it with its lsys_..._free().
- *     Handles may be used from several threads at once, but freed once.
- *   - A call that may fail returns a status. `messages`, if not null, gets the messages of the call,
- *     also of a call that succeeds; free them with lsys_messages_free().
- *   - Texts are UTF-8 that ends with a zero byte. Texts and arrays that a handle returns belong to it
- *     and live as long as it does.
+ *   - Values are handles. The caller owns each handle that a call returns, and frees it once with
+  *     lsys_..._free(). Several threads may use a handle at once.
+  *   - A call that may fail returns a status. `messages`, if not null, receives the messages of the
+  *     call, even if it succeeds; free them with lsys_messages_free().
+  *   - Texts are UTF-8 and end with a zero byte. Texts and arrays that a handle returns belong to the
+  *     handle and are valid until it is freed.
  *   - Metres, kilograms, right-handed axes, +Y up. */
 #ifndef LSYS_H
 #define LSYS_H
@@ -46,25 +46,25 @@ typedef struct lsys_plant lsys_plant;
 typedef struct lsys_mesh lsys_mesh;
 typedef struct lsys_messages lsys_messages;
 
-/* What every call shares. Begin with LSYS_PROJECT_DEFAULTS. Functions are called from any thread,
- * but never from two at once, with `user` as their first argument. */
+/* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as their
+ * first argument; they are called from any thread, but never from two at once. */
 typedef struct lsys_project {
     uint32_t threads;     /* 0: as many as the machine has */
     uint64_t max_modules; /* of a word; 0: 2^32 */
     uint64_t max_bytes;   /* of a word, skeleton, mesh and file; 0: half of the memory */
-    /* Reads a file; null: the files of the system. Returns 0 and sets `bytes` and `size`, which
-     * stay valid until the next call of it or the end of the call; otherwise there is no file. */
+    /* Reads a file; null: files are read from disk. Returns 0 and sets `bytes` and `size`, which must
+     * stay valid until the next call of read_file or the end of the library call; not 0: no file. */
     int (*read_file)(void* user, const char* path, const char** bytes, size_t* size);
-    /* Returns 0 to go on, another number to end the call with LSYS_CANCELLED; may be null. */
+    /* Returns 0 to continue, another number to end the call with LSYS_CANCELLED; may be null. */
     int (*progress)(void* user, uint32_t generation, uint32_t generations, uint64_t modules);
     void* user;
 } lsys_project;
 #define LSYS_PROJECT_DEFAULTS                                                                      \
     { 0, 0, 0, NULL, NULL, NULL }
 
-/* The version of the library that is linked: "0.1.0". */
+/* The version of the linked library: "0.1.0". */
 LSYS_C_API const char* lsys_version(void);
-/* A status in words. */
+/* The text of a status. */
 LSYS_C_API const char* lsys_status_text(lsys_status status);
 
 /* --- messages --------------------------------------------------------------------------------- */
@@ -90,7 +90,7 @@ LSYS_C_API void lsys_messages_free(lsys_messages* messages); /* null is allowed 
 
 /* --- grammars --------------------------------------------------------------------------------- */
 
-/* A constant with its value, for `definitions`, and a setting with its values as in `#set`. */
+/* The value of a constant, and the values of a setting as in `#set`. */
 typedef struct lsys_definition {
     const char* name;
     float value;
@@ -100,15 +100,15 @@ typedef struct lsys_setting {
     const char* values;
 } lsys_setting;
 
-/* Begin with LSYS_GRAMMAR_DEFAULTS. */
+/* Initialise with LSYS_GRAMMAR_DEFAULTS. */
 typedef struct lsys_grammar_options {
-    const char* dialect; /* "lsys", "cpfg" ...; null: recognised */
-    const char* system;  /* of a file with several; null: the only one */
+    const char* dialect; /* "lsys", "cpfg" ...; null: detected */
+    const char* system;  /* name in a file with several systems; null: the only system */
     const lsys_definition* definitions;
     size_t definition_count;
     const lsys_setting* settings;
     size_t setting_count;
-    int32_t generations; /* instead of `#n`; negative: as the grammar says */
+    int32_t generations; /* replaces `#n`; negative: the value of the grammar */
 } lsys_grammar_options;
 #define LSYS_GRAMMAR_DEFAULTS                                                                      \
     { NULL, NULL, NULL, 0, NULL, 0, -1 }
@@ -119,7 +119,7 @@ LSYS_C_API lsys_status lsys_compile_file(const char* path,
                                          const lsys_project* project,
                                          lsys_grammar** grammar,
                                          lsys_messages** messages);
-/* `name`: as messages show the text; null: "grammar.lsys". */
+/* `name`: file name in messages; null: "grammar.lsys". */
 LSYS_C_API lsys_status lsys_compile_text(const char* text,
                                          size_t size,
                                          const char* name,
@@ -127,14 +127,14 @@ LSYS_C_API lsys_status lsys_compile_text(const char* text,
                                          const lsys_project* project,
                                          lsys_grammar** grammar,
                                          lsys_messages** messages);
-/* The number of `#n`; negative: none. */
+/* The value of `#n`; negative: none. */
 LSYS_C_API int64_t lsys_grammar_generations(const lsys_grammar* grammar);
 LSYS_C_API uint64_t lsys_grammar_seed(const lsys_grammar* grammar);
 LSYS_C_API void lsys_grammar_free(lsys_grammar* grammar); /* null is allowed */
 
 /* --- words ------------------------------------------------------------------------------------ */
 
-/* `generations` negative: as the grammar says; `seed` null: that of the grammar. */
+/* `generations` negative or `seed` null: the value of the grammar. */
 LSYS_C_API lsys_status lsys_derive(const lsys_grammar* grammar,
                                    int64_t generations,
                                    const uint64_t* seed,
@@ -149,8 +149,8 @@ LSYS_C_API uint32_t lsys_word_code_bytes(const lsys_word* word);
 LSYS_C_API const float* lsys_word_parameters(const lsys_word* word);
 LSYS_C_API uint64_t lsys_word_parameter_count(const lsys_word* word);
 
-/* What a code stands for. Its modules store `stored_parameters` parameters, or, if none, all have
- * the constant ones. */
+/* The meaning of a code. Each module of the code stores `stored_parameters` parameters; if this is 0,
+ * all have the parameters `constants`. */
 typedef struct lsys_module_kind {
     const char* name;
     uint32_t stored_parameters;
@@ -160,7 +160,7 @@ typedef struct lsys_module_kind {
 LSYS_C_API uint32_t lsys_word_kind_count(const lsys_word* word);
 /* Precondition: code < lsys_word_kind_count(). */
 LSYS_C_API lsys_module_kind lsys_word_kind(const lsys_word* word, uint32_t code);
-/* Hands the text of the word to `write` in pieces, until it returns another number than 0. Returns
+/* Calls `write` with the text of the word in pieces, until it returns a number other than 0. Returns
  * LSYS_OK or LSYS_CANCELLED. */
 LSYS_C_API lsys_status lsys_word_text(const lsys_word* word,
                                       int (*write)(void* user, const char* piece, size_t size),
@@ -197,7 +197,7 @@ LSYS_C_API const lsys_segment* lsys_plant_segments(const lsys_plant* plant);
 LSYS_C_API size_t lsys_plant_segment_count(const lsys_plant* plant);
 LSYS_C_API void lsys_plant_free(lsys_plant* plant); /* null is allowed */
 
-/* `sides` of cross-sections; 0: those of the grammar. */
+/* `sides`: of cross-sections; 0: the values of the grammar. */
 LSYS_C_API lsys_status lsys_make_mesh(const lsys_plant* plant,
                                       uint32_t sides,
                                       const lsys_project* project,
@@ -225,7 +225,7 @@ typedef struct lsys_mesh_part {
 LSYS_C_API size_t lsys_mesh_part_count(const lsys_mesh* mesh);
 /* Precondition: index < lsys_mesh_part_count(). */
 LSYS_C_API lsys_mesh_part lsys_mesh_get_part(const lsys_mesh* mesh, size_t index);
-/* Hands a file ("glb", "obj" ...) to `write` in pieces, until it returns another number than 0. */
+/* Calls `write` with a file ("glb", "obj" ...) in pieces, until it returns a number other than 0. */
 LSYS_C_API lsys_status lsys_export(const lsys_plant* plant,
                                    const lsys_mesh* mesh,
                                    const char* format,

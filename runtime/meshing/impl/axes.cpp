@@ -18,7 +18,7 @@ float straightness(const Segment& a, const Segment& b) {
     return glm::dot(direction(a.frame), direction(b.frame));
 }
 
-/// Makes the joined `child` continue its parent unless a better child does.
+/// Makes the joined `child` continue its parent unless an earlier child bends less.
 void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint32_t>& nexts) {
     const Segment& segment = skeleton.segments[child];
     const Segment& parent = skeleton.segments[segment.parent];

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kForked = kNoSegment - 1;
 struct Axes {
     /// Per segment: the segment that continues it, kForked, or kNoSegment.
     LargeVector<std::uint32_t> next;
-    std::vector<ItemColour> colours; // in use, rising
+    std::vector<ItemColour> colours; // in use, ascending
 };
 
 /// heading() of a unit quaternion in half the operations.
@@ -30,9 +30,9 @@ struct Axes {
 /// drawn backwards was reversed, so its tip is elsewhere.
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);
 
-/// Finds for each segment the child that continues it: the linked child of the same order; of
-/// several, the one that bends least; of equal ones, the first. The result does not depend on the
-/// number of workers.
+/// Finds for each segment the child that continues it: the linked child of the same order, with
+/// several children the one that bends least, and with equal bends the first. The result does not
+/// depend on the number of workers.
 [[nodiscard]] Axes find_axes(const Skeleton& skeleton, Workers& workers);
 
 /// Whether an axis begins with `segment`.

@@ -4,9 +4,9 @@
 
 namespace lsys {
 
-/// Removes joints that lie within `tolerance` radii, or `error` metres, of the edge that replaces
-/// them: where the axis is nearly straight and its radius nearly linear. Ends and changes of colour
-/// stay; changes of sides stay unless there is an `error`. `scratch`: memory to reuse.
+/// Simplifies an axis: removes joints within `tolerance` radii, or `error` metres, of the edge that
+/// replaces them, if the radius changes nearly linearly. Ends and changes of colour stay; changes
+/// of the number of sides stay if `error` is 0. `scratch`: memory to reuse.
 void leave_out_joints(LargeVector<Joint>& joints,
                       LargeVector<Joint>& scratch,
                       float tolerance,

@@ -20,7 +20,7 @@ constexpr float kResolution = 4e-6F;
 constexpr float kNoRadius = 1e-8F;
 // Min radius per side, as a fraction of the coordinates: keeps the corners of a ring apart.
 constexpr float kRadiusPerSide = 4e-7F;
-// Min radius of a ring as a fraction of its surroundings, so that its triangles have an area.
+// Min radius of a ring relative to its edges, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kMinRadius = 1e-36F;
 constexpr float kMaxRadius = 1e36F;
@@ -99,7 +99,7 @@ void AxisReader::start(std::uint32_t first_segment) {
     }
     joints_.clear();
     if (const std::size_t joints = segments + kExtraJoints; joints > joints_.capacity()) {
-        // Reserved at once: growing would take as much fresh memory again.
+        // Reserved at once: growing later would need as much new memory again.
         joints_.reserve(std::max(joints, 2 * joints_.capacity()));
     }
 }
@@ -126,7 +126,8 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            prefetch(skeleton_.segments[after]); // branches lie in between in memory
+            prefetch(
+                skeleton_.segments[after]); // segments of branches lie between the two in memory
         }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
@@ -321,7 +322,7 @@ float AxisReader::collar_length(const Segment& parent, float parent_radius) cons
     return parent_radius / sine + 1.5F * base.radius;
 }
 
-/// Adds the collar: a branch is wider where it leaves its parent, by a cone with a ring of its own.
+/// Adds the collar: a cone, with a ring of its own, by which a branch widens towards its parent.
 void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     Joint& base = joints_[0];
     const float reach = collar_length(parent, parent_radius);
@@ -330,7 +331,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
         return;
     }
     if (counts_ && !(options_.bark_noise > 0.0F)) {
-        // Sides of the longest collar, so that they do not change when the plant bends.
+        // The sides are those of the longest collar, so that they stay the same when the plant bends.
         const float longest = parent_radius / kMinSine + 1.5F * base.radius;
         const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
         flare_ = {base.radius + kCollarSlope * longest,
@@ -345,8 +346,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     joints_.insert(joints_.begin() + 1, collar);
 }
 
-/// Cuts edges into pieces about as long as the tube is thick, so that there are rings for noise to
-/// move.
+/// Cuts edges into pieces about as long as the tube is thick, to get rings that noise can move.
 void AxisReader::subdivide() {
     spare_.clear();
     for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {

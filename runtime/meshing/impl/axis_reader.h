@@ -1,5 +1,5 @@
-// AxisReader: the joints of one axis, ready for rings. Joints and edges that cannot be drawn are
-// left out here, so that later steps need not check for them.
+// AxisReader: reads the joints of one axis, ready for rings. It leaves out joints and edges that
+// cannot be drawn, so that later steps need no checks.
 #pragma once
 
 #include "runtime/meshing/impl/axes.h"
@@ -36,7 +36,7 @@ enum class TubeEnd : std::uint8_t {
 /// At least two joints without a gap between them.
 struct Run {
     std::span<const Joint> joints;
-    /// Radii of the joints before they were widened for fewer sides; empty if no joint was.
+    /// Radii of the joints before they were widened for fewer sides; empty if no joint was widened.
     std::span<const float> radii;
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
@@ -64,7 +64,7 @@ public:
     void start(std::uint32_t first_segment);
     /// Reads the next run of the axis, valid until the next call; false after the last one.
     [[nodiscard]] bool next(Run& run);
-    /// Moves out the joints of the last run and their radii; spans of them stay valid.
+    /// Moves the joints of the last run and their radii out; the spans of the run stay valid.
     void take(LargeVector<Joint>& joints, LargeVector<float>& radii) {
         joints = std::exchange(joints_, {});
         radii = std::exchange(radii_, {});
@@ -98,7 +98,7 @@ private:
     LargeVector<float> radii_;
     LargeVector<Joint> joints_;
     LargeVector<Joint> spare_;
-    std::uint32_t segment_ = kNoSegment; // the next one to read
+    std::uint32_t segment_ = kNoSegment; // the next segment to read
     bool attached_ = false;              // no segment of the axis was left out so far
     bool rings_final_ = true; // the rings of all joints are final: set_rings() is not needed
     bool stale_ = false;      // heading and length of the last joint are outdated

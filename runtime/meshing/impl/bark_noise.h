@@ -15,7 +15,7 @@ struct NoiseSample {
 
 class BarkNoise {
 public:
-    /// `circumference` of the tube, greater than 0; `seed` tells tubes apart.
+    /// `circumference` of the tube, greater than 0; `seed` differs from tube to tube.
     BarkNoise(float circumference, std::uint32_t seed);
 
     /// Noise at `turn` (0 to 1) around the axis and `arc` along it.

@@ -23,18 +23,18 @@ constexpr float kStraight = 0.5F;
 constexpr float kFacing = 0.35F;
 // Min length of a child as a multiple of its way out of the joint.
 constexpr float kOutside = 1.25F;
-// Min size of the opening of a child, relative to its cross-section: smoothing hides a branch that
-// narrows in its opening; an unsmoothed box does not narrow.
+// Min size of the opening of a child, relative to its cross-section. Smoothing hides that a branch
+// narrows in its opening; unsmoothed boxes must not narrow.
 constexpr float kSmoothedOpening = 0.4F;
 constexpr float kExactOpening = 0.98F;
-// A flat end that is smoothed: inner square of its face, and distance of the last ring before it,
-// in half sides.
+// Flat ends of smoothed meshes: size of the inner square of the face, and distance of the last ring
+// from the face, in half sides.
 constexpr float kRim = 0.72F;
 constexpr float kBevel = 0.28F;
 // Min half side with a rim, relative to the distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// Overlap at a tip whose branches have surfaces of their own, in half sides: the parent ends beyond
-// its tip, and branches begin before it, by less so that a thick one does not show on the far side.
+// Overlap, in half sides, at a tip whose branches have surfaces of their own. The parent ends beyond
+// its tip, and branches begin before the tip: by less, so that no thick branch shows on the far side.
 constexpr float kParentOverlap = 0.6F;
 constexpr float kBranchOverlap = 0.1F;
 // Min relative difference of widths at which an unsmoothed box has a step.
@@ -217,7 +217,7 @@ private:
         const float height = std::min(half, 0.5F * (own.length - reach));
         writer_.add_ring(own.length - height, along, half);
         const BoxJoint joint = writer_.add_joint(own.length + height, along, half);
-        // Children by angle to the parent, so that one that continues it gets the top.
+        // Children by angle to the parent, so that a child that continues the parent gets the top.
         const std::span<const std::uint32_t> all = children(segment);
         std::vector<std::uint32_t> order(all.begin(), all.end());
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -327,7 +327,8 @@ private:
         return true;
     }
 
-    /// Gives a child the side that it faces most among those with room; false if there is none.
+    /// Gives a child the side, among the sides with room, that its heading is nearest to; returns false
+    /// if no side has room.
     bool choose_side(const BoxJoint& joint,
                      const JointSize& size,
                      std::uint32_t child,
@@ -359,7 +360,7 @@ private:
     const Skeleton& skeleton_;
     const BoxShape& shape_;
     std::vector<bool> drawn_;
-    std::vector<bool> closed_; // no side of the parent's joint has room
+    std::vector<bool> closed_; // children for which no side of the parent's joint has room
     std::vector<std::uint32_t> first_child_;
     std::vector<std::uint32_t> children_;
     std::vector<std::uint32_t> socket_of_; // by segment: index in sockets_

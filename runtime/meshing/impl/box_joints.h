@@ -1,8 +1,8 @@
 // The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined at
 // the joints into one closed mesh per plant (docs/documents.md, S: the report on the .sys forest,
-// 2005). Children grow out of the sides of a box at the joint, each out of the side that it faces
-// most; a side with several children is divided. A child for which no side has room is a closed box
-// that begins within its parent.
+// 2005). Each child grows out of the side of the joint that its heading is nearest to; a side with
+// several children is divided into tiles. A child for which no side has room is a closed box that
+// begins within its parent.
 #pragma once
 
 #include "runtime/meshing/impl/catmull_clark.h"
@@ -12,8 +12,8 @@ namespace lsys {
 
 struct BoxShape {
     float width = 1.0F; // half side of a box for a radius of 1
-    /// The mesh is to be smoothed: flat ends get a rim that keeps them flat, and branches may
-    /// narrow in an opening. Else each box has the widths of its segment exactly.
+    /// Whether the mesh will be smoothed: flat ends then get a rim that keeps them flat, and branches
+    /// may narrow in an opening. Otherwise each box has exactly the widths of its segment.
     bool smoothed = true;
 };
 

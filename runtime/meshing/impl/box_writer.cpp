@@ -23,7 +23,7 @@ constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
 // socket.
 constexpr float kMinVisibleOffset = 0.01F;
 
-/// `v`, turned the shortest way that turns unit vector `from` into unit vector `to`.
+/// `v`, turned by the smallest rotation that takes the unit vector `from` to the unit vector `to`.
 glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3& to) {
     const glm::vec3 axis = glm::cross(from, to);
     const float cosine = glm::dot(from, to);
@@ -33,8 +33,8 @@ glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3
     return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1.0F + cosine));
 }
 
-/// Sets the axes of a socket: `normal`, and unit vectors across it, the first of which is as near
-/// to `right` as possible.
+/// Sets the axes of a socket: `normal`, a unit vector perpendicular to it and as near to `right` as
+/// possible, and their cross product.
 void set_axes(BoxSocket& socket, const glm::vec3& right, const glm::vec3& normal) {
     socket.normal = normal;
     socket.right = glm::normalize(right - glm::dot(right, normal) * normal);
@@ -67,7 +67,7 @@ void BoxWriter::begin_segment(const Segment& segment, std::uint32_t number, floa
     segment_ = &segment;
     number_ = number;
     distance_ = 0.0F;
-    // The picture covers half of the circumference, as high as it is wide.
+    // The picture is square and covers half of the circumference.
     v_per_length_ = 1.0F / (4.0F * half);
 }
 
@@ -170,7 +170,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     return opening;
 }
 
-/// Adds the faces between two rings. Each begins at a corner from which a fan covers it.
+/// Adds the faces between two rings. The first corner of each face is one from which a fan covers it.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;
@@ -321,7 +321,7 @@ std::span<const BoxSocket> BoxWriter::divide(const BoxSocket& side,
     for (const Tile& tile : tiles_) {
         BoxSocket& socket = sockets_[tile_order_[tile.first]];
         for (std::size_t i = 0; i < 4; ++i) {
-            // A corner of a neighbour on this edge lies in its middle, as tiles are cut in halves.
+            // Tiles are cut in halves, so a corner of a neighbour on this edge lies in its middle.
             const glm::vec2 middle =
                 0.5F * (corner_place(tile, i) + corner_place(tile, (i + 1) % 4));
             const auto found = std::find(tile_corners_.begin(), tile_corners_.end(), middle);

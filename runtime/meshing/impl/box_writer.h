@@ -33,10 +33,10 @@ struct BoxJoint {
     std::array<BoxSocket, 5> sides;
 };
 
-/// A ring in the side of a joint.
+/// The shape of a ring in the side of a joint.
 struct BoxOpening {
     float reach = 0.0F; // distance from the base of the segment to the farthest corner
-    float size = 1.0F;  // relative to the cross-section of the segment, 1 where there is room
+    float size = 1.0F;  // relative to the cross-section of the segment; 1 if there is room
     bool moved = false; // its middle is not on the axis of the segment
 };
 /// Part of a side of a joint, or of one of its tiles, that an opening may take.
@@ -44,7 +44,7 @@ inline constexpr float kRoomOfOpening = 0.94F;
 /// Part of a divided side that its tiles take.
 inline constexpr float kInnerPart = 0.85F;
 
-/// The socket's axes, turned the shortest way so that they are across the unit vector `direction`.
+/// The axes of the socket, turned by the smallest angle until perpendicular to `direction` (unit).
 [[nodiscard]] BoxSocket axes_across(const BoxSocket& socket, const glm::vec3& direction);
 
 class BoxWriter {

@@ -22,8 +22,8 @@ namespace lsys {
 
 namespace {
 
-// Half side of a box for a radius of 1. Subdivision leaves 0.65 of the half diagonal of a square
-// tube, which is then the radius; an unsmoothed box has the area of the circle.
+// Half side of a box for a radius of 1. The radius of a smoothed square tube is 0.65 of its half
+// diagonal; the cross-section of an unsmoothed box has the area of the circle.
 constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
 constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;
@@ -120,7 +120,7 @@ void write_vertex(const CatmullClark& surface,
     const glm::vec3 normal = unit_or(area, glm::vec3(0.0F, 1.0F, 0.0F));
     const glm::vec3 across = edge - glm::dot(edge, normal) * normal;
     tangent -= glm::dot(tangent, normal) * normal;
-    // No tangent where u turns back.
+    // There is no tangent where u changes direction.
     tangent *= glm::length(tangent) > 1e-3F * tangents ? 1.0F : 0.0F;
     const glm::vec3 any = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 fallback =
@@ -199,10 +199,10 @@ void write(const CatmullClark& surface,
     }
 }
 
-/// Moves vertices of grooves along the stems inwards, by up to `depth` times the radius. Around a
-/// stem u rises over one half and falls over the other, so the grooves of the halves mirror each
-/// other; they wander less where u turns. `steps`: steps of smoothing made so far. `wanted`: steps
-/// in all, which decide the number of grooves.
+/// Carves grooves along the stems: moves vertices inwards by up to `depth` times the radius. Around
+/// a stem u rises over one half and falls over the other, so the grooves of the halves mirror each
+/// other; they wander less where u changes direction. `steps`: smoothing steps made so far.
+/// `wanted`: total number of steps, which decides the number of grooves.
 void carve_grooves(CatmullClark& surface,
                    float depth,
                    std::uint32_t steps,
@@ -260,7 +260,7 @@ void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     const std::uint64_t vertices = flat ? counts.corners : counts.vertices;
     MeshBlock block;
     if (skeleton.segments.size() > kMaxSegments || counts.corners >= kMaxCorners) {
-        // Fails on purpose: so many vertices are beyond any limit.
+        // Fails on purpose: this number of vertices exceeds every limit.
         (void)builder.place_parts({}, ~std::uint64_t{0}, block);
         return;
     }

@@ -1,8 +1,8 @@
 // Catmull-Clark subdivision of closed meshes (Catmull & Clark 1978, "Recursively generated B-spline
 // surfaces on arbitrary topological meshes"), on half-edges whose children are known by their
 // number (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel Catmull-Clark
-// Subdivision"). Each element depends on its neighbours alone, so the result does not depend on
-// threads.
+// Subdivision"). Each element depends on its neighbours only, so the result does not depend on
+// the number of threads.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -35,7 +35,7 @@ struct MeshCounts {
     std::uint64_t faces = 0;
     std::uint64_t corners = 0;
 };
-/// Sizes of a closed mesh after `steps` steps; they stop growing above 2^40 corners.
+/// Sizes of a closed mesh after `steps` steps; counting stops above 2^40 corners.
 [[nodiscard]] MeshCounts refined_counts(const PolygonMesh& mesh, std::uint32_t steps);
 
 /// A closed mesh and its steps of subdivision.
@@ -84,10 +84,10 @@ private:
     PolygonMesh mesh_;
     Workers& workers_;
     bool closed_ = false;
-    bool quads_ = false;                   // all faces have four corners, in order of their number
-    LargeVector<std::uint32_t> faces_;     // of half-edges, unless they are quads
-    LargeVector<std::uint32_t> twins_;     // of half-edges
-    LargeVector<std::uint32_t> edges_;     // of half-edges
+    bool quads_ = false;                   // all faces have four corners, stored in order of faces
+    LargeVector<std::uint32_t> faces_;     // by half-edge; empty if all faces are quads
+    LargeVector<std::uint32_t> twins_;     // by half-edge
+    LargeVector<std::uint32_t> edges_;     // by half-edge
     LargeVector<std::uint32_t> edge_half_; // a half-edge of each edge
     LargeVector<std::uint32_t> vertex_half_; // a half-edge that begins at each vertex
 };

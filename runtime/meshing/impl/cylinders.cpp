@@ -79,7 +79,7 @@ public:
         const float length = segment.length;
         const float slope = cone.base_radius - cone.tip_radius;
         const glm::vec2 normal = glm::normalize(glm::vec2(length, slope));
-        // The picture goes once around, as high as it is wide.
+        // The picture is square and goes once around.
         const float v =
             -length / (std::numbers::pi_v<float> * (cone.base_radius + cone.tip_radius));
         const std::uint64_t low = vertex_;

@@ -35,7 +35,7 @@ constexpr Direction direction_in_octant(std::uint32_t turns, std::uint32_t parts
     return {static_cast<float>(cosine), static_cast<float>(sine)};
 }
 
-/// Symmetric to the bit: everything comes from the first octant.
+/// Symmetric to the last bit: all directions are computed from the first octant.
 constexpr Direction direction_of(std::uint32_t corner, std::uint32_t sides) {
     if (corner == sides) {
         return {1.0F, 0.0F};

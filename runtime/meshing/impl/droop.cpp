@@ -48,15 +48,15 @@ void Droop::bend(const ShapePart& part,
                  const glm::quat& frame,
                  float amount,
                  ShapePart& bent) const {
-    // Direction to the ground in the leaf's space, its part across the midrib, and the axis to turn
-    // about.
+    // The direction to the ground in the leaf's space, its component across the midrib, and the axis
+    // of the bending.
     const glm::vec3 down = glm::conjugate(frame) * glm::vec3(0.0F, -1.0F, 0.0F);
     glm::vec3 across(down.x, 0.0F, down.z);
     const float length = glm::length(across);
-    // A leaf that points straight up falls over its lower side.
+    // A leaf that points straight up bends towards its lower side.
     across = length > 1e-5F ? across / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 axis(across.z, 0.0F, -across.x);
-    // Sideways a blade is stiff, and would fold at its inner edge.
+    // A blade is stiff sideways: bent further, it would fold at its inner edge.
     const float max_turn = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
     const float turn = amount * std::min(std::atan2(length, down.y), max_turn);
 

@@ -15,9 +15,9 @@ class Droop {
 public:
     explicit Droop(const ShapePart& part);
 
-    /// Moves the part, in its own space, for a leaf of this frame; with an `amount` of 1 the
-    /// tip points straight down, unless the leaf stands upright on its edge. `bent` takes
-    /// positions, normals and tangents.
+    /// Bends `part`, in its own space, for a leaf of this frame, and writes positions, normals and
+    /// tangents to `bent`. With an `amount` of 1 the tip points straight down, unless the leaf stands
+    /// upright on its edge.
     void bend(const ShapePart& part, const glm::quat& frame, float amount, ShapePart& bent) const;
 
 private:

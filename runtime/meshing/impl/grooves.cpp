@@ -8,9 +8,9 @@ namespace lsys {
 namespace {
 
 constexpr float kWander = 0.4F;           // max wandering of the phase, in grooves
-constexpr float kWanderCircumference = 6; // the phase wanders this many times slower than noise
+constexpr float kWanderCircumference = 6; // the phase changes this many times slower than noise
 
-/// Signed distance from the middle of the groove: 0 there, -1 and 1 on the ridges beside it.
+/// Signed distance from the middle of the groove: -1 and 1 on the ridges beside it.
 float from_middle(float x) {
     return 2.0F * (x - std::floor(x)) - 1.0F;
 }

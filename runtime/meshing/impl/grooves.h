@@ -10,22 +10,22 @@
 
 namespace lsys {
 
-/// Depth of the groove at phase x, in grooves: 0 on ridges, where x is whole, -1 in the middle
-/// between them.
+/// Depth of a groove at phase x, where 1 is one groove: 0 on ridges, at whole x, and -1 halfway
+/// between ridges.
 [[nodiscard]] float groove_depth(float x);
-/// Its derivative by x.
+/// The derivative of groove_depth() by x.
 [[nodiscard]] float groove_slope(float x);
 
 class Grooves {
 public:
-    /// `count` grooves around a tube of this circumference, greater than 0. At arc 0 a ridge begins
-    /// at turn 0, whatever the seed, which tells tubes apart.
+    /// `count` grooves around a tube of this circumference, greater than 0. `seed` differs from tube
+    /// to tube. For every seed a ridge begins at arc 0 and turn 0.
     Grooves(std::uint32_t count, float circumference, std::uint32_t seed);
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
     /// The value, -1 to 0, at `turn` (0 to 1) around the axis and `arc` along it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
-    /// Grooves by which the ridges at `arc` have wandered since arc 0: less than one.
+    /// Shift of the ridges at `arc` since arc 0, in grooves: less than one.
     [[nodiscard]] float wandered(double arc) const;
 
 private:

@@ -26,7 +26,7 @@ struct Groups {
 template <typename KeyOf>
 [[nodiscard]] Groups group_items(std::uint64_t count, const KeyOf& key_of) {
     std::map<std::uint64_t, std::uint64_t> places; // key to count, then to the next free place
-    // Equal keys come in runs, so the last place is remembered.
+    // Equal keys come in runs, so the last lookup is cached.
     std::uint64_t last_key = kNoGroup;
     std::uint64_t* place = nullptr;
     const auto find = [&](std::uint64_t key) -> std::uint64_t& {

@@ -28,7 +28,7 @@ constexpr int kMaxSide = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within these bounds
 constexpr int kOpaqueByte = 128;
 constexpr float kHalfRoot3 = 0.8660254F;
-constexpr float kNothing = -std::numeric_limits<float>::infinity(); // depth of empty samples
+constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth of empty samples
 
 struct Axes {
     glm::vec3 right;
@@ -138,7 +138,7 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     }
     std::vector<glm::vec2> corners;
     for (std::size_t k = 0; k <= count; ++k) {
-        // Where several trapezoids show nothing, they are as narrow as can be.
+        // Where several trapezoids show nothing, they are as narrow as possible.
         const Span before = k > 0 ? Span{corners[2 * k - 2].x, corners[2 * k - 1].x} : Span{};
         const float middle = 0.5F * (before.left + before.right);
         const Span own = ends[k].is_empty() ? Span{middle - 0.5F, middle + 0.5F} : ends[k];
@@ -148,9 +148,9 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     return corners;
 }
 
-/// The number of trapezoids of each card. They are `all` together and as equal as possible; if
-/// there are fewer than cards, the cards with most texels get one each. `areas`: texels that each
-/// card shows.
+/// The number of trapezoids of each card: `all` in total, distributed as evenly as possible; with
+/// fewer trapezoids than cards, the cards with most texels get one each. `areas`: opaque texels of
+/// each card.
 std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, std::size_t all) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -170,7 +170,7 @@ std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, st
 
 } // namespace
 
-/// The place in a triangle that a sample shows.
+/// The point of a triangle that a sample shows.
 struct ImpostorBaker::Fragment {
     std::uint64_t first_index = 0;
     std::uint32_t part = 0;
@@ -208,12 +208,12 @@ ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t trian
             view.right = axes.right;
             view.up = axes.up;
             view.towards = axes.towards;
-            take(mesh, slab, canvas, view);
+            render_slab(mesh, slab, canvas, view);
         }
     }
 }
 
-void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view) const {
+void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View& view) const {
     Bounds bounds;
     for (const glm::vec3& at : canvas.along) {
         bounds.add(at);
@@ -221,24 +221,24 @@ void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view)
     // A flat plant has cards of some width and depth too.
     const glm::vec3 size = bounds.high - bounds.low;
     const auto tile = static_cast<float>(tile_);
-    const float least = std::max({size.x, size.y, size.z, 1e-6F}) / tile;
+    const float min_size = std::max({size.x, size.y, size.z, 1e-6F}) / tile;
     const glm::vec3 middle = 0.5F * (bounds.low + bounds.high);
     const glm::vec3 half =
-        0.5F * glm::max(size, glm::vec3(least)) *
+        0.5F * glm::max(size, glm::vec3(min_size)) *
         glm::vec3(glm::vec2(tile / static_cast<float>(tile_ - 2 * margin_of(tile_))), 1.0F);
     view.low = middle - half;
     view.high = middle + half;
     const float thickness = 2.0F * half.z / static_cast<float>(slabs_);
     view.low.z += static_cast<float>(slab) * thickness;
     view.high.z = view.low.z + thickness;
-    // Whether depths from `low` to `high` reach into the slab. The first and the last slab also
-    // take what rounding puts outside.
+    // Whether depths from `low` to `high` reach into the slab. The first and the last slab include
+    // depths that rounding puts outside.
     const auto is_here = [&](float high, float low) {
         return (high >= 0.0F || slab == 0) && (low < 1.0F || slab + 1 == slabs_);
     };
 
     DepthBuffer& buffer = canvas.buffer;
-    std::fill(buffer.depths.begin(), buffer.depths.end(), kNothing);
+    std::fill(buffer.depths.begin(), buffer.depths.end(), kEmptyDepth);
     const auto side = static_cast<float>(buffer.width);
     const glm::vec3 scale =
         glm::vec3(side, side, 1.0F) / glm::vec3(2.0F * glm::vec2(half), thickness);
@@ -295,7 +295,7 @@ void ImpostorBaker::take(const Mesh& mesh, int slab, Canvas& canvas, View& view)
             const std::size_t x = texel % columns * samples + sample % samples;
             const std::size_t y = texel / columns * samples + sample / samples;
             const std::size_t pixel = y * width + x;
-            if (buffer.depths[pixel] == kNothing) {
+            if (buffer.depths[pixel] == kEmptyDepth) {
                 continue;
             }
             const Fragment& fragment = canvas.fragments[pixel];
@@ -349,14 +349,14 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             wanted += static_cast<double>(view.coverage[i]) * glm::dvec3(view.colours[i]);
         }
     }
-    // Texels with equal coverage are in the order of a hash, so that no region is preferred.
+    // Texels with equal coverage are ordered by a hash, so that no region is preferred.
     std::sort(order.begin(), order.end(), [&view](std::uint32_t a, std::uint32_t b) {
         return std::make_tuple(-view.coverage[a], lowbias32(a), a) <
                std::make_tuple(-view.coverage[b], lowbias32(b), b);
     });
     order.resize(
         std::min(order.size(), static_cast<std::size_t>(std::max(cover * area + 0.5, 0.0))));
-    const float least = order.empty() ? 1.0F : view.coverage[order.back()];
+    const float min_coverage = order.empty() ? 1.0F : view.coverage[order.back()];
     std::vector<std::uint8_t> opaque(texels(), 0);
     glm::dvec3 sum(0.0);
     for (const std::uint32_t i : order) {
@@ -385,9 +385,9 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             relief.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
-        // Half opaque at the least coverage of an opaque texel, so that mipmaps of a viewer cover
+        // Half opaque at the min coverage of an opaque texel, so that mipmaps of a viewer cover
         // as much.
-        const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / least);
+        const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / min_coverage);
         colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);
         relief.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);

@@ -1,9 +1,9 @@
 // Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. There are
-// three upright directions, 60 degrees apart, and one from above. Each has one card, or three that
-// show a third of the depth of the plant each. A card is a strip of trapezoids around its opaque
-// texels. All cards share one atlas. The colour picture has the opacity; the relief has the normals
-// in the frame of the card, and in its alpha the depth: 1 to 255 for the back to the front of the
-// part of the plant that the card shows, with the card in the middle.
+// three upright directions, 60 degrees apart, and one from above. Each direction has one card, or
+// three cards that each show a third of the depth of the plant. A card is a strip of trapezoids
+// around its opaque texels. All cards share one atlas. The colour picture has the opacity. The
+// relief has the normals in the frame of the card, and as alpha the depth: 1 at the back to 255 at
+// the front of the part of the plant that the card shows, with the card halfway between.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -23,16 +23,16 @@ inline constexpr std::uint64_t kTrianglesOfSlabs = 40;
 
 class ImpostorBaker {
 public:
-    /// Takes the pictures of `mesh`, which has texture coordinates. They are the same on every
-    /// machine. `pixels`: size on screen of the plant's largest extent where the impostor is first
-    /// shown. Pictures have about as many texels, so that viewers do not use mipmaps at once, in
+    /// Renders the pictures of `mesh`, which has texture coordinates. The pictures are the same on
+    /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor is
+    /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps, in
     /// which thin plants vanish. `triangles`: number of triangles of all cards, at least 2.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
-    /// Makes the cards. They have `triangles` triangles, one less if that is odd; a card that shows
-    /// nothing has none. `cover`: in each picture, area of opaque texels / area of the mesh. Thin
-    /// parts that cover less than a texel are opaque in as many texels as they cover on average.
-    /// The mean colour of each picture is that of the mesh, times `tint`; linear.
+    /// Makes the cards, which have `triangles` triangles together, or one less if `triangles` is
+    /// odd; an empty card has none. `cover`: area of opaque texels / area of the mesh, in each
+    /// picture. Thin parts that cover less than a texel are opaque in as many texels as they cover
+    /// on average. The mean linear colour of each picture is that of the mesh times `tint`.
     [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
 
 private:
@@ -41,19 +41,20 @@ private:
         glm::vec3 right{};
         glm::vec3 up{};
         glm::vec3 towards{};
-        glm::vec3 low{};  // of the card, along these axes; z: depth of the plant behind it
-        glm::vec3 high{}; // the same, z in front
+        glm::vec3
+            low{}; // bounds along right, up and towards; z: depth of the plant behind the card
+        glm::vec3 high{}; // z: depth of the plant in front of the card
         std::vector<float> coverage;
         std::vector<glm::vec3> colours; // linear
-        std::vector<glm::vec3> normals; // along these axes
+        std::vector<glm::vec3> normals; // components along right, up and towards
         std::vector<float> depths;      // 0 to 1
     };
 
     struct Fragment;
     struct Canvas;
-    /// Draws slab number `slab` of `slabs_`, counted from the back to the front, into `view`.
-    void take(const Mesh& mesh, int slab, Canvas& canvas, View& view) const;
-    /// Writes picture number `tile` to the atlas. Returns which texels are opaque.
+    /// Renders slab number `slab` of `slabs_`, counted from back to front, into `view`.
+    void render_slab(const Mesh& mesh, int slab, Canvas& canvas, View& view) const;
+    /// Writes picture number `tile` to the atlas. Returns 1 for each opaque texel, else 0.
     std::vector<std::uint8_t> paint(const View& view,
                                     std::size_t tile,
                                     double cover,

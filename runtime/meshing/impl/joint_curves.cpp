@@ -63,7 +63,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
         curve.leaving =
             derivative(before.heading, from.heading, from.heading, from.length, before.length);
     } else if (start) {
-        // The derivative behind an edge of the same length along `tangent`.
+        // The derivative after an edge of the same length along `tangent`.
         const glm::dvec3 tangent(start->tangent);
         curve.leaving = glm::dot(straight, tangent) * tangent;
     } else {
@@ -75,7 +75,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
     return curve;
 }
 
-/// Parameters of a curve, its ends included, between which it turns by equal angles.
+/// Parameters that divide a curve into parts that turn by equal angles; ends included.
 struct Places {
     std::array<double, kMaxCurveParts + 1> at{};
     std::size_t parts = 1;
@@ -130,8 +130,8 @@ struct Neighbours {
     std::optional<glm::vec3> after;
 };
 
-/// Whether all parts can be drawn and no ring crosses the next one. The answer holds if the
-/// neighbouring edges become curves and if they stay straight.
+/// Whether all parts can be drawn and no ring crosses the next one, both if the neighbouring edges
+/// become curves and if they stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
     // Normals of the planes of a ring: of the curve, and halfway between two headings.
     struct Planes {

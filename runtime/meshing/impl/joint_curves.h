@@ -14,7 +14,7 @@ inline constexpr std::size_t kMaxCurveParts = 16;
 struct CurveStart {
     glm::vec3 tangent{}; // unit, of the curve at the first joint
     float flare = 0.0F;  // radius at the first joint minus that of the branch; may be negative
-    float reach = 0.0F;  // length over which the flare fades
+    float reach = 0.0F;  // length over which the flare fades out
 };
 
 /// The unit tangent of a curve at a joint between edges of unit headings `in` and `out`: halfway
@@ -29,7 +29,7 @@ struct CurveStart {
 /// they are (Yuksel, Schaefer and Keyser 2011, "Parameterization and applications of Catmull-Rom
 /// curves": no edge has a cusp or a loop). Consecutive parts turn by about the same angle, at most
 /// 15 degrees. The radius is linear by arc length, plus the flare of `start`. An edge stays
-/// straight where its rings would cross, or where it does not bend. Returns whether any was
+/// straight if its rings would cross, or if it does not bend. Returns whether any edge was
 /// replaced.
 bool bend_edges(LargeVector<Joint>& joints,
                 LargeVector<Joint>& scratch,

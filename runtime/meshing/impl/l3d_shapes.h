@@ -1,6 +1,6 @@
-// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment a cylinder of its
-// own whose caps share the vertices of its rings, 2 * sides of them, and each leaf a flat outline
-// of 8 vertices.
+// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment is a cylinder with
+// 2 * sides vertices, which its caps share with its rings; each leaf is a flat outline of 8
+// vertices.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"

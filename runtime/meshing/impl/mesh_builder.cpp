@@ -126,7 +126,7 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
 
 /// Checks the limits and counts the bytes of triangles; sets stop_ and returns false if they do not
 /// fit.
-bool MeshBuilder::take(std::uint64_t vertices, std::uint64_t triangle_bytes) {
+bool MeshBuilder::claim(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     if (stop_) {
         return false;
     }
@@ -176,7 +176,7 @@ bool MeshBuilder::place_parts(std::vector<WholePart> parts,
     for (const WholePart& part : parts) {
         bytes += part.triangles.byte_count();
     }
-    if (!take(vertices, bytes)) {
+    if (!claim(vertices, bytes)) {
         return false;
     }
     for (WholePart& part : parts) {
@@ -200,7 +200,7 @@ bool MeshBuilder::reserve_parts(std::span<const PartSize> parts,
     for (const PartSize& size : parts) {
         count += size.index_count;
     }
-    if (!take(vertices, count * sizeof(std::uint32_t))) {
+    if (!claim(vertices, count * sizeof(std::uint32_t))) {
         return false;
     }
     for (const PartSize& size : parts) {
@@ -234,7 +234,7 @@ bool MeshBuilder::reserve(std::uint32_t part,
                           std::uint64_t indices,
                           MeshBlock& block) {
     LSYS_CHECK(part < parts_.size(), part, parts_.size());
-    if (!take(vertices, indices * sizeof(std::uint32_t))) {
+    if (!claim(vertices, indices * sizeof(std::uint32_t))) {
         return false;
     }
     block = {};

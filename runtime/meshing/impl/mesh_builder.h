@@ -40,7 +40,7 @@ struct FilePictures {
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
 [[nodiscard]] MaterialKey wood_material(ItemColour palette);
-/// `words`: what is drawn with it: "wood", "sphere"; they name a plain material.
+/// `words`: the items drawn with the material, for example "sphere"; the name of a plain material.
 [[nodiscard]] Material make_material(const MaterialKey& key,
                                      std::span<const std::string> words = {});
 
@@ -50,7 +50,7 @@ struct MeshVertex {
     glm::vec2 texture_coordinate{};
     glm::vec4 tangent{};
     ItemColour palette = 0;
-    std::uint32_t segment = kNoSegment; // that carries the vertex
+    std::uint32_t segment = kNoSegment; // the segment that carries the vertex
 };
 
 /// Room for new vertices and indices, to be filled completely. Arrays that the options leave out
@@ -95,17 +95,17 @@ public:
     /// Nothing until a limit is exceeded; else the Stop that make_mesh() returns.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
-    /// Segments of all vertices so far; empty if the options leave them out.
+    /// Segments of all vertices so far; empty unless MeshOptions::segments is set.
     [[nodiscard]] std::span<VertexSegments> segments() {
         return std::span(mesh_.segments).first(options_.segments ? vertices_ : 0);
     }
 
-    /// Only as the first call: adds parts by rising material, before all others, and room for their
-    /// vertices. WholePart::triangles count vertices from 0. Returns false, without effect, if they
-    /// do not fit.
+    /// Adds complete parts, by ascending material, and makes room for their vertices. Must be the
+    /// first call. WholePart::triangles count vertices from 0. Returns false, without effect, if the
+    /// parts do not fit.
     [[nodiscard]] bool
     place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
-    /// Does the same as place_parts(), and also makes room for the indices of each part.
+    /// Like place_parts(), but makes room for the indices of each part instead of taking triangles.
     [[nodiscard]] bool reserve_parts(std::span<const PartSize> parts,
                                      std::uint64_t vertices,
                                      MeshBlock& block,
@@ -129,7 +129,7 @@ private:
         std::vector<std::string> words = {}; // each once, in the order of drawing
     };
 
-    bool take(std::uint64_t vertices, std::uint64_t triangle_bytes);
+    bool claim(std::uint64_t vertices, std::uint64_t triangle_bytes);
     void grow_vertices(MeshBlock& block, std::uint64_t count);
 
     const MeshOptions& options_;

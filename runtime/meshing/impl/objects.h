@@ -14,8 +14,8 @@ namespace lsys {
 /// of the library: "leaf file" for "leaf.png", "maple file" for the second maple.
 [[nodiscard]] std::vector<std::string> object_file_names(const std::vector<std::string>& files);
 
-/// Appends every object at its place, turned by its frame and multiplied by its size; those of size
-/// 0 are left out. A palette index other than 0 replaces the colour of the shape, or of the petals
+/// Appends every object at its place, turned by its frame and scaled by its size; objects of size 0
+/// are left out. A palette index other than 0 replaces the colour of the shape, or of the petals
 /// of FLOWER. `user_meshes`: meshes of Skeleton::mesh_files. LEAF bends towards -Y of the world by
 /// MeshOptions::droop. The builder's status tells whether all fit.
 void append_objects(const Skeleton& skeleton,

@@ -22,7 +22,7 @@ float widening(std::uint32_t sides, std::uint32_t fewer) {
 
 SideCounts::SideCounts(float deviation) {
     for (std::uint32_t sides = kMinSides; sides <= kMaxSides; ++sides) {
-        // 1 - cos = sin^2 / (1 + cos), where nothing cancels.
+        // 1 - cos = sin^2 / (1 + cos), which avoids cancellation.
         const float half = half_side(sides);
         reach_[sides] = deviation * (1.0F + inner_radius(sides)) / (half * half);
         half_circumference_[sides] = static_cast<float>(sides) * half;

@@ -10,7 +10,7 @@ namespace lsys {
 
 /// Half a side of the regular polygon with corners on the unit circle: sin(pi / sides).
 [[nodiscard]] float half_side(std::uint32_t sides);
-/// Distance from the centre of that polygon to the middle of a side: cos(pi / sides).
+/// Distance from the centre of the same polygon to the middle of a side: cos(pi / sides).
 [[nodiscard]] float inner_radius(std::uint32_t sides);
 /// Factor that gives a polygon of `fewer` sides the circumference, and so the mean width, of one of
 /// `sides` sides: the mean width of a convex shape is its circumference / pi (Cauchy).
@@ -23,8 +23,8 @@ public:
     explicit SideCounts(float deviation);
 
     /// The smallest odd number for which radius * (1 - cos(pi / sides)) is at most the deviation,
-    /// and `max_sides` if that is less. Never falls as the radius rises. After widening() the
-    /// deviation is smaller: corners lie outside the circle, sides inside.
+    /// but at most `max_sides`. Monotonic in the radius. widening() makes the deviation smaller,
+    /// because corners then lie outside the circle and sides inside.
     [[nodiscard]] std::uint32_t at(float radius, std::uint32_t max_sides) const {
         std::uint32_t sides = kMinSides;
         while (sides < max_sides && !(radius <= reach_[sides])) {

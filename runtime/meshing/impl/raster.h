@@ -1,5 +1,5 @@
 // Rasteriser of triangles by pixel centres, for measuring and baking pictures of a mesh. It uses
-// only additions, multiplications and divisions, so that every machine draws the same.
+// only additions, multiplications and divisions, so pictures are the same on every machine.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -64,7 +64,7 @@ void raster_triangle(const std::array<glm::vec3, 3>& corners,
     const float b_along_x = (c.y - a.y) / area;
     const float b_along_y = (a.x - c.x) / area;
     const float c_along_x = -(a_along_x + b_along_x);
-    constexpr int kWide = 2; // pixels; narrower rows are tried as a whole
+    constexpr int kWide = 2; // pixels; in narrower rows every pixel is tested
     for (int y = begin_y; y <= end_y; ++y) {
         const float py = static_cast<float>(y) + 0.5F;
         const float a_of_row = a_along_y * (py - b.y);

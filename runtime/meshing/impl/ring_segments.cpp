@@ -35,7 +35,7 @@ double distance(const glm::vec3& point, const Segment& segment) {
     return glm::dot(rest, rest);
 }
 
-/// A run whose joints outlive the reader's.
+/// A run that owns its joints.
 struct OwnRun {
     Run run;
     std::vector<Joint> joints;
@@ -69,7 +69,7 @@ public:
             bool more = own.read(reader);
             while (more) {
                 more = next.read(reader);
-                // A run ends before the next one, or with the axis.
+                // A run ends before the next run, or at the end of the axis.
                 read_chain(own.run.first_segment, more ? next.run.first_segment : kNoSegment);
                 find_places(own.joints);
                 write_run(own);
@@ -163,7 +163,7 @@ private:
         vertex_ += count;
     }
 
-    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes these.
+    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes vertices.
     void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;

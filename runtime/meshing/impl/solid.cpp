@@ -123,7 +123,7 @@ public:
         }
     }
 
-    /// Whether a vertex is on the outside of a piece, not of a hollow in it.
+    /// Whether a vertex is on the outside of a piece, not on the surface of a cavity.
     [[nodiscard]] bool is_outside(std::uint32_t vertex) { return volume_[find(vertex)] > 0.0; }
     [[nodiscard]] std::uint64_t count() const {
         return static_cast<std::uint64_t>(

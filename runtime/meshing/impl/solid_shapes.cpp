@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// The place, along the axis of a cone, of its ball that is nearest to a point.
+/// The position along the axis of a cone of its ball nearest to a point.
 double nearest_ball(const SolidShape& cone, double along, double across) {
     if (cone.length == 0.0) {
         return 0.0;

@@ -21,12 +21,12 @@ struct SolidShape {
     double tip_radius = 0.0;
     bool is_triangle = false;
     ItemColour palette = 0;
-    std::uint32_t segment = kNoSegment; // that carries the shape
+    std::uint32_t segment = kNoSegment; // the segment that carries the shape
     // Members of a cone:
     glm::dvec3 axis{};       // unit length
     double length = 0.0;     // of the axis; 0: a ball
     double taper = 0.0;      // loss of radius per length
-    double foot = 0.0;       // distance from a point to its nearest ball along the axis, per radius
+    double foot = 0.0;       // distance along the axis from a point to its nearest ball, per radius
     double min_radius = 0.0; // radius at the thin end
     /// Members of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
     /// counter-clockwise.
@@ -40,9 +40,9 @@ struct SolidShape {
     bool is_flat = false; // it has no area
 };
 
-/// `distance`: from the surface of the shape, negative within; changes by at most 1 per metre.
-/// `radius`: of the shape there, or less where it tapers fast; changes by at most kMaxTaper per
-/// metre.
+/// Measures of a shape at a point. `distance`: from the surface, negative within; changes by at most
+/// 1 per metre. `radius`: of the shape near the point, or less where it tapers fast; changes by at
+/// most kMaxTaper per metre.
 struct ShapeProbe {
     double distance = 0.0;
     double radius = 0.0;

@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 glm::vec3 around(float radius, float y, float turns) {
-    // Quarters are exact, for exact extents.
+    // Quarter turns are exact, so that the extents of shapes are exact.
     const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(turns);
     const auto c = static_cast<float>(exact(std::cos(angle)));
@@ -61,7 +61,7 @@ void append_revolution(ShapePart& part,
         rows.push_back(static_cast<std::uint32_t>(part.positions.size()));
         const float v =
             1.0F - (point.y - profile.front().y) / (profile.back().y - profile.front().y);
-        // A pole has a vertex for each side, halfway; a circle has its seam twice.
+        // A pole has a vertex in the middle of each side; a circle repeats the vertex at the seam.
         const bool pole = point.radius == 0.0F;
         for (std::uint32_t i = 0; i < sides + (pole ? 0U : 1U); ++i) {
             const float u =

@@ -28,8 +28,8 @@ void append_cube(ShapePart& part);
 
 /// Sets normals of vertices from the triangles around them, weighted by area.
 void complete_normals(ShapePart& part);
-/// Sets tangents along rising u, orthogonal to the normals (Lengyel 2001); any tangent where the
-/// texture coordinates give none.
+/// Sets tangents along rising u, orthogonal to the normals (Lengyel 2001); any orthogonal vector
+/// where the texture coordinates define no tangent.
 void complete_tangents(ShapePart& part);
 
 } // namespace lsys

@@ -26,17 +26,17 @@ constexpr int kHalvings = 18;
 constexpr int kUnits = 1 << kHalvings; // along the root cube
 constexpr int kMaxGeneration = 3 * kHalvings;
 constexpr int kPieceGeneration = 6; // generation of tetrahedra that are cut in parallel
-/// Growth of the cells per metre from the surface. Neighbours divide their common edge alike if the
-/// wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206, the
-/// middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart, and that is
-/// less than 1.79 times its step.
+/// Growth of the cells per metre from the surface. Neighbours divide their common edge in the same
+/// way if the wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206;
+/// the middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart; its longest
+/// edge is less than 1.79 times its step.
 constexpr double kGrowth = 0.1;
 constexpr double kMaxGrowth = 0.16;
 /// Size of cells at the edge of the base, as a fraction of the size elsewhere: keeps the edge
 /// sharp.
 constexpr double kBaseCells = 0.25;
-/// Triangles between vertices on a curved surface lie within it. So the surface of cones is moved
-/// outwards by kChord cell^2 / radius, which keeps their volume.
+/// Triangles between vertices on a curved surface lie within the solid. Therefore the surface of
+/// cones is moved outwards by kChord * cell^2 / radius, which keeps their volume.
 constexpr double kChord = 0.031;
 /// Bound of the change of a distance per metre.
 constexpr double kSlope = 1.02;
@@ -44,7 +44,7 @@ constexpr double kSlope = 1.02;
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
 /// Min distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
 constexpr double kEdgeMargin = 0.02;
-/// Distance from the surface, per length of the edge, at which a vertex is on it.
+/// Max distance from the surface, per length of the edge, of a vertex that counts as on it.
 constexpr double kExact = 1e-6;
 
 struct Tetrahedron {
@@ -86,16 +86,16 @@ Grid make_grid(const Solid& solid) {
     constexpr double kRoom = 1.6;
     const glm::dvec3 extent = high - low;
     Grid grid;
-    const double least = kRoom * std::max({extent.x, extent.y, extent.z});
+    const double min_side = kRoom * std::max({extent.x, extent.y, extent.z});
     // Put the step of the thinnest shapes, which are the most frequent, halfway between two
     // generations.
     constexpr double kPhase = 0.9;
     grid.side = kPhase * solid.cell * thinnest;
-    while (grid.side < least) {
+    while (grid.side < min_side) {
         grid.side *= 2.0;
     }
-    const double smaller = grid.side * (grid.side * kSteps[2] >= least ? kSteps[2] : kSteps[1]);
-    grid.side = smaller >= least ? smaller : grid.side;
+    const double smaller = grid.side * (grid.side * kSteps[2] >= min_side ? kSteps[2] : kSteps[1]);
+    grid.side = smaller >= min_side ? smaller : grid.side;
     grid.origin = 0.5 * (low + high) - 0.49 * grid.side;
     grid.origin.y = solid.ground.value_or(low.y) - grid.side / 3.0;
     return grid;
@@ -273,8 +273,8 @@ private:
         const double next = grid_.step(tetrahedron.generation + 1);
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
-            // A shape matters for the size of cells only if its cells may be the smallest somewhere
-            // here: of many leaves, only the nearest.
+            // A shape matters for the size of cells only if its cells may be the smallest somewhere in
+            // this tetrahedron. Among many leaves, only the nearest ones matter.
             const bool may_be_nearest = at.distance <= at_middle.distance + 2.0 * kSlope * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
             if (may_be_nearest || (may_be_smallest && at.size - kMaxGrowth * reach < next)) {
@@ -287,9 +287,9 @@ private:
         near_.resize(last);
     }
 
-    /// The least distance and size of cells at a point, of the shapes near_[first, last). Sets
-    /// probes_ to the values of each shape, or to lower bounds of them if the shape is too far to
-    /// have the least.
+    /// The min distance and min size of cells at a point, over the shapes near_[first, last). Sets
+    /// probes_ to the values of each shape, or to lower bounds if the shape is too far away to have
+    /// the min.
     Size measure_all(std::size_t first, std::size_t last, const glm::dvec3& point) {
         constexpr double kFar = std::numeric_limits<double>::max();
         probes_.resize(last - first);
@@ -474,7 +474,8 @@ private:
     const Grid& grid_;
     std::atomic<std::uint64_t>& bytes_left_;
     bool overflow_ = false;
-    std::vector<std::uint32_t> near_; // numbers of shapes, those of an ancestor before its child's
+    std::vector<std::uint32_t>
+        near_; // numbers of shapes, stacked from an ancestor to its descendants
     std::vector<Size> probes_;
     std::vector<std::uint32_t> nearest_; // numbers of shapes that may be nearest on an edge
     static constexpr std::size_t kMaxMiddles = 1 << 20;

@@ -1,6 +1,6 @@
-// A surface from its distance function by marching tetrahedra. A cube is divided into tetrahedra,
-// which are bisected at their longest edges (Maubach 1995) until each is small relative to the
-// shapes near it.
+// Extracts a surface from a distance function by marching tetrahedra. A cube is divided into
+// tetrahedra, which are bisected at their longest edges (Maubach 1995) until each tetrahedron is
+// small relative to the shapes near it.
 #pragma once
 
 #include "runtime/meshing/impl/solid_shapes.h"
@@ -24,7 +24,7 @@ struct Solid {
 struct SolidVertex {
     glm::dvec3 position{};
     std::uint32_t shape = 0; // the nearest one
-    bool on_ground = false;  // of the flat base
+    bool on_ground = false;  // on the flat base
 };
 
 struct SolidSurface {
@@ -32,9 +32,9 @@ struct SolidSurface {
     std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
 };
 
-/// Each edge belongs to two triangles, in opposite directions, and no two triangles meet but at
-/// common vertices and edges: a triangle lies in one tetrahedron. Vertices lie on the surface,
-/// moved outwards so that cones have the volume of round ones. The result is the same for any
+/// Each edge belongs to two triangles, in opposite directions, and triangles meet only at common
+/// vertices and edges, because each lies in one tetrahedron. Vertices lie on the surface, moved
+/// outwards so that faceted cones have the volume of round ones. The result is the same for any
 /// number of threads. Returns nullopt if more than `max_bytes` are needed. Throws std::bad_alloc.
 /// Precondition: the shapes have finite corners and radii above 0.
 [[nodiscard]] std::optional<SolidSurface>

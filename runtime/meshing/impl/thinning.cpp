@@ -62,7 +62,7 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
                          .random = random_word(i, kPathBlock),
                          .number = static_cast<std::uint32_t>(paths.size())});
     }
-    // A path never carries more than its parent path; of equal paths the parent comes first.
+    // A path never carries more wood than its parent; with equal areas the parent comes first.
     std::sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) {
         return std::tie(b.area, a.order, a.random, a.number) <
                std::tie(a.area, b.order, b.random, b.number);
@@ -151,8 +151,8 @@ double polygon_area(std::span<const glm::vec3> corners) {
     return 0.5 * glm::length(sum);
 }
 
-/// The radius, at most `max`, to which thinner wood of `thin` is widened so that the outlines of
-/// all wood add up to `area`.
+/// The radius, at most `max`, to which thinner wood of `thin` is widened so that the sum of the
+/// outline areas of all wood is `area`.
 double widening_radius(const Skeleton& thin, double area, double max) {
     const auto area_at = [&](double radius) {
         double sum = 0.0;
@@ -174,9 +174,9 @@ double widening_radius(const Skeleton& thin, double area, double max) {
     return low;
 }
 
-/// Copies the wood that stays to `thin`, with the order of its path, so that a path becomes one
-/// tube. `places`: for each segment, its number in `thin` or that of the nearest ancestor that
-/// stays.
+/// Copies the wood that stays to `thin`. Segments get the order of their path, so that a path
+/// becomes one tube. `places`: for each segment, its number in `thin` or the number of the nearest
+/// ancestor that stays.
 void thin_wood(const Skeleton& skeleton,
                const ThinningOrder& order,
                const Thinning& thinning,
@@ -215,7 +215,7 @@ void thin_wood(const Skeleton& skeleton,
     }
 }
 
-/// Factors of size per group, with which the items that stay have the area of all items.
+/// Factors of size per group that give the items that stay the area of all items.
 std::vector<float> growth_of(const Skeleton& skeleton,
                              const ThinningOrder& order,
                              std::uint64_t kept,
@@ -241,7 +241,7 @@ std::vector<float> growth_of(const Skeleton& skeleton,
         total_area[group] += area;
         kept_area[group] += rank < kept ? coarse_area : 0.0;
     }
-    // Groups of which no item stays give their area to all other groups.
+    // The area of groups without remaining items is distributed to all other groups.
     const double sum_of_areas = std::accumulate(total_area.begin(), total_area.end(), 0.0);
     double represented = 0.0;
     for (std::size_t group = 0; group < total_area.size(); ++group) {

@@ -101,7 +101,7 @@ bool Triangulator::is_convex() const {
     bool was_right = false;
     bool known = false;
     std::uint32_t node = 0;
-    // The first edge comes twice, to compare it with the last one.
+    // The loop visits the first edge twice, to compare it with the last edge.
     for (std::uint32_t i = 0; i <= remaining_; ++i, node = nodes_[node].next) {
         if (turn(node) < 0.0) {
             return false;
@@ -154,8 +154,8 @@ void Triangulator::remove(std::uint32_t node) {
     --remaining_;
 }
 
-/// Whether a corner of the ring blocks `ear`: a reflex one that lies in its triangle. One that lies
-/// on a corner of the triangle blocks if an edge leads inside from there.
+/// Whether a corner of the ring blocks `ear`: a reflex corner within the triangle of the ear. A
+/// corner that coincides with a corner of the triangle blocks if one of its edges leads inside.
 bool Triangulator::is_blocked_by(std::uint32_t node, std::uint32_t ear) const {
     const Node& own = nodes_[ear];
     if (node == ear || node == own.previous || node == own.next) {
@@ -275,7 +275,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     while (remaining_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // A corner on a line with its neighbours, or on one of them, is not needed.
+            // A corner that is collinear with its neighbours, or coincides with one, is not needed.
             remove(node);
             node = nodes_[node].previous;
             corners_since_ear = 0;

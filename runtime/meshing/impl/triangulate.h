@@ -1,9 +1,9 @@
-// Triangles of a flat polygon, concave or not, by ear clipping with an index of corners in the
-// order of their interleaved bits, so that an ear is compared only with corners near to it (the
-// method of mapbox/earcut, after Held 2001, "FIST: Fast Industrial-Strength Triangulation of
-// Polygons", section 3.4). A convex polygon is a fan.
+// Triangulates a flat polygon, concave or not, by ear clipping. Corners are indexed in Morton order,
+// so that an ear is compared only with corners near to it (the method of mapbox/earcut, after Held
+// 2001, "FIST: Fast Industrial-Strength Triangulation of Polygons", section 3.4). A convex polygon
+// becomes a fan.
 //
-// A polygon that crosses itself gets triangles that are each valid but may overlap.
+// The triangles of a polygon that crosses itself are valid but may overlap.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,5 +1,5 @@
-// TubeTriangles: the triangles and the number of vertices of runs, before any vertex is made, in
-// the order of a TubeWriter.
+// TubeTriangles: computes the triangles and the number of vertices of runs before vertices are
+// written. Vertices are numbered in the order in which TubeWriter writes them.
 #pragma once
 
 #include "runtime/meshing/impl/axis_reader.h"

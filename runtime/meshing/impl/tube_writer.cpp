@@ -19,7 +19,8 @@ constexpr std::uint32_t kEdgesPerOrthogonalization =
     16;                               // edges after which a frame is made orthogonal again
 constexpr float kSpread = 0.2F;       // distance of the rings of a bend from its joint, in radii
 constexpr float kBluntHeight = 0.35F; // in radii
-// The ring between the end of a tube and the top of its half ball, in radii.
+// Radius of the ring between the end of a tube and the top of its half ball, and height of the
+// half ball, in radii of the tube.
 constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
 // Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
@@ -213,7 +214,7 @@ void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Pla
     }
 }
 
-/// A ring across an edge, as a circle.
+/// Sets a ring perpendicular to an edge: a circle.
 void TubeWriter::set_straight(const glm::vec3& edge, Ring& ring) const {
     ring.tangent = edge;
     ring.normal = at_.normal;
@@ -222,8 +223,8 @@ void TubeWriter::set_straight(const glm::vec3& edge, Ring& ring) const {
     ring.wide_binormal = ring.binormal;
 }
 
-/// A ring in the plane that halves the bend from one edge to the next, as an ellipse: both edges
-/// are as thick as the radius says.
+/// Sets a ring in the plane that halves the bend from one edge to the next: an ellipse, so that both
+/// tubes keep their radius.
 void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const {
     const glm::vec3& normal = at_.normal;
     const glm::vec3 binormal = glm::cross(in, normal);
@@ -242,8 +243,8 @@ void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& rin
     ring.wide_binormal = binormal - binormal_part * along;
 }
 
-/// Two or three rings around a joint, each bending by at most 60 degrees. They lie a little apart,
-/// so that no corners coincide where the axis of the bend meets them.
+/// Writes two or three rings around a joint, so that the tube bends by at most 60 degrees at each.
+/// The rings lie a little apart, so that no corners coincide on the axis of the bend.
 void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3& in = before.heading;
     const float cosine = glm::dot(in, joint.heading);
@@ -251,8 +252,8 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 across_in = glm::cross(axis, in);
     const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
-    // Turn of the first tangent from the edge before, and of the last one from the edge behind: a
-    // quarter of the bend, or with three rings about a sixth.
+    // Angle between the first tangent and the edge before, and between the last tangent and the edge
+    // after: a quarter of the bend, or with three rings about a sixth.
     const float share = joint.rings == 2 ? 1.0F : kOuterBisectorWeight;
     const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
     const float part_cosine = (1.0F + share * half_cosine) * whole;

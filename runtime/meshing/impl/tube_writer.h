@@ -1,5 +1,5 @@
-// TubeWriter: the vertices of rings for the runs of axes. The normal is carried from edge to edge
-// by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
+// TubeWriter: writes the vertices of the rings of runs. The normal is carried from edge to edge by
+// double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
 // ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. The normal
 // is perpendicular to the edge, so the first reflection, along the edge, does not change it; only
 // the second, in the plane that halves the bend, is computed. Lines between corners of neighbouring
@@ -17,7 +17,7 @@ namespace lsys {
 class BarkNoise;
 class Grooves;
 
-/// Vertices of a ring: one more than sides where texture coordinates begin and end.
+/// Vertices of a ring: one more than sides if there is a seam for texture coordinates.
 [[nodiscard]] inline std::uint32_t columns_of(std::uint32_t sides, const MeshOptions& options) {
     return sides + (options.texture_coordinates || options.tangents ? 1U : 0U);
 }
@@ -29,7 +29,7 @@ public:
 
     /// Progress within a run: a place between two joints, and the frame there.
     struct Place {
-        std::size_t joint = 0; // the next one
+        std::size_t joint = 0; // index of the next joint
         std::uint64_t vertex = 0;
         double arc = 0.0;
         double circumference = 0.0; // at the mean radius, where it is needed

@@ -35,8 +35,8 @@ struct KeptRun {
     TubeEnd end = TubeEnd::Blunt;
 };
 
-/// A run that several threads write, with joints of its own. Frames are carried from joint to
-/// joint, so each part waits for the place that the part before it has found.
+/// A run with joints of its own that several threads write in parts. Frames are carried from joint
+/// to joint, so each part waits until the part before it has computed its start.
 struct LongRun {
     std::size_t number = 0;      // in Piece::runs
     std::size_t first_joint = 0; // in Piece::joints, of the next run
@@ -44,7 +44,7 @@ struct LongRun {
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // among the vertices of the piece
     std::uint64_t end_vertex = 0;
-    std::vector<TubeWriter::Place> places; // where each part begins
+    std::vector<TubeWriter::Place> places; // the start of each part
     std::atomic<std::size_t> known{1};     // count of places found so far
 };
 
@@ -52,7 +52,7 @@ struct LongRun {
 struct Piece {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::uint64_t vertices = 0;          // their number, later the first one in the mesh
+    std::uint64_t vertices = 0;          // number of vertices, later the index of the first one
     std::vector<TriangleList> triangles; // of each colour
     LargeVector<KeptRun> runs;
     LargeVector<Joint> joints; // of all runs that are not long

@@ -1,4 +1,4 @@
-// Tubes along axes, joints shared: MeshMethod::Tubes.
+// Tubes along axes with shared rings at joints: MeshMethod::Tubes.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"

@@ -19,7 +19,8 @@ namespace {
 constexpr int kTrialSize = 96;
 constexpr int kMinSize = 80;
 constexpr int kMaxSize = 256;
-constexpr double kTargetPixels = 2500.0; // mean pixels per view that the plant should cover
+constexpr double kTargetPixels =
+    2500.0; // wanted mean number of pixels that the plant covers per view
 constexpr std::size_t kTrialViews = 4;
 constexpr float kCosine15 = 0.9659258F; // of 15 degrees
 constexpr float kSine15 = 0.2588190F;
@@ -188,9 +189,9 @@ private:
     std::vector<std::uint32_t> cells_; // cell() of each place
 };
 
-/// Offset of the plant in pixels, 0 to 1, which differs from view to view: else a trunk in the
-/// middle would lie between the same pixel centres in all views. R2 sequence (Roberts, "The
-/// unreasonable effectiveness of quasirandom sequences", 2018).
+/// Offset of the plant in pixels, 0 to 1. It differs from view to view, so that a trunk in the middle
+/// does not lie between the same pixel centres in all views. R2 sequence (Roberts, "The unreasonable
+/// effectiveness of quasirandom sequences", 2018).
 glm::vec2 offset_of(std::uint64_t view) {
     const glm::vec2 at = static_cast<float>(view + 1) * glm::vec2(0.7548777F, 0.5698403F);
     return at - glm::floor(at);

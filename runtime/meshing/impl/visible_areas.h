@@ -1,5 +1,5 @@
-// Visible areas: how much of a picture wood and foliage cover, where one hides the other. Levels of
-// detail keep both, and with them their mean colour.
+// Visible areas: the parts of a picture that wood and foliage cover, with hidden surfaces removed.
+// Levels of detail keep both areas, and with them the mean colour.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -40,10 +40,10 @@ public:
 
     /// Draws both meshes by pixel centres, with the opacity of pictures and the colours of
     /// materials. The result is the same on every machine and for every number of threads.
-    /// `third`, if given, gets measure_third().
+    /// `third`, unless null, receives the result of measure_third().
     [[nodiscard]] VisibleAreas
     measure(const Mesh& wood, const Mesh& foliage, VisibleAreas* third = nullptr);
-    /// Does the same in every third view only.
+    /// Like measure(), but in every third view only.
     [[nodiscard]] VisibleAreas measure_third(const Mesh& wood, const Mesh& foliage);
 
 private:

@@ -1,9 +1,9 @@
-// Mass properties after Crankshaw 2019, section 6.2. There a segment is a cylinder that turns about
-// its end; here it is the truncated cone that is drawn, which is the same if the radii are equal.
-// The mass is Segment::mass: the volume of the cone times the density unless the author gives it.
+// Mass properties after Crankshaw 2019, section 6.2. In this thesis a segment is a cylinder that
+// turns about its end; here it is the truncated cone that is drawn, a cylinder if the radii are
+// equal. The mass is Segment::mass: given by the author, or the volume of the cone times the density.
 //
-// Objects and polygons have no mass in the grammar, but a crown without its leaves bends too
-// little. So they count as thin sheets of `surface_mass`: an object of size s has s^2 square
+// Objects and polygons have no mass in the grammar, but a crown without the mass of its leaves bends
+// too little. So they count as thin sheets of `surface_mass`: an object of size s has s^2 square
 // metres, at half its length; a polygon has its area, at the mean of its corners. Half of the area
 // faces the wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
@@ -21,10 +21,11 @@ namespace lsys {
 namespace {
 
 constexpr double kExposedShare = 0.5; // part of a sheet's area that faces the wind
-// 1/s^2: under its load nearby a tip sinks by 0.005 of the height of the plant; pose() raises it.
+// 1/s^2: under its near load a tip sinks by 0.005 of the height of the plant; pose() raises it.
 constexpr double kGroundSpring = 2e3;
-// A tip bears what is near. Of its load each body farther out counts by this share less, and at
-// most so many times that sum counts: all of some 25 bodies in a row, 50 of a long chain.
+// The near load of a tip is kNearFactor times the sum of the masses beyond it, in which each further
+// body along a branch counts less by the factor kNearShare; at most the whole mass. A chain of 25
+// bodies counts in full, a long chain as 50 bodies.
 constexpr double kNearShare = 0.97;
 constexpr double kNearFactor = 1.5;
 constexpr double kRounding = 1e-6; // rounding error of positions, relative to the plant's height
@@ -146,7 +147,8 @@ void add_sheet(
     load.sail += kExposedShare * area;
 }
 
-/// The part of `carried`, mass of each body and its descendants, that its tip bears on the ground.
+/// The part of `carried`, the mass of each body and its descendants, that the tip of the body bears
+/// on the ground.
 std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<double> carried) {
     std::vector<double> sums(bodies.size(), 0.0);
     for (std::size_t b = bodies.size(); b-- > 0;) {
@@ -160,8 +162,8 @@ std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<doub
 }
 
 /// Sets the contact of each body with the ground. A tip above the ground at rest may sink until its
-/// radius touches the ground; a tip below the ground with a descendant above the ground is held at
-/// its depth; other tips are free. `carried`: mass of each body and its descendants, kg.
+/// radius touches the ground; a tip below the ground with a descendant above the ground may not
+/// sink; other tips are free. `carried`: mass of each body and its descendants, kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();
     const std::vector<double> near_load = near_loads(out.bodies, carried);

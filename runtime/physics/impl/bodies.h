@@ -13,20 +13,20 @@
 
 namespace lsys {
 
-/// Clearance of a body that the ground does not hold.
+/// Clearance of a body without contact with the ground.
 inline constexpr double kNoGround = std::numeric_limits<double>::infinity();
 
-/// A point of a body that the ground holds: its tip. Relative to the base at rest.
+/// A point, the tip of a body, that the ground supports. Relative to the base at rest.
 struct Contact {
     glm::dvec3 tip{0.0};
-    double clearance = kNoGround; // m, height of the tip above the lowest place that it may take
+    double clearance = kNoGround; // m, distance by which the tip may sink
     double spring = 0.0;          // N/m
 };
 
 /// A rigid body. Vectors are relative to its base at rest, in the axes of the world.
 struct Body {
-    std::uint32_t parent = kNoSegment; // index of a body before this one
-    std::uint32_t first_child = 0;     // index of a body after this one
+    std::uint32_t parent = kNoSegment; // index of an earlier body
+    std::uint32_t first_child = 0;     // index of a later body
     std::uint32_t child_count = 0;
     glm::dvec3 offset{0.0}; // from the parent's base to the base
     glm::dvec3 centre{0.0}; // centre of mass
@@ -43,7 +43,7 @@ struct Body {
     float end = 0.0F;
     float sail = 0.0F;
     Contact contact;
-    // More contacts, of bodies of coarse plants: a part of Bodies::contacts.
+    // Further contacts of bodies of coarse plants: a range of Bodies::contacts.
     std::uint32_t first_contact = 0;
     std::uint32_t contact_count = 0;
 };
@@ -57,7 +57,7 @@ struct Bodies {
     std::vector<Contact> contacts;         // see Body::first_contact
 };
 
-/// Calls `use` for all contacts of a body that the ground holds.
+/// Calls `use` for all contacts of a body with the ground.
 template <typename Use>
 void for_each_contact(const Bodies& plant, const Body& body, const Use& use) {
     if (body.contact.spring > 0.0) {
@@ -77,7 +77,7 @@ struct UnitCone {
     double transverse = 0.0; // m^2, inertia about an axis in the base
     double axial = 0.0;      // m^2, inertia about the axis from base to tip
 };
-/// The truncated cone of these radii: a cylinder where they are equal, a thin rod where both are 0.
+/// The truncated cone of these radii: a cylinder if they are equal, a thin rod if both are 0.
 [[nodiscard]] UnitCone unit_cone(double length, double base_radius, double tip_radius);
 
 } // namespace lsys

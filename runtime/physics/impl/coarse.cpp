@@ -1,6 +1,6 @@
-// A twig that is limp loads its branch as a mass at its base does, and a run falls with the weight
-// of its bodies, so a coarse plant falls as the whole one: Body::moment and the contacts with the
-// ground are those of the whole plant.
+// A limp twig loads its branch like a mass at the base of the twig, and a run has the weight of its
+// bodies. So a coarse plant falls like the whole plant, whose Body::moment and contacts with the
+// ground it has.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest p
 constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
 constexpr double kMinGrowth = 3.0;       // min ratio
 // A plant with larger twigs is nearly a chain: most of its weight would be at the end of the kept
-// bodies, so it is cut into runs instead. See Coarsening::relative_twig_size().
+// bodies. Such a plant is cut into runs instead. See Coarsening::relative_twig_size().
 constexpr double kMaxRelativeTwig = 32.0;
 
 /// m^2, area of the segment in the wind, mean over all directions.
@@ -59,12 +59,12 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
 double place_in_run(std::size_t i, std::size_t length) {
     return (static_cast<double>(i) + 0.5) / static_cast<double>(length);
 }
-/// Part of the way from the rotation of the parent's run to that of the own run, which a body at
-/// `place` has turned. `joined`: the own run goes on from the parent's, whose bodies turn too.
+/// Interpolation parameter of a body at `place` from the rotation of the parent's run (0) to the
+/// rotation of its own run (1). `joined`: the run continues the parent's run, whose bodies turn too.
 double turned_part(double place, bool joined) {
     return std::min(joined ? 0.5 + place : 2.0 * place, 1.0);
 }
-/// The same for a body of the parent's run, if the own run goes on from it.
+/// Interpolation parameter of a body of the parent's run, if a run continues it.
 double turned_ahead(double place) {
     return std::max(place - 0.5, 0.0);
 }
@@ -73,13 +73,13 @@ std::span<const std::uint32_t> run_of(const CoarsePlant& plant, std::uint32_t ru
     const std::uint32_t begin = run == 0 ? 0 : plant.run_ends[run - 1];
     return std::span(plant.whole).subspan(begin, plant.run_ends[run] - begin);
 }
-/// Whether a run goes on from its parent, alone.
+/// Whether a run is the only child of its parent run.
 bool is_joined(const CoarsePlant& plant, std::uint32_t run) {
     const std::uint32_t parent = plant.bodies.bodies[run].parent;
     return parent != kNoSegment && plant.bodies.bodies[parent].child_count == 1;
 }
 
-/// Leaves the contacts that are farthest in some direction, if there are many.
+/// Keeps only the contacts that are farthest in some direction, if there are many contacts.
 void leave_outer(std::vector<Contact>& contacts) {
     constexpr std::array<glm::dvec3, 7> kDirections = {
         glm::dvec3(1.0, 0.0, 0.0),  glm::dvec3(0.0, 1.0, 0.0),  glm::dvec3(0.0, 0.0, 1.0),
@@ -105,8 +105,8 @@ void leave_outer(std::vector<Contact>& contacts) {
     contacts.resize(outer.size());
 }
 
-/// Makes the coarse plant of the bodies with at least `min_size` bodies from there on, in runs of
-/// at most `longest`.
+/// Makes the coarse plant of the bodies that have, with their descendants, at least `min_size`
+/// bodies. Runs have at most `longest` bodies.
 class Coarsening {
 public:
     Coarsening(const Bodies& plant,
@@ -115,7 +115,7 @@ public:
                std::uint32_t longest)
         : plant_(&plant), twigs_(&twigs), min_size_(min_size), longest_(longest) {}
 
-    /// Mean size of the twig of a body that is left out, as a multiple of the number of bodies per
+    /// Mean size of the twig to which a left-out body belongs, relative to the number of bodies per
     /// kept body.
     [[nodiscard]] double relative_twig_size() const {
         double kept = 0.0;
@@ -272,7 +272,8 @@ private:
         out.bodies.bodies[run] = body;
     }
 
-    /// The spring of each run has the energy of those in it when spread_poses() bends them.
+    /// Sets the spring of each run so that it has the energy of the springs within the run when
+    /// spread_poses() bends them.
     void set_springs(CoarsePlant& out) const {
         for (std::uint32_t run = 0; run < out.bodies.bodies.size(); ++run) {
             Body& body = out.bodies.bodies[run];

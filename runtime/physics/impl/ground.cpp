@@ -1,6 +1,6 @@
-// A tip that is above the ground at rest can always be raised above it: its base is above the
-// ground, and the tip of a level segment is as high as its base. A base that is not at the tip of
-// its parent is raised on its own.
+// A tip that is above the ground at rest can always be raised above the ground: its base is above the
+// ground, and the tip of a horizontal segment is as high as its base. A base that is not at the tip
+// of its parent is raised separately.
 #include "runtime/physics/impl/ground.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ glm::dquat raised(const Contact& contact, const glm::dquat& turn, const glm::dve
     if (!(length > 0.0)) {
         return turn;
     }
-    // If the tip hangs straight down, any level direction will do.
+    // If the tip hangs straight down, any horizontal direction is suitable.
     const double x = level > 1e-9 * length ? arm.x / level : 1.0;
     const double z = level > 1e-9 * length ? arm.z / level : 0.0;
     const double height = std::clamp((arm.y + depth) / length, -1.0, 1.0);

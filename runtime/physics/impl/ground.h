@@ -1,13 +1,12 @@
-// Ground: raises onto the plane y = 0 the tips that the springs of the ground (joints.cpp) leave
-// below it.
+// Ground: raises tips to the plane y = 0 that the springs of the ground (joints.cpp) leave below it.
 #pragma once
 
 #include "runtime/physics/impl/motion.h"
 
 namespace lsys {
 
-/// The rotation `turn` of a body whose base is displaced by `shift`, turned upwards about a level
-/// axis until the tip is out of the ground, or until the body stands upright.
+/// `turn`, the rotation of a body whose base is displaced by `shift`, turned upwards about a
+/// horizontal axis until the tip is out of the ground, or until the body stands upright.
 [[nodiscard]] glm::dquat
 raised(const Contact& contact, const glm::dquat& turn, const glm::dvec3& shift);
 

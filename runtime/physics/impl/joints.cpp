@@ -1,6 +1,6 @@
-// The velocities at the end of a step, by elimination from the tips to the root and substitution
-// back: the articulated-body algorithm (Featherstone 2008, chapter 7) with ball joints, in absolute
-// angular velocities. Linear in the number of bodies, no recursion.
+// Computes the velocities at the end of a step by elimination from the tips to the root and back
+// substitution: the articulated-body algorithm (Featherstone 2008, chapter 7) with ball joints, in
+// absolute angular velocities. Time is linear in the number of bodies; no recursion.
 //
 // The unknowns are the spins w of the bodies; the base of a body moves with its parent, u = u_p +
 // w_p x r. Implicit Euler, with the shape kept during the step, is the minimum over w of
@@ -8,21 +8,21 @@
 //        + 1/2 (h c + h^2 k) |w - w_p|^2 + h k d . (w - w_p)           joints: damper, spring
 //        + 1/2 h^2 G |w|^2                                             weight and wind
 // where h is the time step, M the mass matrix of a body, r the arm from the base of the parent to
-// that of the body, c the damping, k the spring constant and d the rotation vector of the joint. G
-// is |g| |sum m r| over the body and its children, with each child's whole load at the child's
-// base, plus the same term for the force of the wind: the second derivative of the weight's energy
-// in absolute rotations has no coupling between bodies and is nowhere greater than G. The second
-// derivative of the spring's energy along a rotation is nowhere greater than k. So the minimum has
-// a lower energy, however long the step is. Forces::exactness replaces these bounds by the true
-// second derivatives. Where the true ones are negative, as for a branch that could fall to either
-// side, their absolute values are used in those directions alone, so that the other directions keep
-// the convergence of Newton's method.
+// the base of the body, c the damping, k the spring constant and d the rotation vector of the joint.
+// G is |g| |sum m r| over the body and its children, with the whole load of a child at the base of
+// the child, plus the same term for the force of the wind: the second derivative of the energy of
+// the weight in absolute rotations has no coupling between bodies and is nowhere greater than G. The
+// second derivative of the energy of a spring along a rotation is nowhere greater than k. So the
+// minimum has a lower energy, however long the step is. Forces::exactness replaces these bounds by
+// the true second derivatives. In directions with a negative true derivative, as for a branch that
+// could fall to either side, the absolute value is used, so that all other directions keep the
+// convergence of Newton's method.
 //
 // The ground is a spring 1/2 K depth^2 at each tip below it, whose force acts on all ancestors of
 // the tip; its second derivatives are bounded and made exact in the same way. Friction acts against
-// the motion along the ground, with the force of that spring times Forces::friction; in the step it
-// is a damper. With Forces::own_load bases stand still and children are left out, so each joint is
-// solved alone.
+// the motion along the ground, with the force of this spring times Forces::friction; a step treats
+// friction as a damper. With Forces::own_load bases stand still and children are left out, so each
+// joint is solved separately.
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace {
 
 constexpr double kMinInertia = 1e-13;         // relative to the trace: a bound of rounding errors
 constexpr double kMaxTurn = std::numbers::pi; // rad per step: a larger turn has no unique vector
-constexpr double kStickingSpeed = 0.01;       // m/s: below it friction falls with the speed, to 0
+constexpr double kStickingSpeed = 0.01; // m/s; at lower speeds friction is proportional to speed
 
 /// Quadratic and linear form of a body in its spin and the velocity of its base; `push` as in
 /// Reduced.
@@ -70,7 +70,7 @@ void add_stiffness(const glm::dvec3& arm,
             -0.5 * f * (arm.y * force.z + arm.z * force.y)};
 }
 
-/// Adds the contact of the tip, if it is in the ground or reaches it within the step: a spring
+/// Adds the contact of a tip that is in the ground or reaches the ground within the step: a spring
 /// along Y with its force at the end of the step, and friction along the ground.
 void add_contact(const Contact& contact,
                  const BodyMotion& motion,
@@ -173,7 +173,8 @@ BodyForms own_forms(const Body& body,
     return own;
 }
 
-/// Adds the form of a child to its parent. `offset`: from the base of the parent to the child's.
+/// Adds the forms of a child to its parent. `offset`: from the base of the parent to the base of the
+/// child.
 void add_child(const Reduced& child,
                const glm::dvec3& offset,
                const Forces& forces,

@@ -21,11 +21,11 @@ struct Forces {
     glm::dvec3 wind{0.0};    // m/s
     double drag = 0.0;       // kg/m^3, half the density of air times the drag coefficient
     bool windy = false;      // whether drag and wind are both above 0
-    bool ground = false;     // whether the ground holds tips
+    bool ground = false;     // whether the ground supports tips
     double friction = 0.0;   // coefficient of friction of the ground
     bool own_load = false;   // a joint bears its own body only, not the descendants
-    /// Which second derivatives of weight, wind, springs and ground are used. 0: upper bounds, the
-    /// greatest of all directions; 1: the true ones, negative in some directions; in between:
+    /// The second derivatives of weight, wind, springs and ground to use. 0: upper bounds, the
+    /// greatest of all directions; 1: true values, negative in some directions; between 0 and 1:
     /// interpolated.
     double exactness = 0.0;
 };
@@ -53,8 +53,8 @@ struct JointSolution {
     glm::dvec3 spin{0.0}; // rad/s
 };
 
-/// A body and its descendants, as they act on the parent: a quadratic and a linear form of the
-/// parent's spin and of the velocity of the body's base.
+/// The action of a body and its descendants on the parent: a quadratic and a linear form in the spin
+/// of the parent and the velocity of the base of the body.
 struct Reduced {
     Symmetric spin_spin;
     Rows spin_velocity;
@@ -75,22 +75,22 @@ struct PlantBodies {
     std::uint32_t reduced_mask = 0;
 };
 
-/// Drag of a body whose centre moves at `velocity`, per speed relative to the wind: N s/m.
+/// Drag of a body whose centre moves at `velocity`, divided by the speed relative to the wind: N s/m.
 [[nodiscard]] double wind_drag(const Body& body,
                                const glm::dquat& turn,
                                const glm::dvec3& velocity,
                                const Forces& forces);
 
-/// Depth of the tip below the lowest place that it may take, negative above it.
+/// Depth of the tip below its lowest allowed position; negative above this position.
 [[nodiscard]] inline double ground_depth(const Contact& contact, const BodyPose& pose) {
     return -(contact.clearance + pose.shift.y + (pose.turn * contact.tip - contact.tip).y);
 }
 
 /// Computes JointSolution::spin of all bodies: the angular velocities at the end of an implicit
-/// step in which the plant keeps its shape. Overwrites BodyMotion::velocity.
+/// step, with the shape of the plant kept constant. Overwrites BodyMotion::velocity.
 void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers);
 
-/// J, except `turn`.
+/// Energies and work in J, and the rotation of a step.
 struct Energies {
     double kinetic = 0.0;
     double potential = 0.0;           // springs, weight and ground; 0 at rest

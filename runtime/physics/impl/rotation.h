@@ -1,5 +1,5 @@
-// Rotations of the physics in double precision: unit quaternions and rotation vectors (axis times
-// angle in radians). Conversions take a zero vector to exactly the identity, and back.
+// Rotations in double precision: unit quaternions and rotation vectors (axis times angle in radians).
+// The zero vector converts to exactly the identity, and the identity to exactly the zero vector.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
-// Schedule: the bodies of a plant cut into pieces for threads, depth by depth. The pieces depend on
-// the plant alone, so that a sum over pieces is the same for any number of threads.
+// Schedule: divides the bodies of a plant into pieces for threads, depth by depth. The pieces depend
+// only on the plant, so that a sum over pieces is the same for any number of threads.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -19,16 +19,16 @@ public:
 
     [[nodiscard]] std::uint32_t piece_count() const { return pieces_; }
 
-    /// Calls `work(begin, end, piece)` for all bodies, parents before children: within a piece the
-    /// bodies may depend on those before them.
+    /// Calls `work(begin, end, piece)` for all bodies, parents before children. Within a piece a
+    /// body may depend on earlier bodies.
     template <typename Work>
     void outward(Workers& workers, const Work& work) const {
         for (const Run& run : runs_) {
             do_run(workers, run, work);
         }
     }
-    /// Calls `work` for all bodies, children before parents: within a piece the bodies may depend
-    /// on those after them.
+    /// Calls `work` for all bodies, children before parents. Within a piece a body may depend on
+    /// later bodies.
     template <typename Work>
     void inward(Workers& workers, const Work& work) const {
         for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
@@ -44,8 +44,9 @@ private:
         std::uint32_t first_piece = 0;
         std::uint32_t piece_count = 1;
     };
-    static constexpr std::uint32_t kWide = 256;     // min bodies of a depth for several threads
-    static constexpr std::uint32_t kPieceSize = 64; // bodies of a piece: some 20 microseconds
+    static constexpr std::uint32_t kWide = 256; // min bodies of a depth for several threads
+    static constexpr std::uint32_t kPieceSize =
+        64; // bodies per piece, about 20 microseconds of work
 
     template <typename Work>
     static void do_run(Workers& workers, const Run& run, const Work& work) {

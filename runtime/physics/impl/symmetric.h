@@ -1,4 +1,4 @@
-// Small matrices of the physics: symmetric ones (inertia) and those kept by rows (couplings).
+// Small matrices of the physics: symmetric matrices (inertia) and matrices stored by rows (couplings).
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -118,8 +118,8 @@ struct Eigenvectors {
     return out;
 }
 
-/// The matrix that makes the eigenvalues of `a` positive if it is added to `a`: each takes its
-/// absolute value, at least 1e-9 of the largest. The eigenvectors stay.
+/// The matrix to add to `a` so that each eigenvalue becomes its absolute value, at least 1e-9 of the
+/// largest. The eigenvectors stay.
 [[nodiscard]] inline Symmetric lift_to_positive(const Symmetric& a) {
     constexpr double kMinShare = 1e-9;
     const Eigenvectors eigen = eigenvectors_of(a);
@@ -137,7 +137,7 @@ struct Eigenvectors {
     return lift;
 }
 
-/// The inverse of a positive definite matrix by L D L^T. A pivot that is too small by rounding is
+/// The inverse of a positive definite matrix by L D L^T. A pivot that rounding has made too small is
 /// raised, so that the result is always positive definite. Precondition: the trace is positive.
 [[nodiscard]] inline Symmetric inverse(const Symmetric& a) {
     constexpr double kMinPivot = 1e-15; // relative to the trace

@@ -314,7 +314,7 @@ picture_diagnostic(const Error& error, const BytecodePicture& picture, const Gra
     return diagnostic;
 }
 
-/// Reads the pictures of `#material`. A missing one is left out with a warning.
+/// Reads the pictures of `#material`. A missing picture is left out with a warning.
 std::optional<Stop> read_looks(const std::filesystem::path& folder,
                                const Grammar& grammar,
                                FileBudget& budget,

@@ -21,8 +21,9 @@ struct MeshFiles {
     std::shared_ptr<const Looks> looks; // of `#material`; null without any
 };
 
-/// Reads the mesh files and the pictures of materials, whose paths are relative to `grammar_file` or absolute. A picture that is
-/// missing or cannot be shown is left out with a warning at its place. `budget` counts the memory.
+/// Reads the mesh files and the pictures of materials, whose paths are absolute or relative to
+/// `grammar_file`. A missing or invalid picture is left out with a warning at its place. `budget`
+/// counts the memory.
 [[nodiscard]] Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                                                  const Grammar& grammar,
                                                  const Project& project,

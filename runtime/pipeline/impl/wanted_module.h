@@ -1,4 +1,4 @@
-// Parses a module that a user asks for: `A(3, 0.5)`.
+// Parses a module that a user selects: `A(3, 0.5)`.
 #pragma once
 
 #include "grammar/base/result.h"

@@ -1,5 +1,5 @@
-// CellGrid: the squares of an unbounded grid, and 32-bit numbers for the places within them. A
-// number holds row, column and place, so no two places share one; cells beyond 32 bits are refused.
+// CellGrid: the squares of an unbounded grid, and unique 32-bit numbers of the places within them. A
+// number contains row, column and place; cells whose numbers would exceed 32 bits are refused.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -32,7 +32,7 @@ public:
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;
     }
-    /// Distance in m from the origin within which cells have a number, minus `cells` cells.
+    /// Max distance in m from the origin of cells with a number, minus `cells` cells.
     [[nodiscard]] double reach(std::int64_t cells) const {
         return side_ * static_cast<double>(half_ - cells);
     }
@@ -56,8 +56,8 @@ struct CellRange {
     std::int64_t rows = 0;
 };
 
-/// The cells that may have a place in `region`: those that touch it and one more on each side, for
-/// rounding. Error: one of these or of the `margin` cells around them has no number.
+/// The cells that may have a place in `region`: all cells that touch the region, and one more on each
+/// side because of rounding. Error: one of these or of the `margin` cells around has no number.
 [[nodiscard]] Result<CellRange>
 cells_of(const CellGrid& grid, const Region& region, std::int64_t margin);
 

@@ -1,4 +1,4 @@
-// Checks the options of a placement before anything is made.
+// Checks the options of a placement before trees are placed.
 #pragma once
 
 #include "runtime/placement/placement.h"

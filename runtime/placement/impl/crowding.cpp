@@ -1,7 +1,7 @@
 // A grid for circles of very different sizes: each plant is listed in every square that the
-// bounding box of its circle touches, so circles that meet share a square. The area of a square is
-// the ground per plant or the mean box, whichever is larger: there are at most as many squares as
-// plants, and on average a few entries per plant.
+// bounding box of its circle touches, so overlapping circles share a square. The area of a square is
+// the ground per plant or the area of the mean box, whichever is larger: there are at most as many
+// squares as plants, and on average a few entries per plant.
 #include "runtime/placement/impl/crowding.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     }
     const double square_area =
         std::max(region.area(), box_area) / std::max(1.0, static_cast<double>(plants.size()));
-    // About as many squares as plants; the bounds by `count` keep that on long, narrow ground.
+    // About as many squares as plants; the bounds by `count` ensure this on long, narrow ground.
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;
@@ -105,7 +105,7 @@ bool CrowdGrid::is_dominated(std::uint32_t number) const {
             for (std::uint64_t i = starts_[at]; i < starts_[at + 1]; ++i) {
                 const ForestPlant& other = plants_[entries_[i]];
                 if (entries_[i] != number && is_stronger(other, plant) &&
-                    circles_meet(other, plant)) {
+                    circles_overlap(other, plant)) {
                     return true;
                 }
             }

@@ -1,4 +1,4 @@
-// Finds dominated plants: those whose circle meets the circle of a stronger plant.
+// Finds dominated plants: plants whose circle overlaps the circle of a stronger plant.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -8,21 +8,21 @@
 
 namespace lsys {
 
-/// Whether `a` has the greater product of radius and vigour or, if they are equal, sprouted first.
+/// Whether `a` has the greater product of radius and vigour or, with equal products, sprouted first.
 [[nodiscard]] inline bool is_stronger(const ForestPlant& a, const ForestPlant& b) {
     const float strength_a = a.radius * a.vigour;
     const float strength_b = b.radius * b.vigour;
     return strength_a > strength_b || (strength_a == strength_b && a.number < b.number);
 }
 
-[[nodiscard]] inline bool circles_meet(const ForestPlant& a, const ForestPlant& b) {
+[[nodiscard]] inline bool circles_overlap(const ForestPlant& a, const ForestPlant& b) {
     const auto dx = static_cast<double>(a.place.x - b.place.x);
     const auto dz = static_cast<double>(a.place.y - b.place.y);
     const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
     return dx * dx + dz * dz < reach * reach;
 }
 
-/// Sets `dominated` of each plant.
+/// Sets ForestPlant::dominated of each plant.
 void find_dominated(const Region& region, std::span<ForestPlant> plants, Workers& workers);
 
 } // namespace lsys

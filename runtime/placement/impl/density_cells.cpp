@@ -1,7 +1,7 @@
-// DensityCells: a density map on an unbounded grid. A cell is 4 by 4 squares with a place each; a
-// place has a tree if its rank is below the grey at the place. The 16 ranks of a cell are one from
-// each sixteenth of [0, 1), in random order, so that 16 places of equal grey have nearly the same
-// number of trees in every cell (stratified sampling), unlike independent ranks.
+// DensityCells: a density map on an unbounded grid. A cell is 4 by 4 squares with one place each; a
+// place has a tree if its rank is below the grey value at the place. The 16 ranks of a cell are
+// stratified, one from each sixteenth of [0, 1) in random order, so that all cells of equal grey have
+// nearly the same number of trees, unlike with independent ranks.
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"

@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// Differs from the generations of derivations, which count up from 0, and from those of
-/// docs/language.md sections 6 and 9.
+/// Generation number of placement draws. Differs from the generations of derivations, which count up
+/// from 0, and from the reserved numbers of docs/language.md sections 6 and 9.
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
 /// Blocks at a tree's number.

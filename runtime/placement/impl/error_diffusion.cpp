@@ -62,7 +62,7 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
             const std::uint32_t number = row * squares.columns + column;
             const double wanted = trees + error[here];
             double left = wanted;
-            if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // else below every threshold
+            if (wanted > 0.5 * (1.0 - kThresholdSpan)) { // may reach the random threshold
                 const double threshold =
                     0.5 + kThresholdSpan *
                               (unit(placement_draws(options.key, number, kPlaceBlock)[3]) - 0.5);

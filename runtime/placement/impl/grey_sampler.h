@@ -1,5 +1,5 @@
-// GreySampler: a map stretched over a region, each pixel a rectangle of one grey. The map is black
-// beyond the region.
+// GreySampler: samples a map stretched over a region, whose pixels are rectangles of constant grey.
+// The map is black beyond the region.
 #pragma once
 
 #include "runtime/base/grey_map.h"
@@ -13,8 +13,8 @@ public:
 
     /// The value of the pixel at a place, 0 to 1.
     [[nodiscard]] double at(double x, double z) const;
-    /// The integral of the values over `region`, in square metres; exact but for rounding. Takes
-    /// time proportional to the number of pixels that `region` touches.
+    /// The integral of the values over `region`, in square metres; exact except for rounding. Time is
+    /// proportional to the number of pixels that `region` touches.
     [[nodiscard]] double integral(const Region& region) const;
 
 private:

@@ -1,14 +1,14 @@
-// PoissonCells: a Poisson disk sample of the whole plane, any region of which can be made alone.
+// PoissonCells: a Poisson disk sample of the whole plane; each region can be computed independently.
 // Each cell of an unbounded grid holds 16 candidates with random ranks. Candidates closer than the
 // spacing are rivals. A round accepts the candidates whose rivals of lower rank have all been
 // rejected, and rejects their rivals (Luby 1986, "A simple parallel algorithm for the maximal
-// independent set problem"; after enough rounds the result is that of accepting candidates in order
-// of rank). There are only kRounds rounds, so that a candidate depends on no other that is more
-// than 2 kRounds - 1 spacings away. Candidates that are undecided after the last round get no tree:
-// in a test, after 6 rounds 2 of 316,000 trees were missing, after 7 none.
+// independent set problem"; after enough rounds the result is the same as accepting candidates in
+// order of rank). There are only kRounds rounds, so that a candidate depends only on candidates up to
+// 2 kRounds - 1 spacings away. Candidates that are undecided after the last round get no tree: in a
+// test, after 6 rounds 2 of 316,000 trees were missing, after 7 none.
 //
-// The code does not run one round after the other: with candidates in order of rank, the round in
-// which one is accepted or rejected follows from the candidates before it (Blelloch, Fineman, Shun
+// The code does not run one round after the other: it visits candidates in order of rank, and computes
+// the round of each decision from the earlier candidates (Blelloch, Fineman, Shun
 // 2012, "Greedy sequential maximal independent set and matching are parallel on average").
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
@@ -27,15 +27,16 @@ namespace {
 constexpr std::uint32_t kPlaceBits = 4;
 constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
-constexpr std::int64_t kHalo = 2 * kRounds - 1; // width in cells of the ring a block depends on
-constexpr std::int64_t kBlock = 64;             // cells along each side of a block
+constexpr std::int64_t kHalo =
+    2 * kRounds - 1;                // width in cells of the ring that a block depends on
+constexpr std::int64_t kBlock = 64; // cells along each side of a block
 /// Side of a cell divided by the spacing: above 1 by the max rounding error of two candidates
 /// within 2^13 cells of the origin, so that rivals are in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
 constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: neither accepted nor rejected
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
-// Distance within which rivals lie, in quarters: the four squares of a cell.
+// Max distance of rivals in quarters, where a cell has four quarters.
 constexpr std::int64_t kNeighbourQuarters = 2;
 
 /// A candidate that is accepted, and its round.
@@ -89,8 +90,8 @@ private:
     std::vector<std::uint32_t> previous_order_;
     std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
     std::vector<std::uint8_t> rejected_in_; // the round in which it is rejected
-    /// The cells' quarters, by rows, kNeighbourQuarters more on each side. A quarter's diagonal is
-    /// shorter than the spacing, so at most one candidate is accepted in it.
+    /// By quarter of a cell, in rows, with kNeighbourQuarters more on each side. The diagonal of a
+    /// quarter is shorter than the spacing, so at most one candidate is accepted in a quarter.
     std::vector<Accepted> accepted_at_;
     std::int64_t quarters_per_row_ = 0;
 };
@@ -139,7 +140,7 @@ void PoissonBlock::sort_by_rank() {
     }
 }
 
-/// The first round that begins with all rivals of lower rank rejected; kUndecided if one is not
+/// The first round in which all rivals of lower rank are rejected; kUndecided if a rival is not
 /// rejected in kRounds rounds.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;

@@ -1,7 +1,7 @@
 // PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). Around a random
-// point of a list of active points, some 30 points are tried in the ring from r to 2r; the first
-// that is at least r from all others is added to the list, and an active point without a success
-// leaves it. Cells of side r / sqrt(2) hold at most one point each. The algorithm is serial; only
+// point of a list of active points, about 30 points are tried in the ring from r to 2r; the first
+// point that is at least r from all others is added to the list, and an active point without success
+// is removed. Cells of side r / sqrt(2) hold at most one point each. The algorithm is serial; only
 // species and heights are computed by all threads.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
@@ -19,9 +19,9 @@ namespace lsys {
 
 namespace {
 
-/// Blocks of draws per active point, of two attempts each. Attempts are in the square around the
-/// ring, which avoids sines; 0.589 of them are in the ring: 30.6 on average, for the paper's k =
-/// 30.
+/// Blocks of draws per active point, with two attempts each. Attempts are points of the square around
+/// the ring, which avoids sines; a share of 0.589 is in the ring: 30.6 on average, where the paper has
+/// k = 30.
 constexpr std::uint32_t kBlocks = 26;
 constexpr std::int64_t kReach = 2; // distance in cells within which points may be too close
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;

@@ -1,4 +1,4 @@
-// TreeMaker: makes the tree of a place and a number: species, yaw and scale.
+// TreeMaker: makes a tree from a place and a number: chooses species, yaw and scale.
 #pragma once
 
 #include "runtime/base/random.h"
@@ -26,8 +26,8 @@ public:
     void make(std::uint32_t number, float x, float z, TreeChunk& chunk) const;
     /// Whether `species` can live at a place.
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
-    /// The tree `number` of a known species, without position. Its age is that of methods other
-    /// than Domination.
+    /// The tree `number` of a known species, without position. Sets the age as for all methods
+    /// except Domination.
     [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;
     /// The stage at which the tree `number` starts.
     [[nodiscard]] std::uint32_t start_of(std::uint32_t number, std::uint16_t species) const;

@@ -68,7 +68,7 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
 
 
 def _save(plant, path, *, mesh=None, format=None, compress="none", up="y", **options):
-    """Writes the plant to a file, whose name tells the format unless `format` does.
+    """Writes the plant to a file. `format` or else the extension of the file sets the format.
 
     mesh: of plant.mesh(); None: made with its defaults. compress: "none", "quantize" or "meshopt",
     for glb and gltf. up: "y" or "z". Pictures are in the file or, as in OBJ, left out. The file

@@ -2,7 +2,7 @@
 
 
 class LsysError(Exception):
-    """A call has failed: a file cannot be read, an option does not fit.
+    """A call has failed: a file cannot be read, an option is invalid.
 
     The text is that of the messages; `diagnostics` has them as data.
     """

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-// toml++ is header-only and compiled here only. Version 3.3 asserts two things that do not hold:
-// that a key follows the `[` of a heading, and that a character beyond ASCII in a key is a blank.
-// With assertions the process would end, and without them both are undefined behaviour. The macros
-// below make toml++ continue and report both as mistakes.
+// toml++ is header-only and compiled here only. Version 3.3 has two wrong assertions: a key follows
+// the `[` of a heading, and a character beyond ASCII in a key is a blank. With assertions such input
+// would end the process, and without assertions it is undefined behaviour. The macros below make
+// toml++ continue and report such input as mistakes.
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
@@ -81,9 +81,8 @@ private:
     std::vector<std::uint32_t> offsets_; // of each character of the line, and of its end
 };
 
-/// Max depth of values that are kept: bounds the recursion here and in ~SceneValue(). No valid
-/// scene is as deep: a deeper one has an unknown key or a wrong value above this depth, which is
-/// reported.
+/// Max depth of stored values; bounds the recursion here and in ~SceneValue(). Valid scenes are less
+/// deep: a deeper scene has an unknown key or a wrong value above this depth, which is reported.
 constexpr std::uint32_t kMaxLevels = 32;
 
 SceneValue convert(const toml::node& node, std::uint32_t level, Places& places);
@@ -230,7 +229,7 @@ bool is_bare(char c) {
            c == '-';
 }
 
-/// One past the string that begins at `at`. A string that is not closed ends where toml++ stops
+/// The end (exclusive) of the string that begins at `at`. An unclosed string ends where toml++ stops
 /// reading it.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];

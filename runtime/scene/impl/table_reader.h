@@ -32,7 +32,7 @@ struct IntegerRange {
 class TableReader {
 public:
     /// `name`: the heading as written, `[terrain]`; empty for the keys above all tables. `table`:
-    /// nullptr if the file lacks the table; all its keys are then missing.
+    /// nullptr if the file lacks the table; every key is then missing.
     TableReader(const SceneValue* table, std::string_view name, Diagnostics& diagnostics)
         : table_(table), name_(name), diagnostics_(diagnostics) {}
 
@@ -47,7 +47,7 @@ public:
     /// The index of the value in `names`.
     [[nodiscard]] std::optional<std::size_t> choice(std::string_view key,
                                                     std::span<const std::string_view> names);
-    /// `[first, second]`; with `lone` also a single number for both.
+    /// `[first, second]`; with `lone` a single number for both is accepted too.
     [[nodiscard]] std::optional<std::array<double, 2>>
     pair(std::string_view key, const NumberRange& range, bool lone);
     /// pair() whose first number is not above the second.

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// A place between samples `index` and index + 1: `part` of the way, 0 to 1.
+/// A place between the samples `index` (part = 0) and `index` + 1 (part = 1).
 struct Place {
     std::uint32_t index = 0;
     double part = 0.0;

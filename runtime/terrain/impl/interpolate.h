@@ -1,5 +1,5 @@
-// Interpolates grey values between the centres of pixels. Places beyond the border are clamped to
-// it.
+// Interpolates grey values between the centres of pixels. Places beyond the border are clamped to the
+// border.
 #pragma once
 
 #include "runtime/base/grey_map.h"

@@ -97,7 +97,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             const auto corner = static_cast<std::uint32_t>(row * (columns + 1) + column);
             const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
             std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
-            // Triangles are counter-clockwise seen from above: a step along Z precedes one along X.
+            // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge along X.
             const bool falling = ((row + column) & 1U) == 0;
             const std::array<std::uint32_t, 6> cell =
                 falling ? std::array<std::uint32_t, 6>{corner, below,     below + 1,
@@ -112,8 +112,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     mesh.indices = std::move(indices);
     Material ground;
     ground.name = "ground";
-    // Without a picture: the mean colour of the ground that the viewer draws, grass with bare
-    // patches.
+    // Without a picture, the mean colour of the viewer's default ground, grass with bare patches.
     ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.055F, 0.07F, 0.025F, 1.0F);
     ground.textured = tiled;
     ground.picture = pictures.colour;

@@ -48,7 +48,7 @@ bool Turtle::State::draw(
     return true;
 }
 
-/// Draws a segment of `part` times the length. Arguments: length, spring, mass.
+/// Draws a segment of length `part` times the given one. Arguments: length, spring, mass.
 bool Turtle::State::forward(const Action& action, const float* arguments, float part) {
     if (traits.forward_has_width) {
         return forward_with_width(action, arguments, part);
@@ -158,7 +158,7 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
         return true;
     }
     BranchStart start;
-    start.take = arguments[0] != 0.0F;
+    start.has_instance = arguments[0] != 0.0F;
     start.age = static_cast<std::uint32_t>(arguments[1]);
     start.id = static_cast<std::uint32_t>(arguments[2]);
     if (action.stored > kBranchArguments) {

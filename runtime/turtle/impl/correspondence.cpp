@@ -9,12 +9,12 @@ namespace lsys {
 
 namespace {
 
-/// For each module of the earlier word, its items in the order of drawing.
-class ByModule {
+/// The items of each module of the earlier word, in the order of drawing.
+class ItemsByModule {
 public:
     /// module_of(i): the module of item i, at most `modules` - 1.
     template <typename ModuleOf>
-    ByModule(std::size_t items, std::size_t modules, const ModuleOf& module_of)
+    ItemsByModule(std::size_t items, std::size_t modules, const ModuleOf& module_of)
         : first_(modules + 1, 0), items_(items) {
         for (std::size_t i = 0; i < items; ++i) {
             ++first_[module_of(i) + 1];
@@ -37,18 +37,18 @@ private:
     std::vector<std::uint32_t> items_;
 };
 
-/// The two drawings, and which module of the earlier word each module of the later one comes from.
-struct Followed {
+/// Both drawings, and for each module of the later word its ancestor in the earlier word.
+struct FollowedDrawings {
     const Skeleton& before;
     const Skeleton& after;
     std::uint32_t generation;
     std::span<const Origin> ancestors;
-    std::size_t modules; // of the earlier word, up to the last one that drew or was followed
+    std::size_t modules; // of the earlier word, up to the last one with an item or a descendant
 
-    [[nodiscard]] ByModule old_items(const LargeVector<Origin>& origins) const {
+    [[nodiscard]] ItemsByModule old_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules, [&](std::size_t i) { return origins[i].place; }};
     }
-    [[nodiscard]] ByModule new_items(const LargeVector<Origin>& origins) const {
+    [[nodiscard]] ItemsByModule new_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules,
                 [&](std::size_t i) { return ancestors[origins[i].place].place; }};
     }
@@ -118,12 +118,12 @@ void divide(std::uint32_t old_item,
     }
 }
 
-std::vector<SegmentPiece> find_pieces(const Followed& followed) {
+std::vector<SegmentPiece> find_pieces(const FollowedDrawings& followed) {
     const Skeleton& before = followed.before;
     const Skeleton& after = followed.after;
     std::vector<SegmentPiece> pieces(after.segments.size());
-    const ByModule old_items = followed.old_items(before.segment_origins);
-    const ByModule new_items = followed.new_items(after.segment_origins);
+    const ItemsByModule old_items = followed.old_items(before.segment_origins);
+    const ItemsByModule new_items = followed.new_items(after.segment_origins);
     for (std::size_t module = 0; module < followed.modules; ++module) {
         const std::span<const std::uint32_t> old_segments = old_items.of(module);
         const std::span<const std::uint32_t> new_segments = new_items.of(module);
@@ -133,7 +133,7 @@ std::vector<SegmentPiece> find_pieces(const Followed& followed) {
         if (followed.is_copy(new_segments.front()) ||
             are_alike(old_segments, new_segments, before, after)) {
             for (std::size_t i = 0; i < std::min(old_segments.size(), new_segments.size()); ++i) {
-                pieces[new_segments[i]].of = old_segments[i];
+                pieces[new_segments[i]].segment = old_segments[i];
             }
             continue;
         }
@@ -144,7 +144,7 @@ std::vector<SegmentPiece> find_pieces(const Followed& followed) {
             continue;
         }
         for (std::size_t i = 0; i < std::min(old_axis.size(), new_axis.size()); ++i) {
-            pieces[new_axis[i]].of = old_axis[i];
+            pieces[new_axis[i]].segment = old_axis[i];
         }
     }
     return pieces;
@@ -153,13 +153,13 @@ std::vector<SegmentPiece> find_pieces(const Followed& followed) {
 /// Pairs the items of each module in order; returns the old item of each new one, or kNone.
 /// fits(old, new): whether the old item can become the new one.
 template <typename Fits>
-std::vector<std::uint32_t> find_pairs(const Followed& followed,
+std::vector<std::uint32_t> find_pairs(const FollowedDrawings& followed,
                                       const LargeVector<Origin>& old_origins,
                                       const LargeVector<Origin>& new_origins,
                                       const Fits& fits) {
     std::vector<std::uint32_t> pairs(new_origins.size(), kNone);
-    const ByModule old_items = followed.old_items(old_origins);
-    const ByModule new_items = followed.new_items(new_origins);
+    const ItemsByModule old_items = followed.old_items(old_origins);
+    const ItemsByModule new_items = followed.new_items(new_origins);
     for (std::size_t module = 0; module < followed.modules; ++module) {
         const std::span<const std::uint32_t> old_items_of_module = old_items.of(module);
         std::size_t next = 0;
@@ -195,7 +195,7 @@ Correspondence find_correspondence(const Skeleton& before,
             modules = std::max<std::size_t>(modules, std::size_t{origin.place} + 1);
         }
     }
-    const Followed followed{before, after, generation, ancestors, modules};
+    const FollowedDrawings followed{before, after, generation, ancestors, modules};
     Correspondence found;
     found.pieces = find_pieces(followed);
     found.objects = find_pairs(

@@ -12,7 +12,7 @@ namespace lsys {
 
 /// A piece of a segment of the earlier drawing, from `low` to `high` of its length.
 struct SegmentPiece {
-    std::uint32_t of = kNoSegment;
+    std::uint32_t segment = kNoSegment;
     float low = 0.0F;
     float high = 1.0F;
 };

@@ -1,4 +1,4 @@
-// Operations that only the turtles of other programs have: Fractint and Houdini.
+// Operations of the turtles of other programs only: Fractint and Houdini.
 #include "runtime/turtle/impl/state.h"
 
 namespace lsys {

@@ -1,5 +1,5 @@
-// Open polygons: begun and not yet ended. Brackets neither save nor end them. A polygon may be
-// begun within another; the corners of all open ones are on one stack.
+// Open polygons: polygons after their `{` and before their `}`. Brackets neither save nor end them.
+// A polygon may begin within another; the corners of all open polygons are on one stack.
 #pragma once
 
 #include "runtime/derive/origin.h"

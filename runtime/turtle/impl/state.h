@@ -43,12 +43,12 @@ struct Brush {
     double second_heading = 0.0;        // degrees from the first heading to the left
     std::uint32_t segment = kNoSegment; // the last one drawn on the path
     ItemColour colour = 0;
-    std::uint16_t colour_index = 0; // the last one
+    std::uint16_t colour_index = 0; // the last index that was set
     std::uint8_t sides = 0;
     bool moved = false; // whether the turtle has moved since `segment` was drawn
 };
 
-/// The last command of a word that is text, executed once the text of its parameter is complete.
+/// The last command read from a word of L3D, executed when the text of its parameter is complete.
 struct PendingCommand {
     static constexpr std::size_t kMaxLength = 1023; // characters of `text`
     bool is_set = false;
@@ -60,7 +60,7 @@ struct PendingCommand {
     std::string text;
 };
 
-/// Brush and pose. They are copied separately, since the walk keeps the pose in registers.
+/// Brush and pose. The walk copies them separately, because it keeps the pose in registers.
 struct TurtleState : Brush {
     Pose pose;
 };
@@ -107,7 +107,7 @@ struct Turtle::State {
                                   std::span<const float> parameters,
                                   std::span<const Origin> origins);
     template <typename C>
-    std::optional<Stop> take(std::span<const C> codes,
+    std::optional<Stop> feed(std::span<const C> codes,
                              std::span<const float> parameters,
                              std::span<const Origin> origins) {
         return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
@@ -172,7 +172,7 @@ struct Turtle::State {
         note(kind);
         return stop(Stop::Diagnosed);
     }
-    /// Runs work(); if it runs out of memory, ends the drawing and returns false.
+    /// Runs work(); if that runs out of memory, ends the drawing and returns false.
     template <typename Work>
     bool within_memory(const Work& work) {
         const auto run = [&] {
@@ -196,7 +196,7 @@ struct Turtle::State {
     Skeleton skeleton;
     TurtleState now;
     std::vector<TurtleState> stack;
-    std::vector<std::size_t> watched; // stack size within each open branch that is watched
+    std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
     OpenPolygons polygons;
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
@@ -208,7 +208,7 @@ struct Turtle::State {
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code
     PendingCommand pending;
-    bool keeps_origins = false; // set only for words that are texts
+    bool keeps_origins = false; // set only for words of L3D
     TurtleTraits traits;
     bool has_tropism = false;
     bool has_second_heading = false; // a module of the bytecode uses the second heading
@@ -253,13 +253,13 @@ inline void Turtle::State::cache_shape(double length, float base_width, float ti
     cached_spring = spring_of_beam(length, a, b, static_cast<double>(settings.elasticity));
 }
 
-/// Mass of a segment without a given one: volume of a truncated cone times the density.
+/// Mass of a segment if the author gives none: volume of a truncated cone times the density.
 inline float Turtle::State::mass_of(double length, float base_width, float tip_width) {
     cache_shape(length, base_width, tip_width);
     return cached_mass;
 }
 
-/// Spring constant of a segment without a given one.
+/// Spring constant of a segment if the author gives none.
 inline float Turtle::State::spring_of(double length, float base_width, float tip_width) {
     if (bytecode.settings.has_spring) {
         return bytecode.settings.spring;

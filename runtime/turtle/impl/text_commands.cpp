@@ -1,5 +1,5 @@
-// Words that are texts (L3D): a `(` directly after a command begins the text of its parameter, up
-// to the first `)`. So a command is executed when the next module, or that `)`, is read.
+// Words of L3D: a `(` directly after a command begins the text of its parameter, up to the first
+// `)`. So a command is executed when the next module, or this `)`, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
 #include "runtime/turtle/impl/state.h"
@@ -18,7 +18,7 @@ float leading_number(std::string_view text) {
     float value = 0.0F;
     const std::size_t digit = text.starts_with('-') && !plus ? 1 : 0;
     if (text.size() > digit && (text[digit] == '.' || (text[digit] >= '0' && text[digit] <= '9'))) {
-        std::from_chars(text.data(), text.data() + text.size(), value); // else it stays 0
+        std::from_chars(text.data(), text.data() + text.size(), value); // 0 if there is no number
     }
     return value;
 }

@@ -60,7 +60,7 @@ def normals(x, y):
 
 
 def blade(x, y):
-    """A leaf of 64 pixels, its base below."""
+    """A leaf of 64 pixels, with its base at the bottom."""
     along = 1 - (y + 0.5) / 64
     aside = abs((x + 0.5) / 64 - 0.5)
     half = 1.7 * along * (1 - along) * (1.15 - 0.6 * along)

@@ -8,11 +8,11 @@ import tempfile
 
 
 class CompilerError(Exception):
-    """lsc is missing or failed; the text says why."""
+    """lsc is missing or failed; the text has the reason."""
 
 
 def find_lsc(named=""):
-    """Path of lsc: `named`, or else the one of PATH. CompilerError: there is none."""
+    """Path of lsc: `named`, or else the first in PATH. CompilerError: there is none."""
     if named:
         if os.path.isfile(named) and os.access(named, os.X_OK):
             return named
@@ -24,7 +24,7 @@ def find_lsc(named=""):
 
 
 def run_lsc(lsc, arguments, seconds):
-    """Standard output and the messages of a run. CompilerError: it failed, with its messages."""
+    """Standard output and the messages of a run. CompilerError: the run failed; the text has its messages."""
     try:
         done = subprocess.run([lsc, *arguments], capture_output=True, text=True, encoding="utf-8",
                               errors="replace", stdin=subprocess.DEVNULL, timeout=seconds, check=False)

@@ -21,11 +21,11 @@ IDENTITY = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
 
 
 class GltfError(Exception):
-    """The file cannot be read here."""
+    """The file cannot be read by this module."""
 
 
 def split_glb(data):
-    """The document and the binary chunk of a GLB. GltfError: no complete GLB of version 2."""
+    """The document and the binary chunk of a GLB. GltfError: the file is no complete GLB of version 2."""
     if len(data) < 20:
         raise GltfError("too short for a GLB")
     magic, version, length = struct.unpack_from("<4sII", data, 0)
@@ -77,7 +77,7 @@ class Placement:
 
     def __init__(self, cell, mesh, is_single, translations, rotations, scales):
         self.cell = cell  # name of the node below the root: the ground, or a square of the ground
-        self.is_single = is_single  # drawn once, as the ground is, without EXT_mesh_gpu_instancing
+        self.is_single = is_single  # drawn once, like the ground, without EXT_mesh_gpu_instancing
         self.mesh = mesh
         self.translations = translations
         self.rotations = rotations

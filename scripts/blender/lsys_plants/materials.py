@@ -7,7 +7,7 @@ REPEAT = 10497
 
 
 def socket(sockets, *names):
-    """The first socket with one of the names: Blender 4.0 renamed some."""
+    """The first socket with one of the names; Blender 4.0 renamed some sockets."""
     for name in names:
         if name in sockets:
             return sockets[name]
@@ -15,7 +15,7 @@ def socket(sockets, *names):
 
 
 class Materials:
-    """Materials of a file, each made when it is first asked for."""
+    """Materials of a file, each made at its first use."""
 
     def __init__(self, bpy, gltf):
         self.bpy = bpy
@@ -116,7 +116,7 @@ class Materials:
         if picture is not None:
             opacity = picture.outputs["Alpha"]
             if mode == "MASK":
-                # Cycles has no alpha clip, so a node, which works in all render engines, applies the threshold.
+                # Cycles has no alpha clip, so a node applies the threshold in all render engines.
                 step = tree.nodes.new("ShaderNodeMath")
                 step.location = (-350, 0)
                 step.operation = "GREATER_THAN"

@@ -16,7 +16,7 @@ from .compiler import CompilerError
 from .gltf import GltfError
 
 FAILURES = (CompilerError, GltfError, OSError)
-#: Seconds without a change before a plant is updated, so that dragging a value runs lsc only once.
+#: A plant is updated after this many seconds without a change, so that dragging a value runs lsc only once.
 DELAY = 0.3
 #: Largest value of an IntProperty in Blender.
 MAX_INT = 2**31 - 1
@@ -39,7 +39,7 @@ class Preferences(bpy.types.AddonPreferences):
 def preferences():
     """Path of lsc and its time limit. CompilerError: there is no lsc."""
     addon = bpy.context.preferences.addons.get(__package__)
-    if addon is None:  # registered by a script instead of being enabled in the preferences
+    if addon is None:  # a script registered the add-on instead of enabling it in the preferences
         return compiler.find_lsc(), 120.0
     return compiler.find_lsc(bpy.path.abspath(addon.preferences.lsc)), addon.preferences.seconds
 
@@ -48,7 +48,7 @@ pending = set()  # names of collections with changes that wait for the timer
 
 
 class PausedUpdates:
-    """A `with` in which changes of settings do not update plants."""
+    """A `with` block in which changes of settings do not update plants."""
 
     depth = 0
 
@@ -118,7 +118,7 @@ class Parameter(bpy.types.PropertyGroup):
 
 
 class Settings(bpy.types.PropertyGroup):
-    """What a plant or forest is made from."""
+    """The settings of a plant or forest."""
 
     kind: EnumProperty(items=(("NONE", "None", ""), ("PLANT", "Plant", "One plant of a grammar"),
                               ("FOREST", "Forest", "A scene, or many plants of a grammar")))
@@ -170,7 +170,7 @@ def read_file(collection, keep):
         settings.parameters.clear()
         for one in told["parameters"]:
             if "value" not in one:
-                continue  # a random constant, which follows from the seed
+                continue  # a random constant, which depends on the seed
             parameter = settings.parameters.add()
             parameter.name = one["name"]
             parameter.default = one["value"]
@@ -245,7 +245,7 @@ def current(context):
 
 
 class Runner:
-    """What operators share: errors become reports with the text of lsc."""
+    """Base of the operators: errors become reports with the text of lsc."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -265,7 +265,7 @@ class Runner:
 
 
 class Creator(Runner, ImportHelper):
-    """Makes a new collection and fills it; none is left after an error."""
+    """Makes a new collection and fills it; an error removes the collection."""
 
     def execute(self, context):
         def create():

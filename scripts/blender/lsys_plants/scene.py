@@ -1,4 +1,4 @@
-"""Makes the objects of plants and forests. A failure leaves the file as it was.
+"""Makes the objects of plants and forests. A failure does not change the file.
 
 Written for Blender 3.4; what differs in 4.0 to 4.5 follows the release notes of Blender, and was not run there.
 """
@@ -12,12 +12,12 @@ from .materials import Materials
 
 #: Kinds of data that an import makes, in the order in which they are removed.
 KINDS = ("collections", "objects", "meshes", "armatures", "node_groups", "materials", "images", "actions")
-#: If a forest has more squares of ground than this, all share one cloud of points.
+#: If a forest has more squares of ground than this, all squares share one cloud of points.
 MAX_CLOUDS = 200
 
 
 class Changes:
-    """Data made within a `with`. All of it is removed after an exception."""
+    """Data made within a `with` block; an exception removes all of it."""
 
     def __enter__(self):
         self.before = {kind: set(getattr(bpy.data, kind)) for kind in KINDS}
@@ -85,7 +85,7 @@ class MeshMaker:
         return self.made[number]
 
     def make(self, number):
-        """Makes a mesh with only the vertices that its triangles use, since meshes of the file may share arrays."""
+        """Makes a mesh with only the vertices that its triangles use, because meshes of the file may share arrays."""
         name, primitives = self.gltf.primitives(number)
         sets = {}
         for attributes, indices, material in primitives:
@@ -186,7 +186,7 @@ def make_instancer(sources):
 
 
 def make_cloud(name, placements, numbers, group):
-    """An object with one point per instance. `numbers`: by mesh, its index in the collection of branches."""
+    """An object with one point per instance. `numbers`: for each mesh, its index in the collection of branches."""
     mesh = bpy.data.meshes.new(name)
     count = sum(len(p) for p in placements)
     joined = [numpy.concatenate([numpy.array(getattr(p, part), dtype=numpy.float32) for p in placements])
@@ -281,7 +281,7 @@ def anchor_of(collection):
 
 
 def clear(collection, keep):
-    """Removes all objects of a plant except `keep`, and the data that nothing else uses."""
+    """Removes all objects of a plant except `keep`, and data without other users."""
     objects = [o for o in collection.all_objects if o not in keep]
     children = [c for c in collection.children_recursive]
     data, images = set(), set()

@@ -17,7 +17,7 @@ bool positive_zero(float x) {
 }
 } // namespace
 
-TEST_CASE("sine and cosine are exact at multiples of 90 degrees, however far") {
+TEST_CASE("sine and cosine are exact at all multiples of 90 degrees, also large ones") {
     for (const float turns : {0.0F, 360.0F, -360.0F, 720.0F, 3.6e6F, -3.6e6F}) {
         CHECK(positive_zero(a::sine(turns)));
         CHECK(positive_zero(a::sine(turns + 180.0F)));
@@ -44,7 +44,7 @@ TEST_CASE("the tangent is infinite at odd multiples of 90 degrees") {
     CHECK(a::tangent(45.0F) == 1.0F);
 }
 
-TEST_CASE("angles that are no numbers have no sine") {
+TEST_CASE("the sine of a NaN or of infinity is NaN") {
     CHECK(std::isnan(a::sine(kInfinity)));
     CHECK(std::isnan(a::cosine(-kInfinity)));
     CHECK(std::isnan(a::tangent(kNan)));
@@ -58,14 +58,14 @@ TEST_CASE("inverse functions yield degrees") {
     CHECK(std::isnan(a::arc_sine(2.0F)));
 }
 
-TEST_CASE("powers are those of binary64 rounded once") {
+TEST_CASE("a power is computed in binary64 and rounded once") {
     CHECK(a::power(2.0F, 10.0F) == 1024.0F);
     CHECK(a::power(0.0F, -1.0F) == kInfinity);
     CHECK(std::isnan(a::power(-2.0F, 0.5F)));
     CHECK(a::power(1.1F, 2.0F) == static_cast<float>(std::pow(static_cast<double>(1.1F), 2.0)));
 }
 
-TEST_CASE("logic treats what is not a number as true") {
+TEST_CASE("logical operators treat NaN as true") {
     CHECK(a::logical_not(0.0F) == 1.0F);
     CHECK(a::logical_not(-0.0F) == 1.0F);
     CHECK(a::logical_not(kNan) == 0.0F);

@@ -28,7 +28,7 @@ TEST_CASE("a curve of two points is the line through them") {
     CHECK(std::isnan(curve_value(line, std::nanf(""))));
 }
 
-TEST_CASE("a curve meets its points and stays between them") {
+TEST_CASE("a curve passes through its points and stays between neighbouring ones") {
     const std::vector<CurveKnot> points = curve(
         {{0.0F, 0.0F}, {1.0F, 0.1F}, {1.5F, 4.0F}, {3.0F, 4.0F}, {4.0F, -1.0F}, {9.0F, 0.0F}});
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -49,7 +49,7 @@ TEST_CASE("a curve meets its points and stays between them") {
     }
 }
 
-TEST_CASE("slopes are those of the method") {
+TEST_CASE("slopes are those of Fritsch and Carlson") {
     const std::vector<CurveKnot> points =
         curve({{0.0F, 0.0F}, {1.0F, 0.0F}, {2.0F, 1.0F}, {3.0F, 3.0F}, {4.0F, 3.5F}});
     CHECK(points[0].slope == 0.0);

@@ -97,7 +97,7 @@ private:
 
 } // namespace
 
-TEST_CASE("every field that affects the word changes the digest, and no other") {
+TEST_CASE("every field that affects the word changes the digest, and no other field does") {
     const std::uint64_t known = digest(test::small_bytecode());
     std::size_t inside = 0;
     std::size_t outside = 0;
@@ -117,7 +117,7 @@ TEST_CASE("every field that affects the word changes the digest, and no other") 
     CHECK(outside > 80);
 }
 
-TEST_CASE("the digest follows what decides the word and nothing else") {
+TEST_CASE("the digest depends on the inputs of the derivation and on nothing else") {
     const Bytecode bytecode = test::small_bytecode();
     const auto changed = [&](const std::function<void(Bytecode&)>& change) {
         Bytecode other = bytecode;
@@ -139,7 +139,7 @@ TEST_CASE("the digest follows what decides the word and nothing else") {
     CHECK(changed([](Bytecode& b) { b.axioms.front().draw_position = 7; }));
 }
 
-TEST_CASE("settings change the digest where they change the word") {
+TEST_CASE("a setting changes the digest if it changes the word") {
     const auto changed = [](const std::function<void(Settings&)>& change) {
         Bytecode bytecode = test::small_bytecode();
         const std::uint64_t before = digest(bytecode);

@@ -84,14 +84,14 @@ TEST_CASE("a domain of formulas sees every operation with its operands in order"
                                    "({1, (f0 max 2)}0 add f0)"});
 }
 
-TEST_CASE("an operand that is computed first is exchanged with the other") {
+TEST_CASE("if the right operand is computed first, the operands are exchanged") {
     const std::vector<std::uint32_t> code{encode(Opcode::Formal, 1), encode(Opcode::BranchDraw, 4),
                                           encode(Opcode::Swap, 0),   encode(Opcode::Power, 0),
                                           encode(Opcode::Emit, 0),   encode(Opcode::End, 0)};
     CHECK(run(code).taken == std::vector<std::string>{"(b4 power f1)"});
 }
 
-TEST_CASE("a domain stops the walk before an instruction, at a range and at a taken value") {
+TEST_CASE("a domain can stop the walk before an instruction, at a range and at a consumed value") {
     const std::vector<std::uint32_t> code = compiled({"x + y", "y"});
     CHECK(run(code, 7).finished);
     CHECK_FALSE(run(code, 6).finished);
@@ -105,8 +105,8 @@ TEST_CASE("a domain stops the walk before an instruction, at a range and at a ta
     CHECK_FALSE(run({encode(Opcode::Formal, 0), encode(Opcode::Test, 0)}).finished);
 }
 
-TEST_CASE("code needs room for its leaves, and never for more than a verified stack") {
-    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // End takes one place too
+TEST_CASE("code needs stack for its leaves, and never more than the verified depth") {
+    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // End takes one stack slot too
     std::string sum = "x";
     for (std::uint32_t i = 0; i < 2 * kUsualStack; ++i) {
         sum += " + x";
@@ -114,7 +114,7 @@ TEST_CASE("code needs room for its leaves, and never for more than a verified st
     CHECK(stack_room(compiled({sum}), 0) == kUsualStack);
 }
 
-TEST_CASE("nothing is known of any value in the domain from which others derive") {
+TEST_CASE("every value is unknown in UnknownDomain") {
     struct Nothing {};
     UnknownDomain<Nothing> domain;
     std::vector<Nothing> stack(kUsualStack);

@@ -15,8 +15,8 @@ std::string refusal(std::string_view bytes) {
     return result ? "accepted" : result.error().message;
 }
 
-/// `bytes` with one byte changed and the checksum corrected, so that only other checks of the
-/// reader can refuse the file.
+/// `bytes` with one byte changed and the checksum corrected, so that the other checks of the reader
+/// must refuse the file.
 std::string with_byte(std::string bytes, std::size_t offset, char value) {
     bytes[offset] = value;
     const std::uint64_t sum = checksum(std::string_view(bytes).substr(32));
@@ -28,7 +28,7 @@ std::string with_byte(std::string bytes, std::size_t offset, char value) {
 
 } // namespace
 
-TEST_CASE("a module file reads back as what was written") {
+TEST_CASE("a module file is read back as it was written") {
     const Bytecode bytecode = test::small_bytecode();
     REQUIRE(verify(bytecode) == std::nullopt);
     const std::string bytes = write_module_file(bytecode);
@@ -44,8 +44,8 @@ TEST_CASE("a module file reads back as what was written") {
     CHECK(read.value().template_places[1].stride == 2);
 }
 
-TEST_CASE("the bytes of a module file belong to its version") {
-    // Where this number changes, older and newer files are not alike: raise kModuleFileVersion.
+TEST_CASE("the bytes of a module file change only with its version") {
+    // If this number changes, the format of the file has changed: increase kModuleFileVersion.
     REQUIRE(kModuleFileVersion == 10);
     CHECK(checksum(write_module_file(test::small_bytecode())) == 0x4345535125A94214);
 }
@@ -72,7 +72,7 @@ TEST_CASE("every change of one byte of a module file is refused") {
     }
 }
 
-TEST_CASE("foreign, older, newer and longer files are told apart") {
+TEST_CASE("foreign, older, newer and longer files have different errors") {
     const std::string bytes = write_module_file(test::small_bytecode());
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
@@ -88,7 +88,7 @@ TEST_CASE("foreign, older, newer and longer files are told apart") {
     CHECK(refusal(damaged) == "the file is damaged: its checksum does not fit");
 }
 
-TEST_CASE("contents with a fitting checksum are still checked") {
+TEST_CASE("contents with a correct checksum are still checked") {
     const std::string bytes = write_module_file(test::small_bytecode());
     std::uint32_t refused = 0;
     for (std::size_t at = 32; at < bytes.size(); ++at) {
@@ -105,7 +105,7 @@ TEST_CASE("contents with a fitting checksum are still checked") {
     CHECK(refused > bytes.size());
 }
 
-TEST_CASE("random bytes after a good header are refused without harm") {
+TEST_CASE("random bytes after a valid header are refused without a crash") {
     std::mt19937 random(7);
     for (int round = 0; round < 2'000; ++round) {
         std::string bytes = write_module_file(test::small_bytecode());

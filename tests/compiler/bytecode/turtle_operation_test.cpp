@@ -7,7 +7,7 @@
 
 using namespace lsys;
 
-TEST_CASE("every operation of the turtle has a name of its own and tells its parameters") {
+TEST_CASE("every operation of the turtle has a unique name and states its parameters") {
     std::set<std::string_view> names;
     for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
         const TurtleInfo& row = info(operation);
@@ -18,7 +18,7 @@ TEST_CASE("every operation of the turtle has a name of its own and tells its par
     }
 }
 
-TEST_CASE("only turns by an angle turn") {
+TEST_CASE("only the rotations by an angle count as turns") {
     std::string turning;
     for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
         turning += turns(operation) ? std::string(name_of(operation)) + ' ' : "";

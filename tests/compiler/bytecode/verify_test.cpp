@@ -68,7 +68,7 @@ TEST_CASE("heads are checked") {
           "1 rules and 2 groups are named, 1 and 1 found");
 }
 
-TEST_CASE("several modules are rewritten in the modes that read by rules only") {
+TEST_CASE("predecessors of several modules are allowed in the modes with rules only") {
     const auto two = [](Bytecode& b) {
         for (BytecodeProduction& p : b.productions) {
             p.predecessor.count = 2;
@@ -186,7 +186,7 @@ TEST_CASE("places of modules are checked") {
           "the modules of production 1 have no places");
 }
 
-TEST_CASE("a module's writer and place are found") {
+TEST_CASE("the production that wrote a module and the place of the module are found") {
     const Bytecode bytecode = test::small_bytecode();
     CHECK(writer_of(bytecode, 2) == kNoProduction);
     CHECK(writer_of(bytecode, 3) == ProductionId{0});

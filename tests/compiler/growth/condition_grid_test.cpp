@@ -71,7 +71,7 @@ TEST_CASE("order indices number the finite values without gaps") {
     }
 }
 
-TEST_CASE("a comparison cuts its parameter between neighbouring numbers") {
+TEST_CASE("a comparison splits the range of its parameter between neighbouring numbers") {
     const auto less = grid_of("x < 2", 1);
     REQUIRE(less);
     REQUIRE(less->axes.size() == 1);
@@ -87,7 +87,7 @@ TEST_CASE("a comparison cuts its parameter between neighbouring numbers") {
     CHECK(equal->axes[0].cells[1].high == 2.0F);
 }
 
-TEST_CASE("monotone expressions are cut exactly where rounding changes them") {
+TEST_CASE("monotone expressions are split exactly where rounding changes them") {
     const auto grid = grid_of("0.1 * x - 1 >= 0", 1);
     REQUIRE(grid);
     REQUIRE(grid->axes[0].cells.size() == 2);
@@ -102,7 +102,8 @@ TEST_CASE("monotone expressions are cut exactly where rounding changes them") {
     CHECK(3.0F - falling->axes[0].cells[0].high >= 1.0F);
 }
 
-TEST_CASE("several parameters make a product, compared ones are tried in every order") {
+TEST_CASE(
+    "several parameters make a product grid, and compared parameters are tried in every order") {
     const auto product = grid_of("x < 2 && y > 3", 2);
     REQUIRE(product);
     CHECK(product->point_count() == 4);
@@ -133,7 +134,7 @@ TEST_CASE("conditions of other forms have no grid") {
     CHECK(!grid_of("x < c", 1));
 }
 
-TEST_CASE("a deeper right operand, computed first, makes the same cuts and values") {
+TEST_CASE("a deeper right operand, computed first, gives the same splits and values") {
     const auto op = [](Opcode opcode, std::uint32_t operand = 0) {
         return encode(opcode, operand);
     };
@@ -187,7 +188,7 @@ TEST_CASE("a grid that would be too large is not made") {
     CHECK(!grid_of(lay(conditions), 2));
 }
 
-// --- every cell keeps the truth of every condition
+// --- every condition has the same truth value in a whole cell
 
 struct Random {
     std::mt19937 engine;
@@ -228,7 +229,7 @@ std::string random_condition(Random& random, std::uint32_t formals, int depth) {
            std::to_string(static_cast<float>(random() % 9) / 2.0F);
 }
 
-TEST_CASE("a condition has one truth in every cell, and in every order of compared parameters") {
+TEST_CASE("a condition has one truth value in each cell and in each order of compared parameters") {
     Random random{std::mt19937(20'240'607)};
     Evaluator evaluator;
     int grids = 0;

@@ -103,14 +103,14 @@ TEST_CASE("conditions over known parameters are probabilities_known") {
                                    265'717, 797'158, 2'391'481, 2'391'481});
 }
 
-TEST_CASE("conditions whose deeper operand is computed first are probabilities_known") {
+TEST_CASE("conditions with a deeper right operand, computed first, are decided") {
     std::string depth = "x"; // 1 - (1 - (... x)), which is x after an even number of levels
     for (int i = 0; i < 200; ++i) {
         depth = "(1 - " + depth + ")";
     }
     const test::Compiled c =
         test::compile_text("#w : A(3);\n#p : A(x) : " + depth + " > 0 : A(x - 1) F;\n");
-    CAPTURE(c.said());
+    CAPTURE(c.reports());
     REQUIRE(c.outcome.bytecode);
     const std::vector<std::uint32_t>& code = c.outcome.bytecode->instructions;
     REQUIRE(std::find(code.begin(), code.end(), encode(Opcode::Swap, 0)) != code.end());
@@ -127,24 +127,24 @@ TEST_CASE("parameters, segments and bytes are predicted with the modules") {
     CHECK(predict_growth(weed(), 9).low.back().segments.value == 392'448);
 }
 
-TEST_CASE("stochastic systems have bounds that are reached, and an expectation") {
+TEST_CASE("stochastic systems have bounds that are reached, and an expected value") {
     const GrowthPrediction prediction = predict_growth(bush(), 10);
     CHECK(!prediction.exact);
     REQUIRE(prediction.has_expected);
     CHECK(prediction.expected_modules[10] == Approx(1'078'326).epsilon(1e-3));
     // The smallest word arises if every choice takes F[+F]F: 3^g F, and one + [ ] for each F that
     // was rewritten.
-    std::uint64_t least = 1;
-    std::uint64_t most = 1;
+    std::uint64_t min_modules = 1;
+    std::uint64_t max_modules = 1;
     std::uint64_t least_f = 1;
     std::uint64_t most_f = 1;
     for (std::uint32_t g = 0; g <= 10; ++g) {
         INFO("generation " << g);
-        CHECK(to_text(prediction.low[g].modules) == to_text(exactly(least)));
-        CHECK(to_text(prediction.high[g].modules) == to_text(exactly(most)));
-        least += 2 * least_f + 3 * least_f;
+        CHECK(to_text(prediction.low[g].modules) == to_text(exactly(min_modules)));
+        CHECK(to_text(prediction.high[g].modules) == to_text(exactly(max_modules)));
+        min_modules += 2 * least_f + 3 * least_f;
         least_f *= 3;
-        most += 4 * most_f + 6 * most_f;
+        max_modules += 4 * most_f + 6 * most_f;
         most_f *= 5;
     }
 }
@@ -154,7 +154,7 @@ TEST_CASE("a stochastic system whose successors are equally long is exact") {
 }
 
 TEST_CASE(
-    "parameters that are drawn leave bounds, without a copied module where conditions cover all") {
+    "random parameters give bounds, without unchanged modules if conditions cover all cases") {
     const GrowthPrediction prediction = predict_growth(ageing("A({11, 12})"), 3);
     CHECK(!prediction.exact);
     CHECK(!prediction.has_expected);
@@ -165,7 +165,7 @@ TEST_CASE(
     CHECK(prediction.low[1].segments.value == 1);
 }
 
-TEST_CASE("conditions with a gap may leave a module as it is") {
+TEST_CASE("conditions that do not cover all cases may leave a module unchanged") {
     const GrowthPrediction prediction =
         predict_growth(system("A({0, 4})", {"A(x) : x > 2 : B B B", "A(x) : x < 2 : B B B"}), 2);
     CHECK(prediction.low[2].modules.value == 1);
@@ -180,7 +180,7 @@ TEST_CASE("contexts may match or not") {
     CHECK(prediction.exact); // `a` stays or becomes `b`: one module in both cases
 }
 
-TEST_CASE("sequential rewriting makes a pass of each rule in turn") {
+TEST_CASE("sequential rewriting makes one pass for each rule in order") {
     // The pass of B reads the word that the pass of A wrote.
     check_counts(system("A", {"A : * : B B", "B : * : A C A"}, RewritingMode::Sequential),
                  {1, 6, 26});
@@ -191,7 +191,7 @@ TEST_CASE("cyclic rewriting makes one pass a generation") {
                  {1, 2, 6, 10, 26});
 }
 
-TEST_CASE("predecessors of several modules match from never to as often as they fit") {
+TEST_CASE("predecessors of several modules match between zero times and as often as they fit") {
     const GrowthPrediction prediction =
         predict_growth(system("A B A B C", {"A B : * : A"}, RewritingMode::Sequential), 1);
     // The actual step is A B A B C -> A A C.
@@ -204,11 +204,11 @@ TEST_CASE("conditions may depend on the generation") {
     check_counts(system("A", {"A : step() < 3 : A B"}), {1, 2, 3, 4, 4, 4});
 }
 
-TEST_CASE("conditions may depend on the number of generations asked for") {
+TEST_CASE("conditions may depend on the requested number of generations") {
     check_counts(system("A", {"A : step() < steps() - 1 : A B"}), {1, 2, 3, 3});
 }
 
-TEST_CASE("a word that stays is found") {
+TEST_CASE("a word that no longer changes is detected") {
     const GrowthPrediction prediction =
         predict_growth(system("A(3)", {"A(x) : x > 0 : A(x - 1) B"}), 100'000'000);
     CHECK(prediction.exact);
@@ -221,7 +221,7 @@ TEST_CASE("a word that stays is found") {
     CHECK(!predict_growth(koch(), 3).unchanged_from);
 }
 
-TEST_CASE("the last of very many generations is found by powers") {
+TEST_CASE("a generation after very many others is computed by matrix powers") {
     const GrowthPrediction line = predict_growth(system("A", {"A : * : A B"}), 4'294'967'294U);
     REQUIRE(line.has_last);
     CHECK(to_text(line.last_low.modules) == "4,294,967,295");
@@ -232,7 +232,7 @@ TEST_CASE("the last of very many generations is found by powers") {
     CHECK(curve.last_low.modules.approximate_log2() == Approx(4e9 * 2.321928094887362 + 1));
 }
 
-TEST_CASE("many generations of one condition are told apart up to a number, then bounded") {
+TEST_CASE("a counter is predicted exactly for thousands of generations, then bounded") {
     const GrowthPrediction prediction =
         predict_growth(system("A(0)", {"A(x) : x < 9000 : A(x + 1) B"}), 9'500);
     CHECK(!prediction.exact);
@@ -273,7 +273,7 @@ TEST_CASE("a limit that is reached after very many generations is found") {
     CHECK(limit->dominant == ProductionId{0});
 }
 
-TEST_CASE("a bound that grows only perhaps is no limit") {
+TEST_CASE("no generation exceeds the limit for certain if only the upper bound does") {
     CHECK(!find_growth_limit(system("b a", {"b < a : * : a a"}), 1'000, 100));
 }
 

@@ -21,7 +21,7 @@ static_assert(divide(Uint128(1, 0), 10).remainder == 6);
 static_assert(!checked_add(Uint128(kMax, kMax), 1));
 static_assert(!checked_multiply(Uint128(1, 0), Uint128(1, 0)));
 
-/// A random number; all magnitudes occur.
+/// A random number of any magnitude.
 Uint128 any_number(std::mt19937_64& random) {
     const Uint128 bits(random(), random());
     const auto cut = static_cast<int>(random() % 128);

@@ -13,7 +13,7 @@ namespace {
 
 Bytecode lowered(const std::string& text) {
     test::Compiled c = compile_text(text);
-    CAPTURE(text, c.said());
+    CAPTURE(text, c.reports());
     REQUIRE(c.outcome.bytecode);
     CHECK(verify(*c.outcome.bytecode) == std::nullopt);
     return *std::move(c.outcome.bytecode);
@@ -34,7 +34,7 @@ std::vector<Opcode> code_at(const Bytecode& b, std::uint32_t first) {
 
 } // namespace
 
-TEST_CASE("modules of constant arguments become codes of their own and store nothing") {
+TEST_CASE("modules with constant arguments become codes of their own without stored parameters") {
     const Bytecode b = lowered("#w : F(1) +(22.5) F(1) F(2);\n"
                                "#p : F(x) : * : F(x) F(1) +(22.5) +(x);\n");
     REQUIRE(b.symbols.size() == 2);
@@ -58,7 +58,7 @@ TEST_CASE("folding stops where a wider code would be needed") {
     CHECK(codes_of(b, b.axioms.front().word).back() == 8);
 }
 
-TEST_CASE("negative zero is another constant than zero") {
+TEST_CASE("negative zero and zero are different constants") {
     const Bytecode b = lowered("#w : F(0) F(-0) F(0);");
     CHECK(b.folded.size() == 2);
 }
@@ -85,7 +85,7 @@ TEST_CASE("a deep right operand is computed first and exchanged") {
     CHECK(swaps > 900);
 }
 
-TEST_CASE("every value that can fail knows its place") {
+TEST_CASE("every value that can fail has its place") {
     const Bytecode b = lowered("#define g {1, 2};\n"
                                "#w : F(g);\n"
                                "#p : F(x) : x > 1 : F(1) F(x * 2) F({0, x} + 1);\n");
@@ -111,7 +111,7 @@ TEST_CASE("every value that can fail knows its place") {
     CHECK(b.sites[p.name_site].column == 2);
 }
 
-TEST_CASE("a program is the same after a file, and its dumps are total") {
+TEST_CASE("a program read from a file is the same, and its dumps are complete") {
     const test::Compiled c = compile_text("#set tropism 0 -1 0 0.2;\n"
                                           "#set rewriting sequential;\n"
                                           "#define g {1, 2};\n"
@@ -150,7 +150,7 @@ TEST_CASE("compiling twice gives the same bytes") {
     CHECK(write_module_file(lowered(text)) == write_module_file(lowered(text)));
 }
 
-TEST_CASE("nothing is lowered where there are errors, or when it is not wanted") {
+TEST_CASE("nothing is lowered if there are errors or if lowering is not requested") {
     const test::Compiled wrong = compile_text("#w : F(x);");
     CHECK_FALSE(wrong.outcome.program);
     CHECK_FALSE(wrong.outcome.bytecode);

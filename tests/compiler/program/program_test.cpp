@@ -18,7 +18,7 @@ TEST_CASE("productions are listed by the symbols of their predecessors and of th
                                                 "#w : A B;\n"
                                                 "#p : A B : * : B A A;\n"
                                                 "#q : B : * : C;\n");
-    CAPTURE(c.said());
+    CAPTURE(c.reports());
     REQUIRE(c.outcome.program);
     const GroupedLists rewriters = rewriters_of(*c.outcome.program);
     CHECK(copied(rewriters[0]) == std::vector<std::uint32_t>{0});
@@ -33,7 +33,7 @@ TEST_CASE("productions are listed by the symbols of their predecessors and of th
 TEST_CASE("a walk over the expressions of a production visits each node") {
     const test::Compiled c = test::compile_text("#w : A(1, 2);\n"
                                                 "#p : A(x, y) : x < y * y : A(x + 1, -y);\n");
-    CAPTURE(c.said());
+    CAPTURE(c.reports());
     REQUIRE(c.outcome.program);
     const Program& program = *c.outcome.program;
     const Production& production = program.productions[0];

@@ -4,9 +4,9 @@
 
 using namespace lsys;
 using test::compile_text;
-using Said = std::vector<std::string>;
+using Reports = std::vector<std::string>;
 
-TEST_CASE("generations are a whole number in range") {
+TEST_CASE("the number of generations is a whole number in range") {
     const auto generations = [](const std::string& value) {
         const test::Compiled c = compile_text("#n = " + value + ";\n#w : F;\n");
         return c.outcome.program ? c.outcome.program->generations : std::nullopt;
@@ -21,12 +21,12 @@ TEST_CASE("generations are a whole number in range") {
     for (const char* wrong : {"3.5", "-1", "1 / 0", "1e30", "0 / 0"}) {
         const test::Compiled c = compile_text("#n = " + std::string(wrong) + ";\n#w : F;\n");
         CAPTURE(wrong);
-        CHECK(c.errors() == Said{"bad-generations 1:6"});
+        CHECK(c.errors() == Reports{"bad-generations 1:6"});
     }
-    CHECK(compile_text("#n = 0;\n#w : F;\n").said() == Said{"zero-generations 1:6"});
+    CHECK(compile_text("#n = 0;\n#w : F;\n").reports() == Reports{"zero-generations 1:6"});
 }
 
-TEST_CASE("a missing axiom or number of generations is told at the end of the text") {
+TEST_CASE("a missing axiom or number of generations is reported at the end of the text") {
     CompileOptions options;
     const auto without = [](const std::string& text) {
         SourceMap sources;
@@ -38,31 +38,32 @@ TEST_CASE("a missing axiom or number of generations is told at the end of the te
         };
         Ast ast = parse_lsys(root, {sources, names, diagnostics, load});
         static_cast<void>(compile(std::move(ast), names, sources, {}, diagnostics));
-        Said said;
+        Reports codes;
         for (const Diagnostic& d : diagnostics.all()) {
-            said.emplace_back(info(d.code).name);
+            codes.emplace_back(info(d.code).name);
         }
-        return said;
+        return codes;
     };
-    CHECK(without("#w : F;\n") == Said{"missing-generations"});
-    CHECK(without("#n = 1;\n#p : F : * : F;\n") == Said{"missing-axiom"});
-    CHECK(without("#n = 1;\n#w : ;\n") == Said{"empty-axiom"});
+    CHECK(without("#w : F;\n") == Reports{"missing-generations"});
+    CHECK(without("#n = 1;\n#p : F : * : F;\n") == Reports{"missing-axiom"});
+    CHECK(without("#n = 1;\n#w : ;\n") == Reports{"empty-axiom"});
     // The statements are missing because they did not parse.
     CHECK(without("#n = 1 1;\n#w : F(1 1);\n").size() == 2);
-    CHECK(compile_text("#w : F;\n").said().empty()); // -n is given
+    CHECK(compile_text("#w : F;\n").reports().empty()); // -n is given
 }
 
-TEST_CASE("what may stand once is an error the second time") {
-    CHECK(compile_text("#n = 1;\n#n = 2;\n#w : F;\n").said() == Said{"duplicate-statement 2:1"});
-    CHECK(compile_text("#w : F;\n#w : f;\n").said() == Said{"duplicate-statement 2:1"});
-    CHECK(compile_text("#define a 1;\n#define a 2;\n#w : F(a);\n").said() ==
-          Said{"duplicate-statement 2:9"});
-    CHECK(compile_text("#define a 1;\n#param a 2 {1, 3};\n#w : F(a);\n").said() ==
-          Said{"duplicate-statement 2:8"});
-    CHECK(compile_text("#set step 1;\n#set step 2;\n#w : F;\n").said() ==
-          Said{"duplicate-statement 2:6"});
-    CHECK(compile_text("#w : A;\n#p : A : * : F;\n#p : F : * : F F;\n").said() ==
-          Said{"duplicate-statement 3:2"});
+TEST_CASE("a second definition of the same name or statement is an error") {
+    CHECK(compile_text("#n = 1;\n#n = 2;\n#w : F;\n").reports() ==
+          Reports{"duplicate-statement 2:1"});
+    CHECK(compile_text("#w : F;\n#w : f;\n").reports() == Reports{"duplicate-statement 2:1"});
+    CHECK(compile_text("#define a 1;\n#define a 2;\n#w : F(a);\n").reports() ==
+          Reports{"duplicate-statement 2:9"});
+    CHECK(compile_text("#define a 1;\n#param a 2 {1, 3};\n#w : F(a);\n").reports() ==
+          Reports{"duplicate-statement 2:8"});
+    CHECK(compile_text("#set step 1;\n#set step 2;\n#w : F;\n").reports() ==
+          Reports{"duplicate-statement 2:6"});
+    CHECK(compile_text("#w : A;\n#p : A : * : F;\n#p : F : * : F F;\n").reports() ==
+          Reports{"duplicate-statement 3:2"});
     CHECK(compile_text("#define a 1;\n#module a;\n#w : a F(a);\n#a : F(x) : * : a;\n")
               .errors()
               .empty()); // constants, modules and labels have separate name spaces
@@ -88,24 +89,24 @@ TEST_CASE("a definition of the command line replaces the expression") {
     CHECK(c.outcome.unknown_definitions.empty());
 }
 
-TEST_CASE("names of the command line that nothing defines are handed out") {
+TEST_CASE("names of -D that the grammar does not define are returned") {
     CompileOptions options;
     options.definitions = {{"a", 5.0F}, {"F", 1.0F}, {"no", 2.0F}};
     const test::Compiled c = compile_text("#define a 1;\n#w : F(a);\n", options);
-    CHECK(c.outcome.unknown_definitions == Said{"F", "no"});
-    CHECK(c.said().empty());
+    CHECK(c.outcome.unknown_definitions == Reports{"F", "no"});
+    CHECK(c.reports().empty());
 }
 
-TEST_CASE("a parameter keeps to its bounds") {
-    CHECK(compile_text("#param a 2 {1, 3};\n#w : F(a);\n").said().empty());
-    CHECK(compile_text("#param a 4 {1, 3};\n#w : F(a);\n").said() ==
-          Said{"bad-parameter-bounds 1:10"});
-    CHECK(compile_text("#param a 2 {3, 1};\n#w : F(a);\n").said() ==
-          Said{"bad-parameter-bounds 1:12"});
+TEST_CASE("a parameter must be within its bounds") {
+    CHECK(compile_text("#param a 2 {1, 3};\n#w : F(a);\n").reports().empty());
+    CHECK(compile_text("#param a 4 {1, 3};\n#w : F(a);\n").reports() ==
+          Reports{"bad-parameter-bounds 1:10"});
+    CHECK(compile_text("#param a 2 {3, 1};\n#w : F(a);\n").reports() ==
+          Reports{"bad-parameter-bounds 1:12"});
     CompileOptions options;
     options.definitions = {{"a", 9.0F}};
     const test::Compiled c = compile_text("#param a 2 {1, 3};\n#w : F(a);\n", options);
-    CHECK(c.said() == Said{"bad-parameter-bounds 1:8"});
+    CHECK(c.reports() == Reports{"bad-parameter-bounds 1:8"});
     CHECK(c.message(DiagnosticCode::BadParameterBounds) ==
           "9, given by -D, is outside the bounds 1 to 3 of `a`");
     const test::Compiled drawn = compile_text("#param a {0, 9} {1, 3};\n#w : F(a);\n");
@@ -133,7 +134,7 @@ TEST_CASE("ranges of definitions and axiom are numbered in the order of the text
     CHECK(globals[2].draw_count == 0);
 }
 
-TEST_CASE("settings are read, whatever their order") {
+TEST_CASE("settings are read in any order") {
     const test::Compiled c = compile_text("#define a 30;\n"
                                           "#set angle a;\n"
                                           "#set step -2.5;\n"
@@ -163,7 +164,7 @@ TEST_CASE("settings are read, whatever their order") {
     CHECK(s.turtle == TurtleProfile::Abop);
 }
 
-TEST_CASE("unknown keys and values name the nearest") {
+TEST_CASE("messages about unknown keys and values name the most similar one") {
     const auto help = [](const std::string& text, DiagnosticCode code) {
         const test::Compiled c = compile_text(text + "\n#w : F;\n");
         const Diagnostic* found = c.find(code);
@@ -177,13 +178,13 @@ TEST_CASE("unknown keys and values name the nearest") {
     const auto errors = [](const std::string& text) {
         return compile_text(text + "\n#w : F;\n").errors();
     };
-    CHECK(errors("#set sides 2;") == Said{"bad-setting 1:12"});
-    CHECK(errors("#set sides 3.5;") == Said{"bad-setting 1:12"});
-    CHECK(errors("#set angle;") == Said{"bad-setting 1:6"});
-    CHECK(errors("#set angle 1 2;") == Said{"bad-setting 1:6"});
-    CHECK(errors("#set tropism 1 2 3;") == Said{"bad-setting 1:6"});
-    CHECK(errors("#set seed -1;") == Said{"bad-setting 1:11"});
-    CHECK(errors("#set seed 1.5;") == Said{"bad-setting 1:11"});
-    CHECK(errors("#set width -1;") == Said{"bad-setting 1:12"});
-    CHECK(errors("#set step big;") == Said{"unknown-name 1:11"});
+    CHECK(errors("#set sides 2;") == Reports{"bad-setting 1:12"});
+    CHECK(errors("#set sides 3.5;") == Reports{"bad-setting 1:12"});
+    CHECK(errors("#set angle;") == Reports{"bad-setting 1:6"});
+    CHECK(errors("#set angle 1 2;") == Reports{"bad-setting 1:6"});
+    CHECK(errors("#set tropism 1 2 3;") == Reports{"bad-setting 1:6"});
+    CHECK(errors("#set seed -1;") == Reports{"bad-setting 1:11"});
+    CHECK(errors("#set seed 1.5;") == Reports{"bad-setting 1:11"});
+    CHECK(errors("#set width -1;") == Reports{"bad-setting 1:12"});
+    CHECK(errors("#set step big;") == Reports{"unknown-name 1:11"});
 }

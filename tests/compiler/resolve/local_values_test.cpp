@@ -5,14 +5,14 @@
 
 using namespace lsys;
 using test::compile_text;
-using Said = std::vector<std::string>;
+using Reports = std::vector<std::string>;
 
 TEST_CASE("a local value is computed once and may stand anywhere in the successor") {
     const test::Compiled c = compile_text("#n = 1;\n"
                                           "#w : A(8);\n"
                                           "#p : A(x) : x > 1 : let l = x * 0.5, m = l + 1 : "
                                           "F(l) [A(m)] A(l);\n");
-    CHECK(c.said().empty());
+    CHECK(c.reports().empty());
     REQUIRE(c.outcome.bytecode);
     const Bytecode& bytecode = *c.outcome.bytecode;
     CHECK(bytecode.local_count == 2);
@@ -21,17 +21,17 @@ TEST_CASE("a local value is computed once and may stand anywhere in the successo
     CHECK(verify(bytecode) == std::nullopt);
 }
 
-TEST_CASE("a local value that is a literal or a name stands in its uses") {
+TEST_CASE("a local value that is a literal or a name replaces its uses") {
     const test::Compiled c = compile_text("#n = 1;\n"
                                           "#w : A(8);\n"
                                           "#p : A(x) : * : let l = x, m = 2 : F(l) A(m);\n");
-    CHECK(c.said().empty());
+    CHECK(c.reports().empty());
     REQUIRE(c.outcome.bytecode);
     CHECK(c.outcome.bytecode->productions[0].successor.locals == kNone);
     CHECK(c.outcome.bytecode->local_count == 0);
 }
 
-TEST_CASE("`let` is a name of modules and formals where no local value follows") {
+TEST_CASE("`let` may name modules and formals where no local value follows") {
     const test::Compiled c = compile_text("#n = 1;\n"
                                           "#w : let A(1);\n"
                                           "#p : let : * : let let;\n"
@@ -40,32 +40,32 @@ TEST_CASE("`let` is a name of modules and formals where no local value follows")
     CHECK(c.outcome.bytecode);
 }
 
-TEST_CASE("a local value has a name of its own") {
+TEST_CASE("the name of a local value must not be in use") {
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let x = 1 : F(x);\n").errors() ==
-          Said{"duplicate-local 2:21"});
+          Reports{"duplicate-local 2:21"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x, y = 2 : F(y);\n").errors() ==
-          Said{"duplicate-local 2:28"});
+          Reports{"duplicate-local 2:28"});
     const test::Compiled hidden =
         compile_text("#n = 1;\n#define y 3;\n#w : A(y);\n#p : A(x) : * : let y = x : F(y);\n");
-    CHECK(hidden.said() == Said{"hidden-constant 4:21"});
+    CHECK(hidden.reports() == Reports{"hidden-constant 4:21"});
 }
 
 TEST_CASE("a local value is known after its definition, in the successor") {
     CHECK(compile_text("#w : A(1);\n#p : A(x) : y > 1 : let y = x : F(y);\n").errors() ==
-          Said{"used-before-definition 2:13"});
+          Reports{"used-before-definition 2:13"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = z, z = x : F(y) F(z);\n").errors() ==
-          Said{"used-before-definition 2:25"});
+          Reports{"used-before-definition 2:25"});
     const test::Compiled unused =
         compile_text("#n = 1;\n#w : A(1);\n#p : A(x) : * : let y = x / 2 : F(x);\n");
-    CHECK(unused.said() == Said{"unused-local 3:21"});
+    CHECK(unused.reports() == Reports{"unused-local 3:21"});
 }
 
-TEST_CASE("parts around local values that lack a sign are named") {
+TEST_CASE("missing signs around local values are reported") {
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x F(y);\n").errors() ==
-          Said{"missing-colon 2:27"});
+          Reports{"missing-colon 2:27"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x;\n").errors() ==
-          Said{"missing-colon 2:26"});
+          Reports{"missing-colon 2:26"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x z = 2 : F(y) F(z);\n").errors() ==
-          Said{"missing-comma 2:26"});
+          Reports{"missing-comma 2:26"});
     CHECK(compile_text("#w : A(1);\n#p : A(x) : * : let y = x, : F(y);\n").errors().size() == 1);
 }

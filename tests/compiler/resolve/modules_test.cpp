@@ -4,7 +4,7 @@
 
 using namespace lsys;
 using test::compile_text;
-using Said = std::vector<std::string>;
+using Reports = std::vector<std::string>;
 
 namespace {
 
@@ -34,7 +34,7 @@ TEST_CASE("a module is known by name and number of parameters") {
     CHECK(c.outcome.program->symbols.size() == 3);
 }
 
-TEST_CASE("an unknown name that is a row of known names is read split") {
+TEST_CASE("an unknown name that consists of known names is split") {
     const std::string known = "#module B;\n#p : A : * : F;\n";
     const test::Compiled c = compile_text("#w : ABA(1) FFA;\n" + known);
     CHECK(axiom(c) == "A B A/1 F F A");
@@ -45,7 +45,7 @@ TEST_CASE("an unknown name that is a row of known names is read split") {
     CHECK(c.fixed(DiagnosticCode::SplitName).starts_with("#w : A B A(1) F F A;"));
 }
 
-TEST_CASE("thesis 7.3: the last part may be a name that stands alone elsewhere") {
+TEST_CASE("Crankshaw 2019, 7.3: the last part may be a name that is used alone elsewhere") {
     const std::string rest = "#p : A : * : F S(1);\n";
     CHECK(axiom(compile_text("#w : AS(1);\n" + rest)) == "A S/1");
     CHECK(axiom(compile_text("#w : AS;\n" + rest)) == "AS"); // S without parameters is not used
@@ -56,7 +56,7 @@ TEST_CASE("thesis 7.3: the last part may be a name that stands alone elsewhere")
           "AS/1"); // S(1) must stand alone in the same file
 }
 
-TEST_CASE("a name that is known, quoted or splits in two ways is taken whole") {
+TEST_CASE("a name that is known, quoted or can be split in two ways is not split") {
     CHECK(axiom(compile_text("#w : AB;\n#p : A : * : F;\n#q : B : * : F;\n#module AB;\n")) == "AB");
     CHECK(axiom(compile_text("#w : `AB`;\n#p : A : * : F;\n#q : B : * : F;\n")) == "AB");
     CHECK(axiom(compile_text("#w : ABC;\n#module A; #module AB; #module BC; #module C;\n")) ==
@@ -104,7 +104,7 @@ TEST_CASE("with `names letters` every letter is a module, in that file") {
 TEST_CASE("modules get their meaning from the profile and from #object") {
     const auto operation = [](const std::string& set, const std::string& module) {
         const test::Compiled c = compile_text(set + "#w : " + module + ";\n");
-        CAPTURE(set, module, c.said());
+        CAPTURE(set, module, c.reports());
         REQUIRE(c.outcome.program);
         const Program& program = *c.outcome.program;
         return program.symbol(program.modules[program.axioms.front().word.first_module].symbol)
@@ -129,9 +129,9 @@ TEST_CASE("modules get their meaning from the profile and from #object") {
     CHECK(operation("#object A \"leaf.obj\";", "A") == MeshFile);
 }
 
-TEST_CASE("a picture bound to `{` is one of its polygons") {
+TEST_CASE("a picture bound to `{` is drawn on its polygons") {
     const test::Compiled c = compile_text("#object { \"a leaf.PNG\";\n#w : { . . . };\n");
-    CAPTURE(c.said());
+    CAPTURE(c.reports());
     REQUIRE(c.outcome.program);
     const Program& program = *c.outcome.program;
     const auto& symbol =
@@ -142,47 +142,47 @@ TEST_CASE("a picture bound to `{` is one of its polygons") {
          {"{ \"leaf.obj\"", "} \"leaf.png\"", "[ \"leaf.png\"", ". \"leaf.png\""}) {
         CAPTURE(other);
         CHECK(compile_text(std::string("#object ") + other + ";\n#w : F;\n").errors() ==
-              Said{"bad-declaration 1:9"});
+              Reports{"bad-declaration 1:9"});
     }
 }
 
-TEST_CASE("declarations say what they are about") {
+TEST_CASE("invalid declarations are reported at their place") {
     const auto errors = [](const std::string& text) {
         return compile_text(text + "\n#w : F;\n").errors();
     };
-    CHECK(errors("#object F BRACNH;") == Said{"unknown-object 1:11"});
-    CHECK(errors("#object [ SPHERE;") == Said{"bad-declaration 1:9"});
-    CHECK(errors("#object A(x) SPHERE;") == Said{"bad-declaration 1:10"});
-    CHECK(errors("#object A SPHERE;\n#object A CUBE;") == Said{"duplicate-statement 2:9"});
+    CHECK(errors("#object F BRACNH;") == Reports{"unknown-object 1:11"});
+    CHECK(errors("#object [ SPHERE;") == Reports{"bad-declaration 1:9"});
+    CHECK(errors("#object A(x) SPHERE;") == Reports{"bad-declaration 1:10"});
+    CHECK(errors("#object A SPHERE;\n#object A CUBE;") == Reports{"duplicate-statement 2:9"});
     CHECK(errors("#object A CUBE;\n#object A CUBE;").empty());
-    CHECK(errors("#module A B;") == Said{"bad-declaration 1:9"});
-    CHECK(errors("#module A(x, x);") == Said{"duplicate-parameter 1:14"});
-    CHECK(errors("#module A(2);") == Said{"expression-in-head 1:11"});
+    CHECK(errors("#module A B;") == Reports{"bad-declaration 1:9"});
+    CHECK(errors("#module A(x, x);") == Reports{"duplicate-parameter 1:14"});
+    CHECK(errors("#module A(2);") == Reports{"expression-in-head 1:11"});
     CHECK(errors("#module A(x);").empty());
-    CHECK(errors("#ignore : F [;") == Said{"bad-declaration 1:13"});
-    CHECK(errors("#ignore : F(x);") == Said{"bad-declaration 1:12"});
+    CHECK(errors("#ignore : F [;") == Reports{"bad-declaration 1:13"});
+    CHECK(errors("#ignore : F(x);") == Reports{"bad-declaration 1:12"});
     const test::Compiled c = compile_text("#object F BRACNH;\n#w : F;\n");
-    CHECK(c.find(DiagnosticCode::UnknownObject)->help == Said{"did you mean `BRANCH`?"});
+    CHECK(c.find(DiagnosticCode::UnknownObject)->help == Reports{"did you mean `BRANCH`?"});
 }
 
-TEST_CASE("modules that take no parameters get none") {
-    CHECK(compile_text("#w : F [(1) ];").errors() == Said{"unexpected-parameters 1:9"});
-    CHECK(compile_text("#w : F |(180);").errors() == Said{"unexpected-parameters 1:9"});
+TEST_CASE("parameters of modules that take none are an error") {
+    CHECK(compile_text("#w : F [(1) ];").errors() == Reports{"unexpected-parameters 1:9"});
+    CHECK(compile_text("#w : F |(180);").errors() == Reports{"unexpected-parameters 1:9"});
     CHECK(compile_text("#w : F |();").errors().empty());
 }
 
-TEST_CASE("a turtle command reads so many parameters and no more") {
+TEST_CASE("parameters that a turtle command does not read are reported") {
     const test::Compiled c = compile_text("#w : +(1, 2, 3) +(3, 4, 5) F(1, 2, 3);");
     CHECK(c.at(DiagnosticCode::ExtraParameters) == "2, 3");
-    CHECK(c.said() == Said{"extra-parameters 1:11"});
+    CHECK(c.reports() == Reports{"extra-parameters 1:11"});
     CHECK(compile_text("#w : F(1, 2, 3, 4);\n#p : F(a, b, c, d) : a < b : F(b, a, d, c);\n")
               .find(DiagnosticCode::ExtraParameters) == nullptr);
 }
 
-TEST_CASE("a polygon that rewriting may put into another is a warning only") {
+TEST_CASE("a polygon that rewriting may put into another is only a warning") {
     const test::Compiled c =
         compile_text("#set turtle carey;\n#w : A;\n#p : A : * : { F A F F };\n");
-    CHECK(c.said() == Said{"nested-polygon 3:14"});
+    CHECK(c.reports() == Reports{"nested-polygon 3:14"});
     CHECK(c.errors().empty());
     CHECK_FALSE(c.diagnostics.has_errors());
     CHECK(c.outcome.bytecode);

@@ -4,7 +4,7 @@
 
 using namespace lsys;
 using test::compile_text;
-using Said = std::vector<std::string>;
+using Reports = std::vector<std::string>;
 
 TEST_CASE("formals are numbered over left context, predecessor and right context") {
     const test::Compiled c =
@@ -22,32 +22,33 @@ TEST_CASE("formals are numbered over left context, predecessor and right context
     CHECK(p.right.items[2].kind == PatternKind::Close);
 }
 
-TEST_CASE("heads in error are reported once, and the rest of the production keeps quiet") {
+TEST_CASE("an incorrect head is reported once, and the rest of the production is not reported") {
     CHECK(compile_text("#w : A(2);\n#p : A(2) : * : F(x);\n").errors() ==
-          Said{"expression-in-head 2:8"});
+          Reports{"expression-in-head 2:8"});
     CHECK(compile_text("#w : A(2);\n#p : A(x + 1) : * : F(x);\n").errors() ==
-          Said{"expression-in-head 2:8"});
+          Reports{"expression-in-head 2:8"});
     CHECK(compile_text("#w : A(2, 3);\n#p : A(x, x) : * : F(x);\n").errors() ==
-          Said{"duplicate-parameter 2:11"});
+          Reports{"duplicate-parameter 2:11"});
     CHECK(compile_text("#w : A(2) A(2);\n#p : A(x) < A(x) : * : F(x);\n").errors() ==
-          Said{"duplicate-parameter 2:15"});
-    CHECK(compile_text("#w : A;\n#p : : * : F;\n").errors() == Said{"empty-predecessor 2:5"});
-    CHECK(compile_text("#w : A;\n#p : < A : * : F;\n").errors() == Said{"empty-context 2:6"});
-    CHECK(compile_text("#w : A;\n#p : A > : * : F;\n").errors() == Said{"empty-context 2:8"});
+          Reports{"duplicate-parameter 2:15"});
+    CHECK(compile_text("#w : A;\n#p : : * : F;\n").errors() == Reports{"empty-predecessor 2:5"});
+    CHECK(compile_text("#w : A;\n#p : < A : * : F;\n").errors() == Reports{"empty-context 2:6"});
+    CHECK(compile_text("#w : A;\n#p : A > : * : F;\n").errors() == Reports{"empty-context 2:8"});
     CHECK(compile_text("#w : A B;\n#p : A B : * : F;\n").errors() ==
-          Said{"several-predecessors 2:6"});
+          Reports{"several-predecessors 2:6"});
     CHECK(compile_text("#set rewriting sequential;\n#w : A B;\n#p : A [ B : * : F;\n").errors() ==
-          Said{"bracket-in-head 3:8"});
-    CHECK(compile_text("#w : A;\n#p : [ : * : F;\n").errors() == Said{"bracket-in-head 2:6"});
-    CHECK(compile_text("#w : A;\n#p : F [ < A : * : F;\n").errors() == Said{"bracket-in-head 2:8"});
+          Reports{"bracket-in-head 3:8"});
+    CHECK(compile_text("#w : A;\n#p : [ : * : F;\n").errors() == Reports{"bracket-in-head 2:6"});
+    CHECK(compile_text("#w : A;\n#p : F [ < A : * : F;\n").errors() ==
+          Reports{"bracket-in-head 2:8"});
     CHECK(compile_text("#w : A;\n#p : A > F ] : * : F;\n").errors() ==
-          Said{"bracket-in-head 2:12"});
+          Reports{"bracket-in-head 2:12"});
     CHECK(compile_text("#w : A;\n#p : A > F [ [ ] : * : F;\n").errors() ==
-          Said{"bracket-in-head 2:12"});
+          Reports{"bracket-in-head 2:12"});
     CHECK(compile_text("#w : A F [ ];\n#p : A > F [ ] : * : F;\n").errors().empty());
 }
 
-TEST_CASE("a value in a head can be put into the condition") {
+TEST_CASE("a value in a head can be moved into the condition") {
     const test::Compiled c = compile_text("#w : A(2);\n#p : A(2) : * ~ 1 : F;\n");
     CHECK(c.fixed(DiagnosticCode::ExpressionInHead) == "#w : A(2);\n#p : A(x) : x == 2 ~ 1 : F;\n");
     const test::Compiled chance = compile_text("#w : A(2);\n#p : A(2) : ~ 1 : F;\n");
@@ -76,7 +77,8 @@ TEST_CASE("a parameter hides a constant of its name") {
     CHECK(hidden == 1); // only `x` hides a constant: `#define y` comes after the production
 }
 
-TEST_CASE("rules go by predecessor, groups by contexts as well, by first appearance") {
+TEST_CASE(
+    "rules differ by predecessor, groups also by contexts, and both have the order of the text") {
     const test::Compiled c = compile_text("#w : A B A(1);\n"
                                           "#p0 : B : * : F;\n"
                                           "#p1 : A : * ~ 0.5 : F;\n"
@@ -103,13 +105,13 @@ TEST_CASE("probabilities are constants above 0 and at most 1") {
         return compile_text(set + "#w : F(1);\n#p : F(x) : x > 1 ~ " + p + " : F(x);\n").errors();
     };
     CHECK(errors("0.5").empty());
-    CHECK(errors("0") == Said{"bad-probability 2:21"});
-    CHECK(errors("-0.5") == Said{"bad-probability 2:21"});
-    CHECK(errors("2") == Said{"bad-probability 2:21"});
+    CHECK(errors("0") == Reports{"bad-probability 2:21"});
+    CHECK(errors("-0.5") == Reports{"bad-probability 2:21"});
+    CHECK(errors("2") == Reports{"bad-probability 2:21"});
     CHECK(errors("2", "#set weights any; ").empty());
-    CHECK(errors("0", "#set weights any; ") == Said{"bad-probability 2:21"});
-    CHECK(errors("1 / 0") == Said{"bad-probability 2:21"});
-    CHECK(errors("x / 4") == Said{"bad-probability 2:21"});
+    CHECK(errors("0", "#set weights any; ") == Reports{"bad-probability 2:21"});
+    CHECK(errors("1 / 0") == Reports{"bad-probability 2:21"});
+    CHECK(errors("x / 4") == Reports{"bad-probability 2:21"});
 }
 
 TEST_CASE("unconditional probabilities of a choice sum to 1") {
@@ -121,13 +123,13 @@ TEST_CASE("unconditional probabilities of a choice sum to 1") {
     CHECK(three("0.3", "0.3", "0.411").errors().empty());
     CHECK(three("0.3", "0.3", "0.389").errors().empty());
     const test::Compiled below = three("0.3", "0.3", "0.3");
-    CHECK(below.errors() == Said{"probability-sum 4:12"});
+    CHECK(below.errors() == Reports{"probability-sum 4:12"});
     CHECK(below.message(DiagnosticCode::ProbabilitySum) ==
           "the probabilities of `F` sum to 0.9, not to 1");
     CHECK(below.find(DiagnosticCode::ProbabilitySum)->label == "normalised, this would be 0.3333");
     CHECK(below.find(DiagnosticCode::ProbabilitySum)->labels.size() == 2);
-    CHECK(three("0.7", "0.5", "0.1").errors() == Said{"probability-sum 3:14"});
-    CHECK(three("0.7", "0.2", "0 - 1").errors() == Said{"bad-probability 4:12"});
+    CHECK(three("0.7", "0.5", "0.1").errors() == Reports{"probability-sum 3:14"});
+    CHECK(three("0.7", "0.2", "0 - 1").errors() == Reports{"bad-probability 4:12"});
     CHECK(compile_text("#w : F(1);\n#a : F(x) : x > 1 ~ 0.3 : F(x);\n#b : F(x) : * ~ 0.3 : F(2);\n")
               .errors()
               .empty()); // with conditions, the sum depends on the productions that match
@@ -136,11 +138,11 @@ TEST_CASE("unconditional probabilities of a choice sum to 1") {
               .empty());
 }
 
-TEST_CASE("alternatives that name their parameters differently are noted") {
+TEST_CASE("a note mentions alternatives that name their parameters differently") {
     const test::Compiled c = compile_text("#w : F(1);\n"
                                           "#a : F(x) : * ~ 0.5 : F(x);\n"
                                           "#b : F(y) : * ~ 0.5 : F(y + 1);\n");
-    CHECK(c.said() == Said{"different-parameters 3:8"});
+    CHECK(c.reports() == Reports{"different-parameters 3:8"});
 }
 
 TEST_CASE("a context that names an ignored module can never match") {
@@ -156,7 +158,7 @@ TEST_CASE("ranges of a successor are limited in sequential rewriting") {
     for (std::uint32_t i = 0; i <= kMaxSequentialDraws; ++i) {
         text += "F({1,2})";
     }
-    CHECK(compile_text(text + ";\n").errors() == Said{"too-many-ranges 3:17"});
+    CHECK(compile_text(text + ";\n").errors() == Reports{"too-many-ranges 3:17"});
     CHECK(compile_text("#set choice module;\n" + text.substr(text.find('\n') + 1) + ";\n")
               .errors()
               .empty());

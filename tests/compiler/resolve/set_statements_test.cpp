@@ -65,7 +65,7 @@ TEST_CASE("every setting of the table is read within its range") {
 #include "compiler/bytecode/settings.def"
 }
 
-TEST_CASE("the spring of all joints is a number or computed for each") {
+TEST_CASE("the spring constant is one number for all joints or is computed for each") {
     const auto spring = [](const std::string& value) {
         const test::Compiled c = set("spring", value);
         CHECK(c.errors().empty());
@@ -83,7 +83,7 @@ TEST_CASE("the spring of all joints is a number or computed for each") {
     CHECK(constant.outcome.program->settings.spring == 12.0F);
 }
 
-TEST_CASE("a turtle profile gives the program its traits") {
+TEST_CASE("a turtle profile sets the traits of the program") {
     CHECK(test::compile_text("#w : F;\n").outcome.program->settings.traits == TurtleTraits{});
     for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
         const test::Compiled c = set("turtle", std::string(name_of(profile)));
@@ -137,7 +137,7 @@ TEST_CASE("the help for an unknown key lists every setting") {
           "`interpret_depth`");
 }
 
-TEST_CASE("the parser knows every setting, and repairs one without `set`") {
+TEST_CASE("the parser knows every setting, and adds a missing `set`") {
     constexpr auto kAll = std::to_array<std::string_view>({
 #define LSYS_CHOICE(type, field, initial, use, group) #field,
 #define LSYS_STATEMENT(key) #key,

@@ -33,7 +33,7 @@ struct Translated {
 
 } // namespace
 
-TEST_CASE("a translation is parsed wherever its parts stand") {
+TEST_CASE("a translation is parsed, whatever file its parts come from") {
     const std::vector<std::string> parts{
         "#set ", "names letters;", "\n#w : ", "F", ";\n#p1 : ", "F", " : * : FF;"};
     for (const SourceSpan place :
@@ -45,7 +45,7 @@ TEST_CASE("a translation is parsed wherever its parts stand") {
     }
 }
 
-TEST_CASE("a translation that is no grammar is an error wherever its parts stand") {
+TEST_CASE("an invalid translation is an error, whatever file its parts come from") {
     const std::vector<std::vector<std::string>> texts{
         {"#w : F", " : G;"},    {"#p1 : A", " : * : B", " : C;"}, {"#n = 3 4;"},
         {"#w : A(", ");", "]"}, {"#p : A : (1", " : B;"},
@@ -60,7 +60,7 @@ TEST_CASE("a translation that is no grammar is an error wherever its parts stand
     }
 }
 
-TEST_CASE("a translation that outgrows its room is an error where it does") {
+TEST_CASE("a translation over the size limit is an error at the part that exceeds it") {
     SourceMap sources;
     const FileId file = sources.add("tree.foreign", "axiom F\n");
     Translation translation(file, 10);
@@ -84,7 +84,7 @@ TEST_CASE("a translation that outgrows its room is an error where it does") {
     CHECK(!fitting.report_overflow(diagnostics));
 }
 
-TEST_CASE("modules of a translation keep within the file of their statement") {
+TEST_CASE("modules of a translation stay in the file of their statement") {
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;

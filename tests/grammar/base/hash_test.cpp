@@ -6,7 +6,7 @@
 
 using namespace lsys;
 
-// Published values, and values on which files, pictures and printed digests depend.
+// Published values, and values that determine files, pictures and printed digests.
 TEST_CASE("hash functions have their known values") {
     CHECK(mix64(0) == 0);
     CHECK(mix64(1) == 0xB456BCFC34C2CB2C);
@@ -23,7 +23,7 @@ TEST_CASE("hash functions have their known values") {
     CHECK(finish(combine_bytes(0, "eleven bytes")) == 0x00D4EBB5E3D24F96);
 }
 
-TEST_CASE("the number of bytes is part of their hash") {
+TEST_CASE("the hash depends on the number of bytes") {
     const std::string zeros(16, '\0');
     const std::string_view all = zeros;
     CHECK(combine_bytes(1, all.substr(0, 3)) != combine_bytes(1, all.substr(0, 4)));

@@ -12,7 +12,7 @@ Diagnostic warning(DiagnosticCode code, SourceSpan span) {
 
 } // namespace
 
-TEST_CASE("a level of a code wins over that of its group") {
+TEST_CASE("the level of a code overrides that of its group") {
     MessageLevels levels;
     CHECK(!levels.set(MessageLevel::Deny, "warnings"));
     CHECK(!levels.set(MessageLevel::Allow, "idle-module"));

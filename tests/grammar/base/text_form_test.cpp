@@ -18,7 +18,7 @@ std::string as_utf16(std::string_view text, bool big_endian) {
 
 } // namespace
 
-TEST_CASE("files that are no text are told from texts") {
+TEST_CASE("binary files are recognised") {
     CHECK(recognise_non_text("\xFF\xFE#")->what == "UTF-16 text");
     CHECK(recognise_non_text(as_utf16("#n = 1; #w : F;", false))->what == "UTF-16 text");
     CHECK(recognise_non_text(as_utf16("#n = 1; #w : F;", true))->what == "UTF-16 text");

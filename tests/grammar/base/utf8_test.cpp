@@ -4,7 +4,7 @@
 
 using namespace lsys;
 
-TEST_CASE("characters have the columns that terminals give them") {
+TEST_CASE("characters take as many columns as in terminals") {
     CHECK(display_width(U'A') == 1);
     CHECK(display_width(U'\t') == 1);
     CHECK(display_width(0x7F) == 1);

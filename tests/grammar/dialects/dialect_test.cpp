@@ -24,7 +24,7 @@ TEST_CASE("a dialect is found by its name") {
     CHECK(!find_dialect(""));
 }
 
-TEST_CASE("an extension tells the dialect of a text that does not") {
+TEST_CASE("the extension of a file determines the dialect if its text does not") {
     for (const DialectRow& row : dialects()) {
         std::istringstream extensions{std::string(row.extensions)};
         for (std::string extension; extensions >> extension;) {
@@ -36,7 +36,7 @@ TEST_CASE("an extension tells the dialect of a text that does not") {
     CHECK(!detect_dialect("plant.txt", "F\n").dialect);
 }
 
-TEST_CASE("a text tells its dialect") {
+TEST_CASE("the dialect of a text is recognised") {
     struct Told {
         std::string path;
         std::string text;
@@ -60,7 +60,7 @@ TEST_CASE("a text tells its dialect") {
     }
 }
 
-TEST_CASE("files of one dialect hold several systems") {
+TEST_CASE("files of one dialect may hold several systems") {
     for (const DialectRow& row : dialects()) {
         CHECK(has_systems(row.dialect) == (row.dialect == Dialect::Fractint));
         CHECK(row.systems("one { }\ntwo { }\n").empty() == !has_systems(row.dialect));

@@ -46,7 +46,7 @@ struct Read {
 
 } // namespace
 
-TEST_CASE("a line is words and single characters") {
+TEST_CASE("a line consists of words and single characters") {
     CHECK(Read("a b=c", {" "}).all() == "a,b,=,c,|.");
     CHECK(Read("a\nb\n", {" "}).all() == "a,|b,||.");
     CHECK(Read("", {" "}).all() == "|.");
@@ -65,14 +65,14 @@ TEST_CASE("the end of a line covers the blank lines behind it") {
     CHECK(last.span == SourceSpan{read.file, 8, 8});
 }
 
-TEST_CASE("a comment begins where a piece could") {
+TEST_CASE("a comment begins only where a piece could begin") {
     CHECK(Read("a ;b\n;c\nd", {" ", ';', false}).all() == "a,||d,|.");
     const std::string text("#a\0b\nc", 6);
     CHECK(Read(text, {" ", '#', true}).all() == "|c,|.");
     CHECK(Read(text, {" ", '#', false}).all() == std::string("\0,b,|c,|.", 9));
 }
 
-TEST_CASE("without ends of lines a text is pieces") {
+TEST_CASE("if line ends do not count, a text is a sequence of pieces") {
     CHECK(Read("a\n b\n", {" \n"}).all() == "a,b,.");
     Read read("a= b", {" \n"});
     CHECK(read.reader.take(1).text == "a");
@@ -82,7 +82,7 @@ TEST_CASE("without ends of lines a text is pieces") {
     CHECK(read.reader.ahead() == "b");
 }
 
-TEST_CASE("a piece that does not fit is reported, and its line skipped") {
+TEST_CASE("an unexpected piece is reported, and its line is skipped") {
     Read read("a = b\nc", {" "});
     CHECK(read.reader.next(word_length).text == "a");
     read.reader.expect(false, read.reader.next(word_length), {"a word", "the end of the line"});
@@ -98,7 +98,7 @@ TEST_CASE("a piece that does not fit is reported, and its line skipped") {
     CHECK(read.diagnostics.all()[2].message == "expected a word, found the end of the file");
 }
 
-TEST_CASE("without ends of lines too, a piece that does not fit ends its line") {
+TEST_CASE("an unexpected piece ends its line, also if line ends do not count") {
     Read read("a = b\n c", {" \n"});
     CHECK(read.reader.next(word_length).text == "a");
     CHECK(!read.reader.expect(false, read.reader.next(word_length), {"a word"}));

@@ -11,7 +11,7 @@ using namespace lsys;
 
 } // namespace
 
-TEST_CASE("a text is trimmed where it stands") {
+TEST_CASE("trimming keeps the place of a text in its file") {
     const std::string_view text = " \ta b\r ";
     CHECK(trimmed(text) == "a b");
     CHECK(trimmed(text).data() == text.data() + 2);
@@ -43,7 +43,8 @@ TEST_CASE("a number has a sign only where one is allowed") {
     }
 }
 
-TEST_CASE("letters are lowered, and values written as short as they read back") {
+TEST_CASE(
+    "letters become lower case, and values are written in the shortest form that reads back") {
     CHECK(lowered("AzZ-\xC3\x84") == "azz-\xC3\x84");
     CHECK(text_of(0.1F) == "0.1");
     CHECK(text_of(-22.5F) == "-22.5");

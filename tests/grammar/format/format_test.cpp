@@ -10,7 +10,7 @@
 
 using lsys::format_text;
 
-TEST_CASE("one statement goes on a line, with single blanks") {
+TEST_CASE("each statement has one line, with single blanks") {
     CHECK(format_text("#n=6;#define  a  -1;#param b 2*(a+1)  {0,5};") ==
           "#n = 6;\n#define a -1;\n#param  b 2*(a + 1) {0, 5};\n");
     CHECK(format_text("#p:A(x,y):x>1&&y<=-2~.5:F( x^2 ,-y ) ;") ==
@@ -22,7 +22,7 @@ TEST_CASE("one statement goes on a line, with single blanks") {
     CHECK(format_text("#define r {1,sin ( 3 )};") == "#define r {1, sin(3)};\n");
 }
 
-TEST_CASE("modules keep the blanks between them, and contexts get theirs") {
+TEST_CASE("blanks between modules stay, and contexts are surrounded by blanks") {
     CHECK(format_text("#w:F+F  [ -F]`;`(2) A (3)B;") == "#w : F+F [ -F]`;`(2) A(3)B;\n");
     CHECK(format_text("#p:A B<C(x)>[D]E:*://F;") == "#p : A B < C(x) > [D]E : * : //F;\n");
     CHECK(format_text("#define : A : * : { . F } ;") == "#define : A : * : { . F };\n");
@@ -41,13 +41,13 @@ TEST_CASE("a quotation mark may be a module") {
     CHECK(format_text("#module \" ;#w:\"F\";") == "#module \";\n#w : \"F\";\n");
 }
 
-TEST_CASE("statements beside each other get lines of their own") {
+TEST_CASE("statements on one line get lines of their own") {
     CHECK(format_text("#n=1;#w:F;/* c */#p:F:*:F;") ==
           "#n = 1;\n#w : F;  /* c */\n#p : F : * : F;\n");
     CHECK(format_text("/* c */#n=1;#w:F;") == "/* c */ #n = 1;\n#w : F;\n");
 }
 
-TEST_CASE("a comment keeps its distance from what could change it") {
+TEST_CASE("a comment stays apart from characters that could change its meaning") {
     CHECK(format_text("#w:F/ /*c*/ /A(2/ /*c*/ /**/3);") == "#w : F/ /*c*/ /A(2/ /*c*/ /**/ 3);\n");
     CHECK(format_text("#w:F(/*c*/1/*d*/)/*e*/;") == "#w : F(/*c*/ 1 /*d*/) /*e*/;\n");
 }
@@ -65,7 +65,7 @@ TEST_CASE("a file keeps its line ends") {
     CHECK(format_text("\n\n") == "");
 }
 
-TEST_CASE("comments and single blank lines stay") {
+TEST_CASE("comments and single blank lines are kept") {
     const std::string text =
         "// top\n\n\n\n#n = 3; // here\n/* own */\n#w : /* in */ F; /* after */\n"
         "/* before */ #p : F : * : F /*x*/(1);";
@@ -76,7 +76,7 @@ TEST_CASE("comments and single blank lines stay") {
     CHECK(format_text(expected) == expected);
 }
 
-TEST_CASE("columns stand where the widest sensible cell ends") {
+TEST_CASE("columns are aligned after the widest cell that is not too wide") {
     const std::string wide(24, 'B');
     CHECK(format_text("#p:A:*:F;\n#q:A" + wide + ":*:F;\n") ==
           "#p : A" + std::string(24, ' ') + " : * : F;\n#q : A" + wide + " : * : F;\n");
@@ -86,7 +86,7 @@ TEST_CASE("columns stand where the widest sensible cell ends") {
           "#n = 1;  // a\n#w : A" + wide + wide + ";  // b\n");
 }
 
-TEST_CASE("long statements are broken at blanks, and formatting again changes nothing") {
+TEST_CASE("long statements are wrapped at blanks, and formatting again changes nothing") {
     std::string text = "#w : ";
     for (int i = 0; i < 60; ++i) {
         text += "F(1, 2)[+ A] ";

@@ -163,7 +163,7 @@ TEST_CASE("module lists") {
     CHECK(axiom("F\r\n\t+\n F(\n1\n)") == "F + F/1");
 }
 
-TEST_CASE("modules know their places") {
+TEST_CASE("modules have their places") {
     Parsed parsed("#w :  F (1) `;`(x+1)AB[ +(2.5 , 3 )\n];");
     CHECK(parsed.codes().empty());
     CHECK(texts_of(parsed, parsed.ast.axioms[0].modules) ==
@@ -172,7 +172,7 @@ TEST_CASE("modules know their places") {
           "F (1) `;`(x+1)AB[ +(2.5 , 3 )\n]");
 }
 
-TEST_CASE("expressions bind as the language says") {
+TEST_CASE("operators have the precedence of the language reference") {
     CHECK(expression("1 + 2 * 3") == "(1+(2*3))");
     CHECK(expression("1 - 2 - 3") == "((1-2)-3)");
     CHECK(expression("2 ^ 3 ^ 4") == "(2^(3^4))");
@@ -216,7 +216,7 @@ TEST_CASE("with names letters every letter is a module, wherever the setting sta
     CHECK(digits.codes() == "1:27 letter-name, 1:30 letter-name");
 }
 
-TEST_CASE("a statement after an include owns nothing of the included file") {
+TEST_CASE("a statement after an include has no nodes of the included file") {
     const std::map<std::string, std::string> files{
         {"a.lsys", "#set angle 20; #p : A : * : B(1) C(2);"}};
     Parsed after("#include \"a.lsys\"; #set choice generation;", files);
@@ -230,7 +230,7 @@ TEST_CASE("a statement after an include owns nothing of the included file") {
     CHECK(broken.ast.calls.size() >= 2);
 }
 
-TEST_CASE("included files stand in place and see only their own names letters") {
+TEST_CASE("`names letters` does not affect included files") {
     Parsed parsed("#n = 1;\n#include \"sub/a.lsys\";\n#w : AB;\n",
                   {{"sub/a.lsys", "#set names letters; #p : AB : * : CD;\n#include \"b.lsys\";"},
                    {"sub/b.lsys", "#module EF;"}});
@@ -278,14 +278,14 @@ TEST_CASE("files that cannot be included") {
     CHECK(bomb.ast.files.size() == 65'537);
 }
 
-TEST_CASE("comments stand between any two tokens") {
+TEST_CASE("comments are allowed between any two tokens") {
     Parsed parsed("// one\n/* two */#n/**/=/**/6/**/;// three\n#w/**/:/**/F/**/(/**/1/**/)/**/;"
                   "//\n#p:A:*:B;//");
     CHECK(parsed.codes().empty());
     CHECK(parsed.ast.statements.size() == 3);
 }
 
-TEST_CASE("line ends and a byte order mark make no difference") {
+TEST_CASE("the kind of line end and a byte order mark make no difference") {
     Parsed parsed("\xEF\xBB\xBF#n = 6;\r\n#w : F\r\nG;\r\n// end\r\n");
     CHECK(parsed.codes().empty());
     CHECK(modules_of(parsed, parsed.ast.axioms[0].modules) == "F G");

@@ -1,4 +1,4 @@
-// A grammar parsed from strings, for the tests of the front end.
+// A grammar parsed from strings, for tests of the front end.
 #pragma once
 
 #include "grammar/lsys/parse.h"

@@ -64,7 +64,7 @@ TEST_CASE("a frame shows the line, carets under the span and the label") {
                         "help: a repair\n");
 }
 
-TEST_CASE("the short form is the head line") {
+TEST_CASE("the short format is the head line") {
     const Fixture f("#w : A;\n");
     CHECK(f.human(f.at(f.span("A")), {.format = MessageFormat::Short}) ==
           "tree.lsys:1:6: error: this is wrong [syntax-error]\n");
@@ -75,7 +75,7 @@ TEST_CASE("a diagnostic without a place names the program") {
     CHECK(f.human(f.at({})) == "lsc: error: this is wrong [syntax-error]\n");
 }
 
-TEST_CASE("line numbers of four digits keep the bar straight") {
+TEST_CASE("the bar is straight beside line numbers of different lengths") {
     const Fixture f(std::string(999, '\n') + "#w : A;\n");
     CHECK(f.frame(f.at(f.span("A"))) == "1000 | #w : A;\n"
                                         "    |      ^\n");
@@ -102,7 +102,7 @@ TEST_CASE("wide characters take two columns, combining ones none") {
                                                                      "    | ^\n");
 }
 
-TEST_CASE("invisible and control characters are spelt out") {
+TEST_CASE("invisible and control characters are shown as escapes") {
     const Fixture zero_width("A\u200BB;");
     CHECK(zero_width.frame(zero_width.at(zero_width.span("\u200B"))) == "  1 | A\\u{200b}B;\n"
                                                                         "    |  ^^^^^^^^\n");
@@ -194,7 +194,7 @@ TEST_CASE("labels may lie in another file") {
                         "    |         -\n");
 }
 
-TEST_CASE("a fix is shown as the line it makes") {
+TEST_CASE("a fix is shown as the changed line") {
     const Fixture f("#n = 2\n#w : A − B − C;\n");
     Diagnostic insert = f.at({f.file, 6, 6});
     insert.fixes.push_back({"add `;`", {{{f.file, 6, 6}, ";"}}});
@@ -224,7 +224,7 @@ TEST_CASE("a fix is shown as the line it makes") {
                                    "  3 | #x :  B − C;\n"));
 }
 
-TEST_CASE("a long line is cut around the span") {
+TEST_CASE("a long line is shortened to the part around the span") {
     const std::string rest(5'000'000, 'x');
     const Fixture f(rest + " A " + rest);
     const std::string frame = f.frame(f.at(f.span("A")));
@@ -246,7 +246,7 @@ TEST_CASE("a long line is cut around the span") {
     CHECK(all.starts_with("  1 | xxx"));
 }
 
-TEST_CASE("a line of characters without width is cut too") {
+TEST_CASE("a line of zero-width characters is shortened too") {
     std::string text = "A";
     for (int i = 0; i < 100'000; ++i) {
         text += "\u0301";
@@ -256,7 +256,7 @@ TEST_CASE("a line of characters without width is cut too") {
     CHECK(f.frame(f.at(f.span("A"))).size() < 10'000);
 }
 
-TEST_CASE("fifty of a hundred thousand diagnostics on one long line are shown fast") {
+TEST_CASE("showing fifty of a hundred thousand diagnostics on one long line is fast") {
     constexpr std::uint32_t kCount = 100'000;
     std::string text;
     for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -281,7 +281,7 @@ TEST_CASE("fifty of a hundred thousand diagnostics on one long line are shown fa
     CHECK(spent < std::chrono::seconds(1));
 }
 
-TEST_CASE("errors are shown before warnings when not all are") {
+TEST_CASE("if not all diagnostics are shown, errors come before warnings") {
     const Fixture f("A B C D");
     lsys::Diagnostics all;
     all.add(DiagnosticCode::MissingGenerations, f.span("A"), "first");
@@ -299,7 +299,7 @@ TEST_CASE("errors are shown before warnings when not all are") {
     CHECK(out.find("\"more\"") == std::string::npos);
 }
 
-TEST_CASE("colour comes only when asked for, and changes no text") {
+TEST_CASE("colour is used only on request and changes no text") {
     const Fixture f("#n = 2\n#define w 3;");
     Diagnostic d = f.at({f.file, 6, 6}, "label");
     d.labels.push_back({f.span("w"), "other"});
@@ -317,7 +317,7 @@ TEST_CASE("colour comes only when asked for, and changes no text") {
     CHECK(coloured == plain);
 }
 
-TEST_CASE("JSON holds every fact, with byte offsets of the file on disk") {
+TEST_CASE("JSON has all data of a diagnostic, with byte offsets of the file on disk") {
     SourceMap sources;
     const FileId file = sources.add("tree.lsys", "\xEF\xBB\xBF#w : é\xFFx;\n");
     Diagnostic d = lsys::make_diagnostic(DiagnosticCode::SyntaxError, {file, 7, 9}, "wrong \xFF");

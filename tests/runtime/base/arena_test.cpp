@@ -9,7 +9,7 @@
 
 using lsys::Arena;
 
-TEST_CASE("an arena holds what it reserved, small and with huge pages") {
+TEST_CASE("reserved memory can be written, with small and with huge pages") {
     Arena arena;
     CHECK(arena.used() == 0);
     for (const std::size_t count : {std::size_t{10}, std::size_t{1} << 20}) {
@@ -36,7 +36,7 @@ TEST_CASE("an arena that is large enough keeps its memory") {
     CHECK(arena.capacity() == 0);
 }
 
-TEST_CASE("an arena moves with its memory") {
+TEST_CASE("moving an arena moves its memory") {
     Arena first;
     REQUIRE(first.reserve(64));
     first.as<char>()[0] = 'F';
@@ -49,7 +49,7 @@ TEST_CASE("an arena moves with its memory") {
     CHECK(third.used() == 64);
 }
 
-TEST_CASE("an arena grows, keeps its room and can be given back") {
+TEST_CASE("an arena grows, keeps its capacity and can be released") {
     Arena arena;
     CHECK(arena.capacity() == 0);
     REQUIRE(arena.reserve(100));

@@ -7,7 +7,7 @@
 using lsys::GlibcRandom;
 
 TEST_CASE("the generator gives the numbers of rand()") {
-    // As srand(1) and srand(42) have them.
+    // The numbers after srand(1) and srand(42).
     GlibcRandom first;
     for (const std::uint32_t expected :
          {1804289383U, 846930886U, 1681692777U, 1714636915U, 1957747793U, 424238335U, 719885386U}) {

@@ -18,7 +18,7 @@ struct PngFormat {
     bool interlaced = false;
 };
 
-/// A PNG file of `samples`, whole rows in the format of the file.
+/// A PNG file of `samples`, which are whole rows in the format of the file.
 std::string png_of(png_uint_32 columns,
                    png_uint_32 rows,
                    const PngFormat& format,
@@ -64,7 +64,7 @@ std::vector<std::uint16_t> values_of(const GreyMap& map) {
 
 } // namespace
 
-TEST_CASE("grey pictures of 1, 8 and 16 bits are read as they are stored") {
+TEST_CASE("grey pictures of 1, 8 and 16 bits are read without change of their values") {
     const GreyMap eight = read_grey_png(png_of(3, 2, {}, {0, 1, 128, 200, 254, 255})).value();
     CHECK(eight.columns == 3);
     CHECK(eight.rows == 2);
@@ -88,7 +88,8 @@ TEST_CASE("interlaced pictures are read") {
     CHECK(values_of(straight.value()) == values_of(woven.value()));
 }
 
-TEST_CASE("pictures with colours are read where all is grey, else refused by place") {
+TEST_CASE(
+    "colour pictures are read if they are grey; otherwise the message locates a coloured pixel") {
     const GreyMap grey =
         read_grey_png(png_of(2, 1, {8, PNG_COLOR_TYPE_RGB_ALPHA}, {9, 9, 9, 0, 20, 20, 20, 255}))
             .value();
@@ -100,7 +101,7 @@ TEST_CASE("pictures with colours are read where all is grey, else refused by pla
           "the picture has colours, the first at column 1 of row 0; grey values are needed");
 }
 
-TEST_CASE("damaged pictures are errors at every length") {
+TEST_CASE("a picture that is truncated at any length is an error") {
     const std::string whole = png_of(20, 20, {}, std::vector<std::uint8_t>(400, 77));
     // Chunks after the last row may be missing.
     const std::size_t needed = whole.find("IEND") - 4;
@@ -115,7 +116,7 @@ TEST_CASE("damaged pictures are errors at every length") {
     CHECK_FALSE(read_grey_png("P5 2 2 255 1234"));
 }
 
-TEST_CASE("a header that promises too many pixels is refused before memory is taken") {
+TEST_CASE("a header with too many pixels is refused before memory is allocated") {
     const std::string small = png_of(1, 1, {}, {0});
     std::string large = small;
     // Change the size in IHDR and correct its checksum.
@@ -151,7 +152,7 @@ TEST_CASE("raw samples are little-endian and of the given size") {
     CHECK_FALSE(read_grey_raw("", 0xFFFFFFFF, 0xFFFFFFFF));
 }
 
-TEST_CASE("a map that takes more memory than is left is refused before it is decoded") {
+TEST_CASE("a map that needs more memory than is left is refused before it is decoded") {
     // 1,000 by 1,000 pixels of 2 bytes, as samples and as values, in a file of a few hundred bytes.
     const std::string png =
         png_of(1000, 1000, {1, PNG_COLOR_TYPE_GRAY}, std::vector<std::uint8_t>(125'000));

@@ -7,7 +7,7 @@
 
 using lsys::catch_out_of_memory;
 
-TEST_CASE("work that runs out of memory gives another value") {
+TEST_CASE("if work runs out of memory, the given value is returned") {
     const auto out_of_memory = [] { return -1; };
     CHECK(catch_out_of_memory([] { return 7; }, out_of_memory) == 7);
     CHECK(catch_out_of_memory([]() -> int { throw std::bad_alloc(); }, out_of_memory) == -1);

@@ -20,7 +20,7 @@ TEST_CASE("Philox gives the published words") {
           PhiloxBlock{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
 }
 
-TEST_CASE("a draw is named by seed, generation, position and number") {
+TEST_CASE("a draw depends on seed, generation, position and number") {
     const std::uint64_t seed = 0x0123456789ABCDEF;
     const std::uint64_t position = 0xFEDCBA9876543210;
     DrawSource source(seed, 7, position);
@@ -34,7 +34,7 @@ TEST_CASE("a draw is named by seed, generation, position and number") {
     CHECK(source.draw(2) == unit_interval(block[2]));
 }
 
-TEST_CASE("many positions draw at once what each draws alone") {
+TEST_CASE("drawing for many positions at once gives the numbers of each alone") {
     for (std::uint32_t word = 0; word < 4; ++word) {
         const lsys::DrawKey key{0x0123456789ABCDEF, 7, 5, word};
         for (std::size_t count = 0; count <= 33; ++count) {
@@ -72,7 +72,7 @@ TEST_CASE("a range never yields its maximum") {
     CHECK(draw_in_range(-2.0F, 2.0F, 0.75F) == 1.0F);
 }
 
-TEST_CASE("runs of blocks are the blocks one by one") {
+TEST_CASE("blocks computed in runs equal blocks computed one by one") {
     for (const std::uint32_t first : {0U, 8U, 1'000'000U, 0xFFFFFFF8U}) {
         const auto run = lsys::draw_block_run(0x123456789ABCDEF0, 0xFFFFFFFE, 77, first);
         for (std::uint32_t i = 0; i < lsys::kBlockRun; ++i) {

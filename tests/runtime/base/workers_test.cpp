@@ -11,7 +11,7 @@
 
 using lsys::Workers;
 
-TEST_CASE("workers take every piece once, task after task") {
+TEST_CASE("workers run every piece of every task once") {
     for (const std::uint32_t threads : {1U, 2U, 3U, 9U}) {
         Workers workers(threads);
         CHECK(workers.count() == threads);
@@ -27,7 +27,7 @@ TEST_CASE("workers take every piece once, task after task") {
 
 TEST_CASE("workers work at the same time") {
     Workers workers(4);
-    // Each piece waits until all four run, so the test ends only if four threads have one each.
+    // Each piece waits until all four run, so the test ends only if each of four threads has one.
     std::atomic<int> there{0};
     workers.for_each(4, [&](std::uint64_t) {
         ++there;
@@ -38,7 +38,7 @@ TEST_CASE("workers work at the same time") {
     CHECK(there == 4);
 }
 
-TEST_CASE("what a worker wrote is seen after the task") {
+TEST_CASE("writes of a worker are visible after the task") {
     Workers workers(3);
     std::vector<std::uint64_t> squares(10'000);
     for (std::uint64_t round = 1; round < 50; ++round) {
@@ -50,7 +50,7 @@ TEST_CASE("what a worker wrote is seen after the task") {
     }
 }
 
-TEST_CASE("workers who have nothing to do end") {
+TEST_CASE("idle workers end") {
     const Workers unused(8);
     Workers resting(8);
     resting.for_each(2, [](std::uint64_t) {});
@@ -59,9 +59,8 @@ TEST_CASE("workers who have nothing to do end") {
     resting.for_each(2, [](std::uint64_t) {});
 }
 
-TEST_CASE("workers end whatever they are about to do") {
-    // The workers are destroyed while a helper may still wake up for a task that the others have
-    // finished.
+TEST_CASE("workers can be destroyed while a helper wakes up") {
+    // At the end of a round, a helper may still wake up for a task that the others have finished.
     for (int round = 0; round < 20'000; ++round) {
         Workers workers(2);
         std::atomic<int> done{0};
@@ -70,7 +69,7 @@ TEST_CASE("workers end whatever they are about to do") {
     }
 }
 
-TEST_CASE("a piece without memory ends the task with std::bad_alloc") {
+TEST_CASE("a piece that runs out of memory ends the task with std::bad_alloc") {
     for (const std::uint32_t threads : {1U, 4U}) {
         Workers workers(threads);
         const auto run = [&](bool has_memory) {

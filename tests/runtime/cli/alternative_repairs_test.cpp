@@ -29,7 +29,7 @@ bool has(const std::vector<std::string>& texts, std::string_view text) {
 
 } // namespace
 
-TEST_CASE("a bracket that reads the same elsewhere has no alternative") {
+TEST_CASE("another place of a bracket with the same meaning is no alternative") {
     using Code = DiagnosticCode;
     CHECK(others(Code::ExtraParenthesis, "#w : F(2));", "#w : F(2);").empty());
     CHECK(others(Code::ExtraParenthesis, "#w : F(2*(k + 1)));", "#w : F(2*(k + 1));").empty());
@@ -37,7 +37,7 @@ TEST_CASE("a bracket that reads the same elsewhere has no alternative") {
     CHECK(others(Code::UnclosedParenthesis, "#w : F((k + 1)*2;", "#w : F((k + 1)*2);").empty());
 }
 
-TEST_CASE("every other place of a bracket that reads otherwise is an alternative") {
+TEST_CASE("every other place of a bracket with a different meaning is an alternative") {
     using Code = DiagnosticCode;
     CHECK(has(others(Code::ExtraParenthesis, "#w : F(k/2*(k + 1)));", "#w : F(k/2*(k + 1));"),
               "#w : F(k/(2*(k + 1)));"));
@@ -50,14 +50,14 @@ TEST_CASE("every other place of a bracket that reads otherwise is an alternative
           std::vector<std::string>{"#w : F({1, k}*2);"});
 }
 
-TEST_CASE("a comma may be a product unless a number follows") {
+TEST_CASE("a comma may stand for a product unless a number follows") {
     using Code = DiagnosticCode;
     CHECK(others(Code::MissingComma, "#w : F(k 2);", "#w : F(k, 2);").empty());
     CHECK(has(others(Code::MissingComma, "#w : F(2 k);", "#w : F(2, k);"), "#w : F(2 *  k);"));
     CHECK(others(Code::MissingComma, "#w : F({1 k});", "#w : F({1, k});").empty());
 }
 
-TEST_CASE("the statement is read as its file's names say") {
+TEST_CASE("a statement is parsed with the setting `names` of its file") {
     // A text of more than 16 characters in back quotes is legal only with `names characters`.
     const std::string_view broken = "#w : `seventeen modules`(2));";
     const std::string_view repaired = "#w : `seventeen modules`(2);";

@@ -7,7 +7,7 @@
 using namespace lsys;
 using namespace lsys;
 
-TEST_CASE("whole numbers are taken within their bounds only") {
+TEST_CASE("whole numbers must be within their bounds") {
     CHECK(parse_integer("0", 0, 9).value() == 0);
     CHECK(parse_integer("18446744073709551615", 0, ~std::uint64_t{0}).value() == ~std::uint64_t{0});
     CHECK(parse_integer("10", 0, 9).error().message == "`10` is not a whole number from 0 to 9");
@@ -18,7 +18,7 @@ TEST_CASE("whole numbers are taken within their bounds only") {
     }
 }
 
-TEST_CASE("sizes have suffixes of powers of 1024") {
+TEST_CASE("sizes may have suffixes for powers of 1024") {
     CHECK(parse_size("1048576").value() == 1'048'576);
     CHECK(parse_size("1K").value() == 1024);
     CHECK(parse_size("1k").value() == 1024);
@@ -33,7 +33,7 @@ TEST_CASE("sizes have suffixes of powers of 1024") {
     }
 }
 
-TEST_CASE("definitions are a name and a number") {
+TEST_CASE("a definition consists of a name and a number") {
     CHECK(parse_definition("a=2").value().name == "a");
     CHECK(parse_definition("a=2").value().value == 2.0F);
     CHECK(parse_definition("x_1=-1.5e-3").value().value == -1.5e-3F);

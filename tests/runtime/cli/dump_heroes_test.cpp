@@ -1,5 +1,5 @@
-// Compares `lsc dump --stage heroes`, `cache` and `instanced` with a slow interpretation of their
-// words.
+// Compares the output of `lsc dump --stage heroes`, `cache` and `instanced` with a slow
+// interpretation of the words.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -117,7 +117,7 @@ TEST_CASE("a hero's word without its operations is the plain word of its seed") 
                      file}) == output_of({"dump", "--seed", "40", "--count", file}));
 }
 
-TEST_CASE("the cache holds what the heroes' words record") {
+TEST_CASE("the cache has the branches of the words of all heroes") {
     const ScratchFolder folder;
     write_text(folder / "tree.lsys", kBranching);
     const std::string file = folder / "tree.lsys";
@@ -161,14 +161,14 @@ TEST_CASE("the cache holds what the heroes' words record") {
         std::size_t total = 0;
         for (const auto& [key, each] : expected) {
             total += static_cast<std::size_t>(each.instances);
-            // Each branch taken (hit or miss) is at least one exit of the hero that contains it.
+            // Each branch of a hero (hit or miss) is at least one exit of the hero.
             CHECK(exits[key] >= each.hits + each.misses);
         }
         CHECK(instances == total);
     }
 }
 
-TEST_CASE("a listing of forms shows the rows that are asked for") {
+TEST_CASE("a listing of forms shows the requested rows") {
     const ScratchFolder folder;
     const auto write = [&](int branches) {
         std::string text = "#n = 1; #w : A; #p : A : ~ 0.5 : F";
@@ -178,8 +178,8 @@ TEST_CASE("a listing of forms shows the rows that are asked for") {
         write_text(folder / "many.lsys", text + "; #q : A : ~ 0.5 : F;");
         return folder / "many.lsys";
     };
-    // 24 branches: the probabilities of all forms, n choose i forms with i taken branches, must sum
-    // to that of the production.
+    // 24 branches: n choose i forms have i exchanged branches. The probabilities of all forms must
+    // sum to that of the production.
     const std::string file = write(24);
     const std::vector<std::string> rows =
         lines_of(output_of({"dump", "--stage", "instanced", "--rho", "0.25", "--first", "16777213",

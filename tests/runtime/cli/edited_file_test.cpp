@@ -34,7 +34,7 @@ Edit edit(std::uint32_t begin, std::uint32_t end, std::string replacement) {
 
 } // namespace
 
-TEST_CASE("places of an edited text are found in the text as it was") {
+TEST_CASE("places of an edited text are mapped to the original text") {
     Rounds r("abcdefgh", {});
     r.round({edit(1, 1, "123"), edit(4, 6, "")});
     CHECK(r.text == "a123bcdgh");
@@ -52,14 +52,14 @@ TEST_CASE("places of an edited text are found in the text as it was") {
     CHECK(r.file.original_place(10) == 8);
 }
 
-TEST_CASE("a line feed that is inserted counts as the file's line ends do") {
+TEST_CASE("an inserted line feed becomes a line end of the file") {
     Rounds r("a\r\nb\r\n", {});
     r.round({edit(1, 1, "\n")});
     CHECK(r.text == "a\r\n\r\nb\r\n");
     CHECK(r.file.original_place(5) == 3); // b
 }
 
-TEST_CASE("statements are found by any place that touches them") {
+TEST_CASE("a statement is found by every place in it or at its ends") {
     //        0123456789
     Rounds r("#w:F;#p;#q", {{5, 8}, {0, 5}, {8, 10}, {0, 5}});
     REQUIRE(r.file.statements().size() == 3);

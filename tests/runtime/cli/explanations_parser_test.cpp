@@ -4,7 +4,7 @@
 
 using namespace lsys::lsc;
 
-TEST_CASE("explanations are taken apart") {
+TEST_CASE("explanations are parsed into codes and texts") {
     const auto all =
         parse_explanations("# Head\n\nnot read\n\n## first-code\n\nOne.\nTwo.\n\nThree.\n\n"
                            "```lsys wrong\nrun: dump -n 3\n#w : A;\nfile: b.lsys\n#w : B;\n```\n\n"
@@ -29,7 +29,7 @@ TEST_CASE("explanations are taken apart") {
     CHECK(all[1].examples[0].files[0].second == "run: y\n");
 }
 
-TEST_CASE("damaged explanations do no harm") {
+TEST_CASE("damaged explanations cause no crash") {
     CHECK(parse_explanations("").empty());
     CHECK(parse_explanations("```\n").empty());
     const auto open = parse_explanations("## x\n```lsys wrong\n#w : A;");

@@ -31,7 +31,7 @@ std::size_t count_files(const ScratchFolder& folder) {
 
 } // namespace
 
-TEST_CASE("the name of the file tells the format, or --format does") {
+TEST_CASE("the extension of the file or --format selects the format") {
     const ScratchFolder folder;
     for (const char* name : {"a.obj", "a.PLY", "a.off", "a.off+", "a.stl", "a.gltf", "a.glb",
                              "a.svg", "a.usda", "a.usdz"}) {
@@ -51,7 +51,8 @@ TEST_CASE("the name of the file tells the format, or --format does") {
     CHECK(streamed.out == read_text(folder / "a.stl"));
 }
 
-TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it or not at all") {
+TEST_CASE(
+    "the pictures of an OBJ or USDA are written once for all frames, and only with the file") {
     const ScratchFolder folder;
     REQUIRE(run_lsc({"export", "-", "-o", folder / "tree.usda"}, kTree).status == 0);
     CHECK(count_files(folder) == 3);
@@ -79,7 +80,7 @@ TEST_CASE("pictures lie beside an OBJ or USDA, of all frames once, and with it o
     CHECK_FALSE(std::filesystem::exists("/dev/null.mtl"));
 }
 
-TEST_CASE("a stored and a streamed word, and any threads, give the same file") {
+TEST_CASE("a stored and a streamed word give the same file, with any number of threads") {
     const std::vector<std::string> command{"export", "-", "-o", "-", "--format", "glb"};
     const std::string file = run_lsc(command, kTree).out;
     REQUIRE(!file.empty());
@@ -91,7 +92,7 @@ TEST_CASE("a stored and a streamed word, and any threads, give the same file") {
     }
 }
 
-TEST_CASE("a plant without anything to draw is told and writes no file") {
+TEST_CASE("a plant that draws nothing is reported and gives no file") {
     const ScratchFolder folder;
     const LscRun run =
         run_lsc({"export", "-q", "-", "-o", folder / "a.glb"}, "#n = 1; #w : A; #p : A : * : A A;");
@@ -100,7 +101,7 @@ TEST_CASE("a plant without anything to draw is told and writes no file") {
     CHECK(count_files(folder) == 0);
 }
 
-TEST_CASE("a mesh over the memory that it may take ends with 3 and no file") {
+TEST_CASE("a mesh over the limit of memory ends with status 3 and no file") {
     const ScratchFolder folder;
     const LscRun run =
         run_lsc({"export", "-", "-o", folder / "a.glb", "--max-memory", "50K"}, kTree);
@@ -109,7 +110,7 @@ TEST_CASE("a mesh over the memory that it may take ends with 3 and no file") {
     CHECK(count_files(folder) == 0);
 }
 
-TEST_CASE("physics bends a plant, and without force leaves it as it is") {
+TEST_CASE("physics bends a plant, and without forces does not change it") {
     const std::vector<std::string> command{"export", "-", "-o", "-", "--format", "stl"};
     const auto with = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments = command;
@@ -131,7 +132,7 @@ TEST_CASE("physics bends a plant, and without force leaves it as it is") {
     }
 }
 
-TEST_CASE("frames are numbered files that begin at rest") {
+TEST_CASE("frames are written to numbered files and begin at rest") {
     const ScratchFolder folder;
     const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--frames", "3",
                                 "--gravity", "9.81", "--wind", "8,0,0,0.5"},
@@ -144,7 +145,7 @@ TEST_CASE("frames are numbered files that begin at rest") {
     CHECK(read_text(folder / "tree.0003.stl") != read_text(folder / "tree.0002.stl"));
 }
 
-TEST_CASE("frames that grow are numbered files from the axiom to the last generation") {
+TEST_CASE("frames of growth are written to numbered files, from the axiom to the last generation") {
     const auto file_of = [](const std::string& generations) {
         return run_lsc({"export", "-", "-o", "-", "--format", "stl", "-n", generations}, kTree).out;
     };
@@ -198,7 +199,7 @@ TEST_CASE("frames that grow are numbered files from the axiom to the last genera
     CHECK(count_files(folder) == 10);
 }
 
-TEST_CASE("glb and gltf hold all frames of a growth in one file") {
+TEST_CASE("one glb or gltf holds all frames of a growth") {
     const ScratchFolder folder;
     for (const std::string name : {"tree.gltf", "tree.glb"}) {
         const LscRun run = run_lsc(
@@ -223,7 +224,7 @@ TEST_CASE("glb and gltf hold all frames of a growth in one file") {
     CHECK(count_files(folder) == 2);
 }
 
-TEST_CASE("frames that grow begin after the last generation that draws nothing") {
+TEST_CASE("frames of growth begin after the last generation that draws nothing") {
     const char* const grammar = "#n = 4;\n#w : A;\n#wait : A : * : B;\n#sprout : B : * : F A;\n"
                                 "#wither : F : * : F(2);\n";
     const auto file_of = [&](const std::string& generations) {
@@ -248,7 +249,7 @@ TEST_CASE("frames that grow begin after the last generation that draws nothing")
     CHECK(bare.err.find("nothing to draw") != std::string::npos);
 }
 
-TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
+TEST_CASE("one glb or gltf holds all frames, also on standard output") {
     const ScratchFolder folder;
     const std::vector<std::string> force{"--frames", "3", "--fps", "12", "--wind", "8,0,0,0.5"};
     const auto with = [&](std::vector<std::string> arguments) {
@@ -288,7 +289,7 @@ TEST_CASE("glb and gltf hold all frames in one file, also on standard output") {
     CHECK(rest.out.find("skins") == std::string::npos);
 }
 
-TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
+TEST_CASE("a glTF has its buffer and pictures in separate files on request") {
     const ScratchFolder folder;
     const std::vector<std::string> separate{"--buffers", "separate"};
     const auto with = [&](std::vector<std::string> arguments) {
@@ -307,7 +308,7 @@ TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
     // To standard output, one file contains everything.
     const LscRun whole = with({"export", "-", "-o", "-", "--format", "gltf"});
     CHECK(whole.out == run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree).out);
-    // A film has one buffer.
+    // A film of growth has one buffer.
     REQUIRE(with({"export", "-", "-o", folder / "b.gltf", "--grow", "--frames", "3"}).status == 0);
     CHECK(std::filesystem::exists(folder / "b.bin"));
     CHECK(std::filesystem::exists(folder / "b.bark.png"));
@@ -317,7 +318,7 @@ TEST_CASE("a glTF puts its buffer and pictures beside it if asked to") {
     CHECK(glb.err.find("--buffers needs gltf, not glb") != std::string::npos);
 }
 
-TEST_CASE("compressed plants are smaller, the same for any threads, and of glTF only") {
+TEST_CASE("compressed plants are smaller, the same for any number of threads, and only in glTF") {
     const ScratchFolder folder;
     const auto with = [&](const std::string& compression, std::vector<std::string> more) {
         std::vector<std::string> arguments{"export", "-",          "-o",        "-",  "--format",
@@ -348,7 +349,7 @@ TEST_CASE("compressed plants are smaller, the same for any threads, and of glTF 
     CHECK(count_files(folder) == 0);
 }
 
-TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {
+TEST_CASE("an animation over its limits ends with status 3, a message with help, and no file") {
     const ScratchFolder folder;
     const LscRun memory = run_lsc({"export", "-", "-o", folder / "a.glb", "--frames", "100000",
                                    "--wind", "1,0,0", "--max-memory", "20M"},
@@ -367,7 +368,8 @@ TEST_CASE("an animation over its limits ends with 3, what helps, and no file") {
     CHECK(count_files(folder) == 0);
 }
 
-TEST_CASE("statistics of an export go to standard output, or beside the plant that is there") {
+TEST_CASE(
+    "statistics of an export go to standard output, or to standard error if the plant goes there") {
     const ScratchFolder folder;
     const LscRun run = run_lsc({"export", "-", "-o", folder / "a.ply", "--stats"}, kTree);
     REQUIRE(run.status == 0);
@@ -446,7 +448,7 @@ TEST_CASE("dump --stage mesh prints the mesh that export writes") {
     }
 }
 
-TEST_CASE("options of a mesh go with the stage that makes one") {
+TEST_CASE("options of a mesh are allowed only with the stage mesh") {
     const LscRun word = run_lsc({"dump", "-", "--sides", "5"}, kTree);
     CHECK(word.status == 2);
     CHECK(word.err.find("--stage mesh") != std::string::npos);
@@ -457,7 +459,7 @@ TEST_CASE("options of a mesh go with the stage that makes one") {
     CHECK(limit.out.empty());
 }
 
-TEST_CASE("a mesh file of #object lies beside its grammar") {
+TEST_CASE("the path of a mesh file of #object is relative to its grammar") {
     const ScratchFolder folder;
     write_text(folder / "plant.lsys", "#n = 1; #object L \"leaf.obj\"; #w : F(1) L(2) L;");
     const std::string out = folder / "plant.ply";
@@ -476,7 +478,7 @@ TEST_CASE("a mesh file of #object lies beside its grammar") {
           std::string::npos);
 }
 
-TEST_CASE("a loop in numbered files ends with its first file, and begins at no rest") {
+TEST_CASE("the last numbered file of a loop equals the first and is not at rest") {
     const ScratchFolder folder;
     const LscRun run = run_lsc({"export", "-", "-o", folder / "tree.stl", "--frames", "7", "--fps",
                                 "6", "--wind", "8,0,0,0.5", "--loop", "-v"},
@@ -488,7 +490,7 @@ TEST_CASE("a loop in numbered files ends with its first file, and begins at no r
     CHECK(read_text(folder / "tree.0001.stl") != read_text(folder / "tree.0004.stl"));
 }
 
-TEST_CASE("wind data are attributes of glTF, which other formats do not have") {
+TEST_CASE("wind data are attributes of glTF and an error in other formats") {
     const ScratchFolder folder;
     const LscRun plain = run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree);
     CHECK(plain.out.find("TEXCOORD_1") == std::string::npos);

@@ -43,7 +43,7 @@ struct Fixture {
 
 } // namespace
 
-TEST_CASE("files are read whole, whatever they hold") {
+TEST_CASE("files with any bytes are read completely") {
     Fixture f;
     std::string bytes("a\0b\xFF", 4);
     for (const std::size_t size : {0U, 4U, 1U << 20U, (3U << 20U) + 1U}) {
@@ -58,7 +58,7 @@ TEST_CASE("files are read whole, whatever they hold") {
     CHECK(device.value().empty());
 }
 
-TEST_CASE("what cannot be read is named with its reason") {
+TEST_CASE("the message about an unreadable file has the reason") {
     Fixture f;
     CHECK(read_file(f.folder / "none", {kMany}, f.console).error().message ==
           "cannot read `" + f.folder / "none" + "`: no such file or directory");
@@ -82,7 +82,7 @@ TEST_CASE("standard input has the name -") {
     CHECK(!read_file("-", {4}, too_long.console).ok());
 }
 
-TEST_CASE("a written file appears when it is complete") {
+TEST_CASE("a written file appears only when it is complete") {
     Fixture f;
     {
         Result<Output> output = Output::open(f.folder / "x", f.console);
@@ -150,7 +150,7 @@ TEST_CASE("writing never changes the umask of other threads") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a file that must be new replaces none") {
+TEST_CASE("a file that must be new replaces no other") {
     Fixture f;
     write_text(f.folder / "old", "first");
     REQUIRE(::symlink("nowhere", (f.folder / "link").c_str()) == 0);
@@ -189,7 +189,7 @@ TEST_CASE("files that belong together appear together") {
     CHECK(f.file_count() == 2);
 }
 
-TEST_CASE("of files that belong together none appears if one cannot") {
+TEST_CASE("if one of several files that belong together cannot be written, none appears") {
     Fixture f;
     write_text(f.folder / "old", "first");
     std::vector<Output> outputs;
@@ -207,7 +207,7 @@ TEST_CASE("of files that belong together none appears if one cannot") {
     CHECK(f.file_count() == 2); // `old` and the directory
 }
 
-TEST_CASE("what cannot be written is named with its reason, and leaves nothing") {
+TEST_CASE("the message about an unwritable file has the reason, and no file is left") {
     Fixture f;
     CHECK(write_file(f.folder / "none/x", "text", f.console).error().message ==
           "cannot write `" + f.folder / "none/x" + "`: no such file or directory");

@@ -46,7 +46,7 @@ struct EditedText {
 
 } // namespace
 
-TEST_CASE("fixes are applied in any order of discovery") {
+TEST_CASE("fixes may be given in any order") {
     EditedText f("0123456789");
     f.add({f.edit(7, 8, "seven")});
     f.add({f.edit(2, 4, ""), f.edit(0, 0, "<")});
@@ -54,7 +54,7 @@ TEST_CASE("fixes are applied in any order of discovery") {
     CHECK(f.fix_count == 2);
 }
 
-TEST_CASE("of fixes that touch each other the first wins") {
+TEST_CASE("if fixes overlap, the first is applied") {
     EditedText overlap("0123456789");
     overlap.add({overlap.edit(2, 6, "A")});
     overlap.add({overlap.edit(5, 7, "B")});
@@ -74,14 +74,14 @@ TEST_CASE("of fixes that touch each other the first wins") {
     CHECK(whole.apply() == "A12B");
 }
 
-TEST_CASE("fixes that are not certain are left alone") {
+TEST_CASE("fixes that are not certain are not applied") {
     EditedText f("0123");
     f.add({f.edit(0, 1, "A")}, false);
     CHECK(f.apply() == "0123");
     CHECK(f.fix_count == 0);
 }
 
-TEST_CASE("a text with CRLF keeps it") {
+TEST_CASE("a text with CRLF keeps its line ends") {
     EditedText f("ab\r\ncd\r\n");
     f.add({f.edit(1, 1, ";\n#")});
     CHECK(f.apply() == "a;\r\n#b\r\ncd\r\n");
@@ -90,7 +90,7 @@ TEST_CASE("a text with CRLF keeps it") {
     CHECK(plain.apply() == "a\nb\n");
 }
 
-TEST_CASE("a fix that is not allowed leaves its place to others") {
+TEST_CASE("a fix that is not allowed does not exclude others at its place") {
     EditedText f("0123");
     f.add({f.edit(0, 2, "A")});
     f.add({f.edit(1, 3, "B")});
@@ -101,7 +101,7 @@ TEST_CASE("a fix that is not allowed leaves its place to others") {
     CHECK(apply_edits("0123", chosen.edits.at("a.lsys")) == "0B3");
 }
 
-TEST_CASE("only the first fifty fixes are told one by one") {
+TEST_CASE("only the first fifty fixes are listed") {
     GrammarText text{"#n = 1;\n#w : F;\n", Dialect::Lsys};
     for (int i = 0; i < 60; ++i) {
         text.bytes += "p" + std::to_string(i) + " : F(x) : x > " + std::to_string(i) + " : F;\n";
@@ -117,7 +117,7 @@ TEST_CASE("only the first fifty fixes are told one by one") {
     CHECK(!fixed.compiled.diagnostics.has_errors());
 }
 
-TEST_CASE("no fix of what was repaired is certain") {
+TEST_CASE("after repairs, no further fix is certain") {
     const GrammarText text{"#n = 1;\n#w : F(1))\n#p : F(x) : x = 1 : F(0x1);\n", Dialect::Lsys};
     const Project project{make_file_host(nullptr), {}, 1, {}};
     const FixScope scope("a.lsys", {});
@@ -135,7 +135,7 @@ TEST_CASE("no fix of what was repaired is certain") {
           static_cast<std::ptrdiff_t>(fixed.fix_count));
 }
 
-TEST_CASE("offered repairs are made on request, each once") {
+TEST_CASE("offered repairs are applied on request, each once") {
     const GrammarText text{"#n = 1;\n#w : A(2);\n#p : A(x) : x > t : F(rand(x));\n", Dialect::Lsys};
     const Project project{make_file_host(nullptr), {}, 1, {}};
     const FixScope scope("a.lsys", {});

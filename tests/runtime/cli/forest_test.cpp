@@ -45,7 +45,7 @@ Forest grow(std::vector<std::string> arguments) {
 
 } // namespace
 
-TEST_CASE("a forest says how many of its trees differ") {
+TEST_CASE("the statistics of a forest have its number of different trees") {
     const ScratchFolder folder;
     write_text(folder / "bush.lsys", kBush);
     const LscRun run = run_lsc({"forest", folder / "bush.lsys", "--count", "2000", "--stats"}, "");
@@ -115,7 +115,7 @@ TEST_CASE("a forest of whole trees has a mesh for each hero and a node for each 
     CHECK_FALSE(std::filesystem::exists(folder / "no.glb"));
 }
 
-TEST_CASE("tiles of a forest together are the whole, tree by tree") {
+TEST_CASE("the tiles of a forest have exactly the trees of the whole") {
     const ScratchFolder folder;
     write_text(folder / "bush.lsys", kBush);
     const std::string file = folder / "bush.lsys";
@@ -143,7 +143,7 @@ TEST_CASE("tiles of a forest together are the whole, tree by tree") {
     CHECK(sum.digest == whole.digest); // the digest covers every branch of every tree
 }
 
-TEST_CASE("a forest without plants of its own says why") {
+TEST_CASE("the message about a forest without plants has the reason") {
     const ScratchFolder folder;
     const std::string file = folder / "a.lsys";
     const auto fails = [&](const char* grammar, std::vector<std::string> more, int status,
@@ -170,7 +170,7 @@ TEST_CASE("a forest without plants of its own says why") {
     CHECK(!std::filesystem::exists(folder / "x.glb"));
 }
 
-TEST_CASE("forests are compressed as plants are, instanced or baked") {
+TEST_CASE("forests can be compressed like plants, instanced or baked") {
     const ScratchFolder folder;
     write_text(folder / "bush.lsys", kBush);
     const auto bytes_of = [&](std::vector<std::string> more) {
@@ -204,7 +204,7 @@ TEST_CASE("forests are compressed as plants are, instanced or baked") {
     }
 }
 
-TEST_CASE("the last frame of a forest that grows is the forest, painted trees included") {
+TEST_CASE("the last frame of a growing forest is the forest, with painted trees") {
     const ScratchFolder folder;
     write_text(folder / "bush.lsys", kBush);
     write_text(folder / "wood.toml", "key = 1\n[terrain]\nsize = 20\n"

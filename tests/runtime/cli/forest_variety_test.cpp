@@ -57,7 +57,7 @@ std::pair<int, std::string> shape_of(const LscRun& run) {
 
 } // namespace
 
-TEST_CASE("the heroes that --variety chooses give as many different trees as it asks for") {
+TEST_CASE("--variety chooses heroes that give the requested number of different trees") {
     for (const std::string name : {"carey-type-0", "carey-type-2"}) {
         const std::vector<std::string> base{sample(name), "--count", "300", "--stats"};
         const LscRun run = forest(base, {"--variety", "0.9"});
@@ -72,7 +72,8 @@ TEST_CASE("the heroes that --variety chooses give as many different trees as it 
     }
 }
 
-TEST_CASE("variety and memory that cannot be had together name the nearest that can") {
+TEST_CASE("if --variety and --memory contradict each other, the message has the nearest possible "
+          "values") {
     const std::vector<std::string> base{sample("carey-type-0"), "--count", "300", "--stats", "-q"};
     const LscRun refused = forest(base, {"--variety", "0.9", "--memory", "1K"});
     CHECK(refused.status == 2);
@@ -87,7 +88,7 @@ TEST_CASE("variety and memory that cannot be had together name the nearest that 
     CHECK(shape_of(forest(base, {"--memory", memory})).first >= 270);
 }
 
-TEST_CASE("a system without chance has no variety to choose") {
+TEST_CASE("--variety is refused for a system without chance") {
     const ScratchFolder folder;
     write_text(folder / "fixed.lsys", "#n = 3; #w : A; #p : A : * : F[+A][-A];");
     const LscRun run = forest({folder / "fixed.lsys"}, {"--variety", "0.5", "--stats"});
@@ -99,7 +100,7 @@ TEST_CASE("a system without chance has no variety to choose") {
           0);
 }
 
-TEST_CASE("a forest says when few of its trees differ") {
+TEST_CASE("a note appears if few trees of a forest differ") {
     const ScratchFolder folder;
     write_text(folder / "twig.lsys",
                "#n = 2; #w : A; #p : A : ~ 0.5 : F[+A]A; #q : A : ~ 0.5 : F;");

@@ -1,4 +1,4 @@
-// `lsc fmt` with bytes that golden cases cannot show: byte order marks and line ends.
+// `lsc fmt` with bytes that golden cases cannot contain: byte order marks and line ends.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

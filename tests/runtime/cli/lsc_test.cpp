@@ -1,4 +1,4 @@
-// Behaviour of lsc that golden cases cannot show: interrupts, terminals, failing streams, exhausted
+// Behaviour of lsc that golden cases cannot test: interrupts, terminals, failing streams, exhausted
 // memory.
 #include "runtime/cli/lsc.h"
 #include "tests/support/lsc_run.h"
@@ -40,7 +40,7 @@ protected:
 
 } // namespace
 
-TEST_CASE("an interrupted run ends with 130 and leaves nothing") {
+TEST_CASE("an interrupted run ends with status 130 and leaves no file") {
     const ScratchFolder folder;
     const std::atomic<bool> interrupted{true};
     for (const std::vector<std::string>& options : {std::vector<std::string>{"dump", "-"},
@@ -60,7 +60,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves nothing") {
     CHECK(folder.file_count() == 0);
 }
 
-TEST_CASE("standard output that fails ends with 2") {
+TEST_CASE("an error of standard output ends with status 2") {
     for (const std::vector<std::string>& options : {std::vector<std::string>{"dump", "-"},
                                                     {"dump", "-", "--all"},
                                                     {"dump", "-", "--count"},
@@ -82,7 +82,7 @@ TEST_CASE("standard output that fails ends with 2") {
     }
 }
 
-TEST_CASE("running out of memory is a limit, not a crash") {
+TEST_CASE("running out of memory ends like a limit, without a crash") {
     NoMemory nothing;
     std::istream in(&nothing);
     in.exceptions(std::ios::badbit);
@@ -114,7 +114,7 @@ TEST_CASE("colour follows the terminal, the option and NO_COLOR") {
     ::unsetenv("NO_COLOR");
 }
 
-TEST_CASE("a limit or an error leaves an earlier output file as it was") {
+TEST_CASE("a limit or an error does not change an earlier output file") {
     const ScratchFolder folder;
     write_text(folder / "word", "before");
     const std::string grows = "#n = 9; #w : F; #p : F : * : F F;";
@@ -146,7 +146,7 @@ TEST_CASE("check --fix writes the file once and as a whole") {
     CHECK(again.err == "");
 }
 
-TEST_CASE("check --fix leaves included files outside the folder of the grammar as they are") {
+TEST_CASE("check --fix does not change included files outside the folder of the grammar") {
     const ScratchFolder folder;
     const std::string wrong = "#p : F(x) : * : F(x \u2212 1)\n";
     const std::string right = "#p : F(x) : * : F(x - 1);\n";

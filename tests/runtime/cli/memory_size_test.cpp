@@ -25,7 +25,7 @@ struct Root : ScratchFolder {
 
 } // namespace
 
-TEST_CASE("a machine without limits of cgroups has its physical memory") {
+TEST_CASE("without limits of cgroups, the size is that of physical memory") {
     const Root root;
     CHECK(cgroup_memory(root.path()) == kNoLimit);
     root.put("proc/self/cgroup", "0::/user.slice\n");
@@ -35,7 +35,7 @@ TEST_CASE("a machine without limits of cgroups has its physical memory") {
     CHECK(half_of_memory() > (std::uint64_t{1} << 26));
 }
 
-TEST_CASE("of the limits of cgroup v2 the least counts") {
+TEST_CASE("the smallest of the limits of cgroup v2 counts") {
     const Root root;
     root.put("proc/self/cgroup", "0::/a/b\n");
     root.put("sys/fs/cgroup/a/b/memory.max", "3000000000\n");
@@ -46,7 +46,7 @@ TEST_CASE("of the limits of cgroup v2 the least counts") {
     CHECK(cgroup_memory(root.path()) == 536'870'912);
 }
 
-TEST_CASE("a container sees its own group as the topmost one") {
+TEST_CASE("a container has its own group as the topmost one") {
     const Root root;
     root.put("proc/self/cgroup", "0::/\n");
     root.put("sys/fs/cgroup/memory.max", "268435456\n");
@@ -55,7 +55,7 @@ TEST_CASE("a container sees its own group as the topmost one") {
     CHECK(cgroup_memory(root.path()) == 268'435'456);
 }
 
-TEST_CASE("limits of cgroup v1 count, those of the whole container too") {
+TEST_CASE("limits of cgroup v1 count, also those of the whole container") {
     const Root root;
     root.put("proc/self/cgroup", "12:pids:/x\n11:cpuset,memory:/docker/1f\n1:name=systemd:/x\n");
     // Inside a container, its own group is mounted as the root.

@@ -1,4 +1,4 @@
-// Largest distance of any vertex from its place at rest, for samples in a clip of wind.
+// Largest distance of a vertex from its place at rest, for samples in an animation of wind.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ std::vector<glm::vec3> positions_of(const std::string& ply) {
         std::stoul(ply.substr(ply.find("element vertex ") + std::strlen("element vertex ")));
     const std::string end = "end_header\n";
     const std::string header = ply.substr(0, ply.find(end));
-    // Bytes per vertex: floats, and bytes of colours. Only vertices have such properties.
+    // Bytes per vertex: floats and colours. Only vertices have properties of these types.
     std::size_t stride = 0;
     for (const auto& [word, bytes] :
          {std::pair("property float ", 4), std::pair("property uchar ", 1)}) {
@@ -38,8 +38,8 @@ std::vector<glm::vec3> positions_of(const std::string& ply) {
     return positions;
 }
 
-/// Largest distance of a vertex from its place at rest in a clip of 4 s with gusts of 4 to 12 m/s,
-/// as a fraction of the plant's height.
+/// Largest distance of a vertex from its place at rest in an animation of 4 s with gusts of 4 to 12
+/// m/s, as a fraction of the height of the plant.
 float largest_way(const std::string& sample) {
     const ScratchFolder folder;
     const std::string grammar =
@@ -54,24 +54,24 @@ float largest_way(const std::string& sample) {
     const std::vector<glm::vec3> rest = positions_of(read_text(folder / "rest.ply"));
     const auto [low, high] = std::minmax_element(
         rest.begin(), rest.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.y < b.y; });
-    float most = 0.0F;
+    float max_distance = 0.0F;
     for (int frame = 1; frame <= 17; ++frame) {
         const std::string number = (frame < 10 ? "0" : "") + std::to_string(frame);
         const std::vector<glm::vec3> moved =
             positions_of(read_text(folder / ("a.00" + number + ".ply")));
         REQUIRE(moved.size() == rest.size());
         for (std::size_t i = 0; i < rest.size(); ++i) {
-            most = std::max(most, glm::length(moved[i] - rest[i]));
+            max_distance = std::max(max_distance, glm::length(moved[i] - rest[i]));
         }
     }
     CHECK(positions_of(read_text(folder / "a.0001.ply")) ==
           positions_of(read_text(folder / "a.0017.ply")));
-    return most / (high->y - low->y);
+    return max_distance / (high->y - low->y);
 }
 
 } // namespace
 
-TEST_CASE("trees sway in a fresh breeze by a part of their height") {
+TEST_CASE("trees sway in a fresh breeze by a plausible fraction of their height") {
     const std::string name = GENERATE("carey-type-0", "carey-type-1"); // carey-type-2 takes minutes
     CAPTURE(name);
     const float way = largest_way(name);

@@ -47,7 +47,7 @@ nlohmann::json document_of(const std::string& glb) {
     return nlohmann::json::parse(glb.substr(20, length));
 }
 
-/// A file with the grammar, which scenes need.
+/// A file with the grammar, because scenes name files.
 std::string tree_file(const ScratchFolder& folder) {
     const std::string path = folder / "tree.lsys";
     std::ofstream(path) << kTree;
@@ -56,7 +56,7 @@ std::string tree_file(const ScratchFolder& folder) {
 
 } // namespace
 
-TEST_CASE("each preset sets what its options set one by one") {
+TEST_CASE("each preset gives the same file as its options one by one") {
     std::set<std::string_view> names;
     for (const Preset& preset : presets()) {
         CHECK(names.insert(preset.name).second);
@@ -110,7 +110,7 @@ TEST_CASE("each preset sets what its options set one by one") {
     }
 }
 
-TEST_CASE("an option that is given wins over the preset") {
+TEST_CASE("an explicit option overrides the preset") {
     const std::vector<std::string> base{"export", "a.lsys", "-o", "a.glb", "--preset", "unreal"};
     const auto with = [&base](std::vector<std::string> more) {
         std::vector<std::string> all = base;
@@ -160,7 +160,7 @@ TEST_CASE("an option that is given wins over the preset") {
               .unit == LengthUnit::Millimetres);
 }
 
-TEST_CASE("a preset refuses other formats and names its own") {
+TEST_CASE("a preset refuses other formats and lists its own") {
     const CommandLine line = parse_command_line(
         std::vector<std::string>{"export", "a.lsys", "-o", "a.stl", "--preset", "web"});
     REQUIRE(std::holds_alternative<UsageError>(line));
@@ -188,7 +188,7 @@ TEST_CASE("docs/files.md has the table of presets") {
     }
 }
 
-TEST_CASE("names of a file's nodes come from its own name, and shapes of collision are children") {
+TEST_CASE("nodes are named after their file, and collision shapes are children") {
     const ScratchFolder folder;
     REQUIRE(run_lsc({"export", "-", "-o", folder / "old oak.glb", "--preset", "unreal"}, kTree)
                 .status == 0);
@@ -213,7 +213,7 @@ TEST_CASE("names of a file's nodes come from its own name, and shapes of collisi
     CHECK(document["meshes"][0]["primitives"][0]["attributes"].contains("TEXCOORD_2"));
 }
 
-TEST_CASE("a file states its unit, and its lengths are in it") {
+TEST_CASE("a file states its unit, and its lengths have that unit") {
     const ScratchFolder folder;
     const auto heights = [&folder](const char* unit) {
         const std::string path = folder / (std::string(unit) + ".obj");
@@ -280,7 +280,7 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
     CHECK(tallest <= 151.5F);
 }
 
-TEST_CASE("a forest has its pivot and unit in every form") {
+TEST_CASE("a forest has its pivot and unit, instanced or baked") {
     const ScratchFolder folder;
     const auto written = [&folder](const std::string& name, std::vector<std::string> options) {
         const std::string path = folder / name;
@@ -324,7 +324,7 @@ TEST_CASE("a forest has its pivot and unit in every form") {
           std::string::npos);
 }
 
-TEST_CASE("whole trees of a forest have shapes of collision") {
+TEST_CASE("whole trees of a forest have collision shapes") {
     const ScratchFolder folder;
     const auto written = [&folder](std::vector<std::string> options) {
         const std::string path = folder / "a.glb";

@@ -90,7 +90,7 @@ constexpr const char* kFourEndless = "#n = 4000000000; #w : F F F F; #p : F : * 
 
 } // namespace
 
-TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
+TEST_CASE("Ctrl-C ends a derivation with status 130 and no file") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", kFourEndless);
     for (const char* option : {"--all", "--count"}) {
@@ -109,7 +109,7 @@ TEST_CASE("Ctrl-C ends a derivation with 130 and no file") {
     CHECK(folder.file_count() == 2); // the grammar and the file of messages
 }
 
-TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with 143 and 129") {
+TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with status 143 and 129") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", kFourEndless);
     for (const auto& [signal, status] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
@@ -150,7 +150,7 @@ TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
     ::close(both);
 }
 
-TEST_CASE("a second Ctrl-C does not wait, and leaves no file either") {
+TEST_CASE("a second Ctrl-C ends the run at once and leaves no file either") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 12; #w : F; #p : F : * : F F F;");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
@@ -169,7 +169,7 @@ TEST_CASE("a second Ctrl-C does not wait, and leaves no file either") {
     ::close(both);
 }
 
-TEST_CASE("a run under nohup outlives SIGHUP") {
+TEST_CASE("a run under nohup ignores SIGHUP") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", kFourEndless);
     Child child{{"dump", "-q", folder / "a.lsys", "-o", folder / "out"}};
@@ -184,7 +184,7 @@ TEST_CASE("a run under nohup outlives SIGHUP") {
     CHECK(wait_for(process) == 143);
 }
 
-TEST_CASE("a standard stream that is closed is no file of the run") {
+TEST_CASE("a closed standard stream is not replaced by an opened file") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 4; #w : F; #p : F : * : F + F;");
     const lsys::tests::LscRun word = lsys::tests::run_lsc({"dump", folder / "a.lsys"}, "");
@@ -278,7 +278,7 @@ TEST_CASE("a limit on the size of files is an error that leaves no file") {
     CHECK(folder.file_count() == 2);
 }
 
-TEST_CASE("files that belong together are written all or not at all") {
+TEST_CASE("files that belong together are written together or not at all") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 6; #set names letters; #w : A; #object L LEAF;"
                                   "#p : A : ~ 0.5 : F[+A][-A]/A L; #q : A : ~ 0.5 : F[+A]//A L;");
@@ -303,7 +303,7 @@ TEST_CASE("files that belong together are written all or not at all") {
     }
 }
 
-TEST_CASE("a series that ends early says which of its files are there") {
+TEST_CASE("a series that ends early lists its complete files") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 3; #w : F; #p : F : * : F [+F];");
     Child child{{"forest", folder / "a.lsys", "--placement", "domination", "--count", "100",
@@ -318,7 +318,7 @@ TEST_CASE("a series that ends early says which of its files are there") {
                          folder / "x.0002.json" + "`\n"));
 }
 
-TEST_CASE("a full disk is told and ends with 2") {
+TEST_CASE("a full disk is reported and ends with status 2") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 10; #w : F; #p : F : * : F F;");
     CHECK(wait_for(start({{"dump", folder / "a.lsys"}, "/dev/full", folder / "err"})) == 2);
@@ -327,7 +327,7 @@ TEST_CASE("a full disk is told and ends with 2") {
 }
 
 #ifndef LSYS_INSTRUMENTED
-TEST_CASE("a grammar that does not fit into memory ends with 3") {
+TEST_CASE("a grammar that does not fit into memory ends with status 3") {
     const ScratchFolder folder;
     std::string text = "#n = 1; #w :";
     for (int i = 0; i < 3'000'000; ++i) {
@@ -340,7 +340,7 @@ TEST_CASE("a grammar that does not fit into memory ends with 3") {
     CHECK(read_text(folder / "err") == "lsc: error: out of memory\n");
 }
 
-TEST_CASE("a word that the system has no memory for ends with 3") {
+TEST_CASE("a word that does not fit into the memory of the system ends with status 3") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 40; #w : F; #p : F : * : F F;");
     constexpr rlim_t kLittle = rlim_t{400} << 20;
@@ -352,7 +352,7 @@ TEST_CASE("a word that the system has no memory for ends with 3") {
     CHECK(read_text(folder / "err").find("memory") != std::string::npos);
 }
 
-TEST_CASE("a plant that the system has no memory for is not blamed on the limit") {
+TEST_CASE("the message about a plant over the memory of the system does not mention the limit") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 23; #w : F; #p : F : * : F F;");
     constexpr rlim_t kLittle = rlim_t{400} << 20;
@@ -367,7 +367,7 @@ TEST_CASE("a plant that the system has no memory for is not blamed on the limit"
     CHECK(folder.file_count() == 2);
 }
 
-TEST_CASE("pictures and meshes of files are within the limit on memory") {
+TEST_CASE("picture files and mesh files count towards the limit on memory") {
     const ScratchFolder folder;
     // The picture of 8192 by 8192 pixels has 8 KB as a file and 256 MiB in memory.
     write_text(folder / "card.mtl",
@@ -398,7 +398,7 @@ TEST_CASE("pictures and meshes of files are within the limit on memory") {
     CHECK(read.peak_kib < 450L << 10);
 }
 
-TEST_CASE("a pipe without an end is read as far as the limit on memory") {
+TEST_CASE("an endless pipe is read up to the limit on memory") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 1; #w : F;");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
@@ -429,7 +429,7 @@ TEST_CASE("a pipe without an end is read as far as the limit on memory") {
     }
 }
 
-TEST_CASE("a pipe that a grammar names is not waited for") {
+TEST_CASE("a run does not wait for a pipe that a grammar names") {
     const ScratchFolder folder;
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
     write_text(folder / "a.lsys", "#n = 1;\n#include \"pipe\";\n#w : F;\n");

@@ -8,7 +8,7 @@
 using lsys::lsc::Progress;
 using namespace std::chrono_literals;
 
-TEST_CASE("progress is drawn after a second, not too often, and taken away") {
+TEST_CASE("progress is drawn after a second, not too often, and erased at the end") {
     const Progress::Clock::time_point begin{};
     std::ostringstream terminal;
     {
@@ -42,7 +42,7 @@ TEST_CASE("short work and no terminal show no progress") {
     none.clear();
 }
 
-TEST_CASE("the time that is left goes by the modules that are expected") {
+TEST_CASE("the remaining time is estimated from the predicted number of modules") {
     const Progress::Clock::time_point begin{};
     std::ostringstream terminal;
     Progress progress(&terminal, 3, begin, {1, 1e6, 3e6, 6e6});

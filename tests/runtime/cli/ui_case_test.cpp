@@ -4,13 +4,13 @@
 
 using namespace lsys::tests;
 
-TEST_CASE("words of a run line are split at blanks, quotes keep them") {
+TEST_CASE("run lines are split at blanks outside quotes") {
     CHECK(split_words(" dump  -n 3 ") == std::vector<std::string>{"dump", "-n", "3"});
     CHECK(split_words("a 'b c'd ''") == std::vector<std::string>{"a", "b cd", ""});
     CHECK(split_words("").empty());
 }
 
-TEST_CASE("a case says how it is run") {
+TEST_CASE("runs of a case are read from its first lines") {
     const UiCase found =
         parse_ui_case("x.lsys", "\xEF\xBB\xBF// run: check\r\n// A sentence.\n"
                                 "// run: dump - < %\n// exit: 1\n#w : A;\n// run: late\n");
@@ -25,7 +25,7 @@ TEST_CASE("a case says how it is run") {
     CHECK(parse_ui_case("x.lsys", "// exit: 1\n// run: check\n").mistakes.size() == 1);
 }
 
-TEST_CASE("annotations name severity, text, code and line") {
+TEST_CASE("annotations have severity, text, code and line") {
     const UiCase found = parse_ui_case("x.lsys", "// run: check\n"
                                                  "#a ; //~ error: wrong `[` here [some-code]\n"
                                                  "#b /*~^ warning: odd */ /*~vv note: [n-1] */ ;\n"
@@ -66,7 +66,7 @@ TEST_CASE("diagnostics are read from every format") {
     CHECK(all[2].severity == "note");
 }
 
-TEST_CASE("an annotation meets the diagnostic of its line only") {
+TEST_CASE("an annotation matches only a diagnostic of its line") {
     const UiDiagnostic diagnostic{"a.lsys", 4, "error", "module `A` is wrong", "bad"};
     CHECK(matches({4, 4, "error", "`A`", "bad"}, diagnostic, "a.lsys"));
     CHECK(matches({4, 4, "error", "", ""}, diagnostic, "a.lsys"));

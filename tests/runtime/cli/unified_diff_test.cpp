@@ -11,14 +11,14 @@ TEST_CASE("equal texts have no difference") {
     CHECK(unified_diff("a", "1\n2", "1\n2").empty());
 }
 
-TEST_CASE("a changed line has its context") {
+TEST_CASE("a changed line is printed with its context") {
     const std::string before = "1\n2\n3\n4\n5\n6\n7\n8\n9\n";
     const std::string after = "1\n2\n3\n4\nfive\n6\n7\n8\n9\n";
     CHECK(unified_diff("a.lsys", before, after) ==
           "--- a.lsys\n+++ a.lsys\n@@ -2,7 +2,7 @@\n 2\n 3\n 4\n-5\n+five\n 6\n 7\n 8\n");
 }
 
-TEST_CASE("distant changes are hunks of their own, near ones are one") {
+TEST_CASE("distant changes are separate hunks, near changes are one") {
     std::string before;
     for (int i = 1; i <= 30; ++i) {
         before += std::to_string(i) + "\n";
@@ -33,7 +33,7 @@ TEST_CASE("distant changes are hunks of their own, near ones are one") {
     CHECK(near == "--- a\n+++ a\n@@ -1,5 +1,5 @@\n-1\n+x\n 2\n 3\n 4\n-5\n+y\n");
 }
 
-TEST_CASE("a text without an end of line says so") {
+TEST_CASE("a missing line end at the end of a text is noted") {
     CHECK(unified_diff("a", "1", "2\n") ==
           "--- a\n+++ a\n@@ -1 +1 @@\n-1\n\\ No newline at end of file\n+2\n");
     CHECK(unified_diff("a", "", "1\n") == "--- a\n+++ a\n@@ -0,0 +1 @@\n+1\n");

@@ -1,5 +1,5 @@
 // Parameters that are evaluated for many modules at once. Chunks of one, two and seven modules are
-// evaluated module by module, so each case compares both ways.
+// evaluated one by one, so each case compares both methods.
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"
 
@@ -18,7 +18,7 @@ constexpr std::size_t kBatchedModules = 150;
 
 Bytecode bytecode_of_batches(const std::string& text) {
     test::Compiled c = test::compile_text(text);
-    CAPTURE(text, c.said());
+    CAPTURE(text, c.reports());
     REQUIRE(c.outcome.bytecode);
     return std::move(*c.outcome.bytecode);
 }
@@ -58,7 +58,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("batches compute every operation as one module does") {
+TEST_CASE("batches compute every operation like single modules") {
     for (const char* const value : {"-x",
                                     "!x",
                                     "x ^ 2.5",
@@ -105,7 +105,7 @@ TEST_CASE("batches compute every operation as one module does") {
     }
 }
 
-TEST_CASE("batches draw as one module does") {
+TEST_CASE("batches draw the random numbers of single modules") {
     for (const char* const value :
          {"{1, 2}", "{x, x}", "{-abs(x)/4, abs(x)/4}", "{1000, 1000.0001}",
           "{1, 2} + {1, 2} + {1, 2} + {1, 2} + {1, 2} + {1, 2}", "normal(x, 2)",
@@ -124,7 +124,7 @@ TEST_CASE("batches draw as one module does") {
                     1);
 }
 
-TEST_CASE("only the side of a choice that is taken can be at fault in a batch") {
+TEST_CASE("in a batch, only the chosen side of if() can cause an error") {
     CHECK(count_of(check_every_way(axiom_of_many() +
                                        "#p : A(x) : * :"
                                        "F(if(x > 1, {1, x}, if(x < 0, {x, 0}, {0, 1})));\n",
@@ -144,13 +144,13 @@ TEST_CASE("curves, functions and constants in batches") {
         1);
 }
 
-TEST_CASE("batched modules among others") {
+TEST_CASE("modules of a batch between other modules") {
     const std::string words = "#w : A(1, 2) B(5) [A(3, 4)] C;\n";
     check_every_way(
         words + "#p : A(x, y) : * : let r = {0.5, 1} : A(y*r, x) [B(r) C] A(x/r, y);\n"
                 "#q : B(x) : x < 4 : B(x + 1) C;\n#r : B(x) : x >= 4 : B(x*{0, 1}) A(x, x);\n",
         7);
-    // more parameters than a wide store has, and more than a batch in the fast loop has
+    // more parameters than a wide store holds, and more than a batch in the fast loop holds
     for (const int count : {5, 16, 17, 40}) {
         std::string many = "#w : A(1) A(2) A(3);\n#p : A(x) : * : let r = {0, 1} : A(x + r) A(r)";
         for (int i = 2; i < count; ++i) {
@@ -184,7 +184,7 @@ TEST_CASE("batches in passes of decomposition and interpretation") {
     check_every_way(text, 1);
 }
 
-TEST_CASE("values of a batch that are not finite are faults") {
+TEST_CASE("values of a batch that are not finite are errors") {
     const auto error = [](const std::string& productions) {
         std::string text = "#w : ";
         for (int i = 0; i < 100; ++i) {
@@ -209,7 +209,7 @@ TEST_CASE("values of a batch that are not finite are faults") {
     CHECK(distribution.position == 90);
 }
 
-TEST_CASE("local values of a successor without parameters read those of their module") {
+TEST_CASE("local values of a successor without parameters read the formals") {
     const RuntimeError error = test::error_every_way(
         bytecode_of_batches(
             "#w : A(3) C(7) A(1);\n#p : A(x) : * : let r = {2, x} : B;\n#q : C(x) : * : D;\n"),

@@ -88,7 +88,7 @@ TEST_CASE("ignored modules are not seen") {
     CHECK(once("A++", "A > [ ]", "+") == "A++");
 }
 
-TEST_CASE("both contexts, and the first production that fits") {
+TEST_CASE("both contexts, and the first production that matches") {
     BytecodeBuilder builder;
     builder.axiom("B A C A B A B");
     builder.production("p : B < A > C : * : X").production("q : B < A : * : Y");
@@ -99,7 +99,7 @@ TEST_CASE("both contexts, and the first production that fits") {
 TEST_CASE("formals of contexts") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
-    SECTION("next door and far away") {
+    SECTION("adjacent and distant") {
         builder.axiom("B(1)A(2)C(3)[D(7)D(8)]E B(4)[D(9)[D(10)]A(5)]C(6)");
         builder.production("p : B(l) < A(x) > C(r) : l < r : A(l*100+x*10+r)");
         builder.production("q : D(l) < A(x) : * : A(l+x)");
@@ -147,7 +147,7 @@ TEST_CASE("a stochastic choice among productions of equal contexts") {
     CHECK(second);
 }
 
-TEST_CASE("a signal travels") {
+TEST_CASE("a signal moves along the word") {
     std::string axiom = "b";
     for (int i = 0; i < 300; ++i) {
         axiom += " a";

@@ -91,7 +91,7 @@ TEST_CASE("a word may become empty and stays so") {
     CHECK(derived_every_way(builder.build(), 3, 0).empty());
 }
 
-TEST_CASE("modules are told apart by their number of parameters") {
+TEST_CASE("modules with different numbers of parameters are different") {
     BytecodeBuilder builder;
     builder.axiom("A A(1) A(1,2)");
     builder.production("p : A(x) : * : A(x+1) B");
@@ -110,7 +110,7 @@ TEST_CASE("the first production that matches is taken") {
 TEST_CASE("conditions and arguments of every form") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
-    SECTION("specialised and general ones agree with arithmetic") {
+    SECTION("specialised and general forms give the arithmetic result") {
         builder.axiom("A(3)A(-3)A(0)A(0.1)");
         builder.production("p : A(x) : * : B(x)B(x*1.1)B(x-1)B(2*x+1)B(-x)B(x/4)B(x/3)B(7-x)"
                            "B(x*x)B(abs(x))B(-(x+1))");
@@ -209,7 +209,7 @@ TEST_CASE("step and steps") {
     CHECK(derived_every_way(bytecode, 4, 0) == "C(20)B(4)B(4)");
 }
 
-TEST_CASE("runs of modules that nothing rewrites are moved as they are") {
+TEST_CASE("runs of modules without a production are copied as a block") {
     std::string row;
     for (int i = 0; i < 200; ++i) {
         row += "+(7)[g(1.5,2)]";
@@ -228,7 +228,7 @@ TEST_CASE("a program without productions keeps its axiom") {
     CHECK(derived_every_way(builder.build(), 5, 0) == "F(1)[+F]");
 }
 
-TEST_CASE("a derivation steps, and its word can be taken") {
+TEST_CASE("a derivation proceeds by steps, and its word can be moved out") {
     BytecodeBuilder builder;
     builder.axiom("A").production("p : A : * : A b");
     const Bytecode bytecode = builder.build();

@@ -1,4 +1,4 @@
-// Run-time errors: the one that is reported, and its message.
+// Run-time errors: which error is reported, and its message.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/runtime_diagnostic.h"
@@ -86,7 +86,7 @@ TEST_CASE("the lowest position is reported, conditions before arguments") {
         builder.production("p : A(x) : x == 0 : C").production("q : A(x) : 1/x : D");
         CHECK(test::derived_every_way(builder.build(), 1, 0) == "C");
     }
-    SECTION("every condition of a stochastic group is") {
+    SECTION("every condition of a stochastic group is evaluated") {
         builder.axiom("A(0)");
         builder.production("p : A(x) : x == 0 ~ 0.5 : C(1/x)");
         builder.production("q : A(x) : 1/x ~ 0.5 : D");
@@ -103,7 +103,7 @@ TEST_CASE("the lowest position is reported, conditions before arguments") {
     }
 }
 
-TEST_CASE("ranges that cannot be drawn from") {
+TEST_CASE("ranges with invalid bounds") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
     SECTION("reversed") {
@@ -189,7 +189,7 @@ TEST_CASE("errors before generation 0") {
     }
 }
 
-TEST_CASE("an unmatched bracket is found, with its production where only one can have written it") {
+TEST_CASE("an unmatched bracket is reported, with its production if only one can have written it") {
     BytecodeBuilder builder;
     builder.axiom("[ A ] B").production("p : A : * : F").production("q : B : * : F [ F ] ] B");
     Bytecode bytecode = builder.build();

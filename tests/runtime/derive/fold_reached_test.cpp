@@ -53,7 +53,7 @@ TEST_CASE("counters that run down are folded, and so are their conditions") {
     static_cast<void>(derived_every_way(bytecode, 9, 0));
 }
 
-TEST_CASE("alternatives of one module are folded one by one") {
+TEST_CASE("alternatives of one module are folded separately") {
     BytecodeBuilder builder;
     builder.axiom("A(1)A(2)");
     builder.production("p : A(x) : x < 4 ~ 0.5 : A(x+1)[B(x*2)]");
@@ -68,7 +68,7 @@ TEST_CASE("alternatives of one module are folded one by one") {
     }
 }
 
-TEST_CASE("what chance, the age or a neighbour decides stays a parameter") {
+TEST_CASE("values that depend on chance, the age or a neighbour are not folded") {
     BytecodeBuilder builder;
     SECTION("a range") {
         builder.axiom("A(1)");
@@ -104,7 +104,7 @@ TEST_CASE("a zero keeps its sign") {
     static_cast<void>(derived_every_way(builder.build(), 4, 0));
 }
 
-TEST_CASE("nothing is folded where codes would grow wider") {
+TEST_CASE("nothing is folded if codes would become wider") {
     BytecodeBuilder builder;
     builder.axiom("A(1)").production("p : A(x) : * : A(x+1)F(x)F(x/2)F(x/3)");
     const Bytecode bytecode = builder.build();
@@ -118,7 +118,7 @@ TEST_CASE("nothing is folded without parameters or in other modes") {
         builder.axiom("F").production("p : F : * : F+F");
         CHECK_FALSE(fold_reached(builder.build(), 0, 5).has_value());
     }
-    SECTION("nothing new") {
+    SECTION("no other arguments") {
         builder.axiom("F(1)").production("p : F(x) : * : F(1)F(1)");
         CHECK_FALSE(fold_reached(builder.build(), 0, 5).has_value());
     }
@@ -129,7 +129,7 @@ TEST_CASE("nothing is folded without parameters or in other modes") {
     }
 }
 
-TEST_CASE("an error is told as without folding") {
+TEST_CASE("an error message is the same as without folding") {
     BytecodeBuilder builder;
     builder.axiom("A(3)").production("p : A(x) : * : A(x-1)F(1/x)");
     const RuntimeError error = test::error_every_way(builder.build(), 6, 0);

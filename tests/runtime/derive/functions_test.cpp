@@ -12,7 +12,7 @@ namespace {
 
 Bytecode compiled(const std::string& text) {
     test::Compiled c = test::compile_text(text);
-    CAPTURE(text, c.said());
+    CAPTURE(text, c.reports());
     REQUIRE(c.outcome.bytecode);
     return std::move(*c.outcome.bytecode);
 }
@@ -50,7 +50,7 @@ TEST_CASE("an argument is computed once") {
                   1) == "F(5)");
 }
 
-TEST_CASE("slots of calls within calls are apart") {
+TEST_CASE("nested calls use different slots") {
     CHECK(word_of("#function sq(x) x*x;\n#function both(a, b) sq(a + b) - sq(a - b);\n#w : A(3);\n"
                   "#p : A(x) : both(x + 1, x) == 48 : let y = sqrt(x + 1) :"
                   " F(both(both(y, 1), y + y)) G(y);\n",
@@ -64,7 +64,7 @@ TEST_CASE("a curve of a grammar is a function of one parameter") {
                 1) == "F(5)F(1)F(5)F(-1)");
 }
 
-TEST_CASE("functions that stand for too much are refused") {
+TEST_CASE("functions that expand to too many instructions are refused") {
     std::string text = "#function f0(x) x + 1;\n";
     for (int i = 1; i < 60; ++i) {
         const std::string before = "f" + std::to_string(i - 1);

@@ -85,7 +85,7 @@ TEST_CASE("the prediction of a conditional and stochastic system is exact") {
     CHECK(derivation.limit().production < 2);
 }
 
-TEST_CASE("the production that adds most modules is named") {
+TEST_CASE("the message names the production that adds the most modules") {
     BytecodeBuilder builder;
     builder.axiom("A B");
     builder.production("p : A : * : A A A").production("q : B : * : B C C C C");
@@ -151,7 +151,7 @@ TEST_CASE("a streamed derivation stops at the limit on modules") {
               .message.find("generation 12 has at least 10") == 0);
 }
 
-TEST_CASE("streaming needs memory for generations only") {
+TEST_CASE("streaming needs memory per generation, not per module") {
     const Bytecode bytecode = koch();
     DeriveOptions options;
     options.generations = 11;
@@ -192,7 +192,7 @@ TEST_CASE("cancelling") {
         CHECK(derivation.step() == std::nullopt);
         CHECK(derivation.word().module_count() == 31'249);
     }
-    SECTION("within one") {
+    SECTION("within a generation") {
         std::uint64_t written = 0;
         options.progress = [&](std::uint32_t age, std::uint64_t modules) {
             if (age == 11) {
@@ -207,7 +207,7 @@ TEST_CASE("cancelling") {
         CHECK(written < 97'656'249);
         CHECK(derivation.word().module_count() == 19'531'249);
     }
-    SECTION("a consumer that has enough") {
+    SECTION("by the consumer of a streamed word") {
         std::uint64_t modules = 0;
         const StreamOutcome outcome =
             derive_streamed(bytecode, options, [&](const StreamChunk& chunk) {

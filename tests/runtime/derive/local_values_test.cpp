@@ -12,7 +12,7 @@ namespace {
 
 Bytecode compiled(const std::string& text) {
     test::Compiled c = test::compile_text(text);
-    CAPTURE(text, c.said());
+    CAPTURE(text, c.reports());
     REQUIRE(c.outcome.bytecode);
     return std::move(*c.outcome.bytecode);
 }
@@ -66,7 +66,7 @@ TEST_CASE("a choice evaluates the chosen side only") {
     CHECK(word_of("#w : A(4);\n#p : A(x) : if(x > 2, 1, 0) : B;\n", 1) == "B");
 }
 
-TEST_CASE("choices within choices need no limit") {
+TEST_CASE("choices can be nested without limit") {
     std::string expression = "0";
     for (int i = 1; i <= 2000; ++i) {
         expression =
@@ -76,13 +76,13 @@ TEST_CASE("choices within choices need no limit") {
           "F(3)F(2100)F(6000)F(15)");
 }
 
-TEST_CASE("a range of a local value that nothing uses is at fault all the same") {
+TEST_CASE("an invalid range in an unused local value is an error too") {
     const RuntimeError error = test::error_every_way(
         compiled("#w : A(3) A(1);\n#p : A(x) : * : let r = {2, x} : B;\n"), 1, 7);
     CHECK(error.position == 1);
 }
 
-TEST_CASE("choices and complements in conditions are those of comparisons") {
+TEST_CASE("if() and negations in conditions agree with comparisons") {
     const auto derived = [](const std::string& condition) {
         return word_of("#w : A(-2) A(-1) A(-(0)) A(0) A(1) A(1.5) A(2) A(3e38);\n#p : A(x) : " +
                            condition + " : F(x);\n",

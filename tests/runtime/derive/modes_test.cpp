@@ -23,7 +23,7 @@ BytecodeBuilder letters(RewritingMode mode) {
 
 } // namespace
 
-TEST_CASE("sequential rewriting makes a pass of each rule in turn") {
+TEST_CASE("sequential rewriting makes one pass for each rule in order") {
     BytecodeBuilder builder = letters(RewritingMode::Sequential);
     builder.axiom("A B");
     builder.production("p : A : * : B A").production("q : B : * : C");
@@ -42,7 +42,7 @@ TEST_CASE("rules are numbered by first appearance and hold all productions of th
     CHECK(derived_every_way(builder.build(), 1, 0) == "DCC");
 }
 
-TEST_CASE("a match uses up its modules and what it writes is not read again") {
+TEST_CASE("a match consumes its modules, and the pass does not read its successor") {
     BytecodeBuilder builder = letters(GENERATE(RewritingMode::Sequential, RewritingMode::Cyclic));
     builder.axiom("A A A A A B A A");
     builder.production("p : A A : * : A C");
@@ -51,14 +51,14 @@ TEST_CASE("a match uses up its modules and what it writes is not read again") {
     CHECK(derived_every_way(bytecode, 2, 0) == "ACACABAC");
 }
 
-TEST_CASE("the modules of a predecessor stand next to each other") {
+TEST_CASE("the modules of a predecessor must be adjacent") {
     BytecodeBuilder builder = letters(RewritingMode::Sequential);
     builder.axiom("A + B A B A [ B ] A").ignore("+");
     builder.production("p : A B : * : X");
     CHECK(derived_every_way(builder.build(), 1, 0) == "A+BXA[B]A");
 }
 
-TEST_CASE("a long predecessor, longer than a chunk") {
+TEST_CASE("a predecessor that is longer than a chunk") {
     BytecodeBuilder builder = letters(RewritingMode::Cyclic);
     builder.axiom("a b c d e f g h i j a b c d e f g h i a b c d e f g h i j");
     builder.production("p : a b c d e f g h i j : * : X Y");
@@ -84,7 +84,7 @@ TEST_CASE("parameters of a predecessor of several modules") {
     CHECK(derived_every_way(builder.build(), 1, 0) == "D(3,2)D(2,3)A(1)A(15)C A(7)D(8,9)D(9,8)");
 }
 
-TEST_CASE("cyclic rewriting makes the pass of one rule a generation") {
+TEST_CASE("cyclic rewriting makes the pass of one rule per generation") {
     BytecodeBuilder builder = letters(RewritingMode::Cyclic);
     builder.axiom("A");
     builder.production("p : A : * : A B").production("q : B : * : C C").production("r : C : * : ");
@@ -95,13 +95,13 @@ TEST_CASE("cyclic rewriting makes the pass of one rule a generation") {
     CHECK(derived_every_way(bytecode, 5, 0) == "ACC");
 }
 
-TEST_CASE("without rules the words stay") {
+TEST_CASE("without rules the words do not change") {
     BytecodeBuilder builder = letters(GENERATE(RewritingMode::Sequential, RewritingMode::Cyclic));
     builder.axiom("A B");
     CHECK(derived_every_way(builder.build(), 3, 0) == "AB");
 }
 
-TEST_CASE("in the pass of rule k draws are raised by 4096 k") {
+TEST_CASE("in the pass of rule k, draw numbers are increased by 4096 k") {
     const std::uint64_t seed = 17;
     SECTION("choice at the position in the word that the pass reads") {
         BytecodeBuilder builder = letters(RewritingMode::Sequential);
@@ -118,7 +118,7 @@ TEST_CASE("in the pass of rule k draws are raised by 4096 k") {
         }
         CHECK(derived_every_way(builder.build(), 1, seed) == expected);
     }
-    SECTION("ranges follow") {
+    SECTION("ranges after the choice") {
         BytecodeBuilder builder;
         builder.settings.rewriting = RewritingMode::Sequential;
         builder.axiom("A B");
@@ -132,7 +132,7 @@ TEST_CASE("in the pass of rule k draws are raised by 4096 k") {
         REQUIRE(derivation.step() == std::nullopt);
         CHECK(derivation.word().parameters()[0] == DrawSource(seed, 0, 1).draw(4097));
     }
-    SECTION("one choice a generation is always draw 0") {
+    SECTION("one choice per generation is always draw 0") {
         BytecodeBuilder builder = letters(RewritingMode::Sequential);
         builder.settings.choice = ChoiceScope::Generation;
         builder.axiom("A B B");

@@ -91,7 +91,7 @@ TEST_CASE("modules of the axiom are of generation 0") {
     CHECK(traced(bytecode, 3) == traced(bytecode, 0));
 }
 
-TEST_CASE("what is copied keeps its origin and what is written anew does not") {
+TEST_CASE("copied modules keep their origin, and rewritten modules get a new one") {
     const Bytecode bytecode = BytecodeBuilder()
                                   .axiom("A B(1)")
                                   .production("p : A : * : F A")
@@ -101,7 +101,7 @@ TEST_CASE("what is copied keeps its origin and what is written anew does not") {
                                        "A from p, generation 2", "B(1) from q, generation 2"});
 }
 
-TEST_CASE("empty successors leave nothing behind") {
+TEST_CASE("empty successors leave no origins") {
     const Bytecode bytecode = BytecodeBuilder()
                                   .axiom("F A B A")
                                   .production("p : B : * : F(3)")
@@ -126,7 +126,7 @@ TEST_CASE("a module of random parameters comes from the production that drew the
     CHECK(from[1] > 5);
 }
 
-TEST_CASE("several modules that are rewritten together leave one origin for each they become") {
+TEST_CASE("several modules rewritten together give one origin for each module of the successor") {
     BytecodeBuilder builder;
     builder.settings.rewriting = RewritingMode::Sequential;
     builder.axiom("A B A B C").production("p : A B : * : D E F").production("q : E : * : A");
@@ -136,7 +136,7 @@ TEST_CASE("several modules that are rewritten together leave one origin for each
                                               "C from the axiom, generation 0"});
 }
 
-TEST_CASE("origins of a word that is taken over are kept, or not known") {
+TEST_CASE("the origins of a word given at the start are kept or unknown") {
     const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : F A").build();
     Derivation first(bytecode, with_origins(4));
     REQUIRE(first.start() == std::nullopt);
@@ -188,7 +188,7 @@ TEST_CASE("origins count towards the limit on memory") {
     }
 }
 
-TEST_CASE("what is drawn has the origin of its module") {
+TEST_CASE("drawn parts have the origin of their module") {
     const Bytecode bytecode = plant();
     Derivation derivation(bytecode, with_origins(2));
     REQUIRE(derivation.start() == std::nullopt);
@@ -206,20 +206,20 @@ TEST_CASE("what is drawn has the origin of its module") {
     REQUIRE(stored.polygon_origins.size() == stored.polygons.size());
 
     OriginPrinter printer(bytecode);
-    const auto said = [&](const LargeVector<Origin>& origins) {
+    const auto texts = [&](const LargeVector<Origin>& origins) {
         Lines lines;
         for (const Origin& origin : origins) {
             printer.append(origin, lines.emplace_back());
         }
         return lines;
     };
-    // A % cuts off the rest, so of generation 2 only the modules written by L are drawn.
-    CHECK(said(stored.segment_origins) == Lines{"from the axiom, generation 0",
-                                                "from q, generation 2", "from q, generation 1",
-                                                "from p, generation 1", "from p, generation 1",
-                                                "from q, generation 2", "from p, generation 1"});
-    CHECK(said(stored.object_origins) == Lines{"from q, generation 2", "from q, generation 2"});
-    CHECK(said(stored.polygon_origins) == Lines{"from p, generation 1"});
+    // A % cuts off the rest; the only drawn modules of generation 2 are those written by L.
+    CHECK(texts(stored.segment_origins) == Lines{"from the axiom, generation 0",
+                                                 "from q, generation 2", "from q, generation 1",
+                                                 "from p, generation 1", "from p, generation 1",
+                                                 "from q, generation 2", "from p, generation 1"});
+    CHECK(texts(stored.object_origins) == Lines{"from q, generation 2", "from q, generation 2"});
+    CHECK(texts(stored.polygon_origins) == Lines{"from p, generation 1"});
     const std::uint32_t opens = stored.polygon_origins[0].place;
     CHECK(bytecode.symbol(bytecode.symbol_of(bytecode.template_codes[opens])).name == "{");
     CHECK(bytecode.template_codes[stored.segment_origins[4].place] !=
@@ -237,7 +237,7 @@ TEST_CASE("what is drawn has the origin of its module") {
     CHECK(streamed.polygon_origins == stored.polygon_origins);
 }
 
-TEST_CASE("a skeleton without origins takes no room for them") {
+TEST_CASE("a skeleton without origins needs no memory for them") {
     const Bytecode bytecode = plant();
     DeriveOptions options;
     Derivation derivation(bytecode, options);

@@ -46,7 +46,7 @@ std::string saved_after(const Bytecode& bytecode, std::uint32_t age, std::uint32
 
 } // namespace
 
-TEST_CASE("five generations, then five more, are ten") {
+TEST_CASE("five generations and five more equal ten") {
     BytecodeBuilder builder = plant_builder();
     builder.unused_symbols(GENERATE(0u, 300u, 66'000u));
     const Bytecode bytecode = builder.build();
@@ -73,7 +73,7 @@ TEST_CASE("an empty word can be saved") {
     CHECK(state.value().word.module_count() == 0);
 }
 
-TEST_CASE("whatever is wrong with a saved state is said") {
+TEST_CASE("every mistake in a saved state is reported") {
     const Bytecode bytecode = plant_builder().build();
     const std::string bytes = saved_after(bytecode, 4, 10);
     const auto message = [&bytecode](const std::string& damaged) {
@@ -132,7 +132,7 @@ TEST_CASE("sizes that would overflow are refused") {
     }
 }
 
-TEST_CASE("a consumer that fails ends the writing") {
+TEST_CASE("writing ends if the sink fails") {
     const Bytecode bytecode = plant_builder().build();
     const Word word(1);
     int calls = 0;

@@ -1,4 +1,4 @@
-// Choices and random ranges: the draw that each uses, and their frequencies.
+// Choices and random ranges: their draw numbers and frequencies.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"
@@ -32,7 +32,7 @@ float u_at(std::uint64_t seed, std::uint32_t generation, std::uint64_t position,
 
 } // namespace
 
-TEST_CASE("draw 0 at a module's position chooses among running sums") {
+TEST_CASE("a choice compares draw 0 at the position of the module with running sums") {
     BytecodeBuilder builder;
     builder.axiom(repeated("+", 50));
     builder.production("p : + : ~ 0.2 : a").production("q : + : ~ 0.3 : b");
@@ -90,7 +90,7 @@ TEST_CASE("a production without probability ends the search unless a stochastic 
     }
 }
 
-TEST_CASE("ranges are numbered after the choice, and by closing braces") {
+TEST_CASE("ranges are numbered after the choice, in the order of closing braces") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
     const std::uint64_t seed = 99;
@@ -162,7 +162,7 @@ TEST_CASE("later generations draw by their own age and positions") {
     CHECK(derived(bytecode, 9, 5) != derived(bytecode, 9, 6));
 }
 
-TEST_CASE("one choice for all modules of a rule in a generation") {
+TEST_CASE("all modules of a rule share one choice per generation") {
     BytecodeBuilder builder;
     builder.settings.choice = ChoiceScope::Generation;
     builder.settings.print_letters = true;
@@ -182,7 +182,8 @@ TEST_CASE("one choice for all modules of a rule in a generation") {
     CHECK(different > 0);
 }
 
-TEST_CASE("one choice a generation falls on each module's own matching set") {
+TEST_CASE(
+    "the shared choice of a generation selects among the matching productions of each module") {
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
     builder.settings.choice = ChoiceScope::Generation;

@@ -17,7 +17,7 @@ using namespace lsys;
 using test::BytecodeBuilder;
 using test::derived;
 
-TEST_CASE("a word knows its sizes") {
+TEST_CASE("a word has its sizes") {
     Word word(2);
     REQUIRE(word.resize(10, 3));
     word.codes<std::uint16_t>()[9] = 513;
@@ -31,7 +31,7 @@ TEST_CASE("a word knows its sizes") {
           std::numeric_limits<std::uint64_t>::max());
 }
 
-TEST_CASE("a word shows its codes at their width") {
+TEST_CASE("codes of a word can be read at their width") {
     for (const std::uint32_t width : {1U, 2U, 4U}) {
         Word word(width);
         REQUIRE(word.resize(3, 0));
@@ -53,7 +53,7 @@ TEST_CASE("a word as text") {
         builder.axiom("F F(1)F[F]F F_1 + F G(2,3)G");
         CHECK(derived(builder.build(), 0, 0) == "F F(1)F[F]F F_1+F G(2,3)G");
     }
-    SECTION("folded or not, a module looks the same") {
+    SECTION("a folded module has the same text") {
         builder.fold = GENERATE(true, false);
         builder.axiom("F(1,2.5)+(-0.1)&(22.5)F(1e-3)F(1e20)F(16777216)");
         CHECK(derived(builder.build(), 0, 0) ==
@@ -98,7 +98,7 @@ TEST_CASE("a word may be printed in pieces") {
     CHECK(text == "A A(1)B(2,4)C A");
 }
 
-TEST_CASE("a long word is printed as its modules are one after the other") {
+TEST_CASE("the text of a long word is the texts of its modules in order") {
     BytecodeBuilder builder;
     builder.settings.print_letters = GENERATE(true, false);
     builder.axiom("F G + [ ] F(1.5) H(1) a_name_that_is_rather_long K L");
@@ -125,7 +125,7 @@ TEST_CASE("a long word is printed as its modules are one after the other") {
     CHECK(whole == pieces);
 }
 
-TEST_CASE("a long word of letters is one character a module") {
+TEST_CASE("a long word of letters has one character per module") {
     BytecodeBuilder builder;
     builder.settings.print_letters = true;
     builder.axiom("A").production("p : A : * : A + B [ A ]").production("q : B : * : - A");
@@ -149,7 +149,7 @@ TEST_CASE("a long word of letters is one character a module") {
     CHECK(whole == expected);
 }
 
-TEST_CASE("printing stops when the reader has enough") {
+TEST_CASE("printing stops when the sink returns false") {
     BytecodeBuilder builder;
     builder.settings.print_letters = GENERATE(true, false);
     builder.axiom("A").production("p : A : * : A A");

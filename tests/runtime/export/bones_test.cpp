@@ -1,5 +1,4 @@
-// Light skeletons: joints and keys. tests/export compares the meshes that they pose with the
-// frames.
+// Joints and keys of light skeletons. tests/export compares the posed meshes with the frames.
 #include "runtime/export/impl/bones.h"
 #include "tests/runtime/plants.h"
 
@@ -41,7 +40,7 @@ Skeleton line(std::uint32_t count) {
 
 } // namespace
 
-TEST_CASE("a plant that stands still has one joint without keys") {
+TEST_CASE("a plant without motion has one joint without keys") {
     const Skeleton plant = line(6);
     const Bones bones = make_bones(plant, bending(plant, 0.0F), 16);
     REQUIRE(bones.joints.size() == 1);
@@ -50,7 +49,7 @@ TEST_CASE("a plant that stands still has one joint without keys") {
     CHECK(bones.weights_of({kNoSegment, kNoSegment}, {}).weights[0] == 1.0F);
 }
 
-TEST_CASE("keys that follow from others are left out") {
+TEST_CASE("keys that interpolation gives are omitted") {
     const Skeleton plant = line(1);
     PlantAnimation clip = bending(plant, 0.4F); // turns at a constant rate
     const Bones bones = make_bones(plant, clip, 4);

@@ -63,7 +63,7 @@ Skeleton pole() {
 
 } // namespace
 
-TEST_CASE("a straight pole with a bough is two capsules") {
+TEST_CASE("the shapes of a straight pole with a bough are two capsules") {
     const std::vector<BoughPiece> pieces = find_boughs(pole());
     REQUIRE(pieces.size() == 2);
     CHECK(pieces[0].segments.size() == 10);
@@ -100,7 +100,7 @@ TEST_CASE("a straight pole with a bough is two capsules") {
     CHECK(volume_of(shapes[0]) < std::numbers::pi * 0.25 * 9.334);
 }
 
-TEST_CASE("hulls hold the joints of their segments") {
+TEST_CASE("hulls contain the joints of their segments") {
     const Skeleton plant = test::random_tree(4, 3);
     const std::vector<BoughPiece> pieces = find_boughs(plant);
     const auto shapes =
@@ -121,7 +121,7 @@ TEST_CASE("hulls hold the joints of their segments") {
     }
 }
 
-TEST_CASE("a tree has few shapes, of its thickest and longest parts") {
+TEST_CASE("a tree has few shapes, for its thickest and longest parts") {
     const Skeleton plant = test::random_tree(7, 4);
     const std::vector<BoughPiece> pieces = find_boughs(plant);
     CHECK(pieces.size() >= 10);
@@ -141,12 +141,12 @@ TEST_CASE("a tree has few shapes, of its thickest and longest parts") {
     for (const BoughPiece& piece : pieces) {
         count += piece.segments.size();
     }
-    CHECK(count == segments.size()); // each segment once
+    CHECK(count == segments.size()); // each segment is in one shape
     CHECK((found >= 0.9 * all || pieces.size() == kMaxCollisionShapes));
     CHECK(segments.contains(0));
 }
 
-TEST_CASE("a plant without stems has no shapes of collision") {
+TEST_CASE("a plant without stems has no collision shapes") {
     Skeleton plant;
     plant.objects.push_back({.kind = TurtleOperation::Sphere, .size = 2.0F});
     const ExportInfo info = info_with(CollisionKind::Capsules, CollisionNames::Unity);

@@ -40,16 +40,16 @@ void check_closed(const ConvexHull& hull) {
 
 /// The greatest distance of a point from the outer side of a triangle.
 double farthest_outside(const ConvexHull& hull, const std::vector<glm::vec3>& points) {
-    double most = 0.0;
+    double max_distance = 0.0;
     for (const auto& [a, b, c] : hull.triangles) {
         const glm::dvec3 corner(hull.vertices[a]);
         const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(hull.vertices[b]) - corner,
                                                             glm::dvec3(hull.vertices[c]) - corner));
         for (const glm::vec3& point : points) {
-            most = std::max(most, glm::dot(normal, glm::dvec3(point) - corner));
+            max_distance = std::max(max_distance, glm::dot(normal, glm::dvec3(point) - corner));
         }
     }
-    return most;
+    return max_distance;
 }
 
 } // namespace
@@ -65,7 +65,7 @@ TEST_CASE("the hull of a grid of points is its cube") {
     CHECK(farthest_outside(hull, points) < 1e-4);
 }
 
-TEST_CASE("the hull of points in a ball holds them all") {
+TEST_CASE("the hull of points in a ball contains all points") {
     test::Numbers numbers(3);
     std::vector<glm::vec3> points;
     for (int i = 0; i < 400; ++i) {
@@ -79,7 +79,8 @@ TEST_CASE("the hull of points in a ball holds them all") {
     CHECK(volume_of(hull) < 113.1);
 }
 
-TEST_CASE("rings of a prism, many points in line and in a plane, make a prism") {
+TEST_CASE(
+    "the hull of rings of points on a prism, many of them collinear or coplanar, is the prism") {
     std::vector<glm::vec3> points;
     for (int ring = 0; ring < 6; ++ring) {
         for (int side = 0; side < 8; ++side) {
@@ -93,7 +94,7 @@ TEST_CASE("rings of a prism, many points in line and in a plane, make a prism") 
     CHECK(volume_of(hull) == Approx(2.0 * std::sqrt(2.0) * 10.0).epsilon(1e-4));
 }
 
-TEST_CASE("points in a plane, in a line or in a place have no hull") {
+TEST_CASE("coplanar, collinear or equal points have no hull") {
     CHECK(convex_hull({}).triangles.empty());
     const std::vector<glm::vec3> same(4, glm::vec3(1, 2, 3));
     CHECK(convex_hull(same).triangles.empty());

@@ -68,7 +68,7 @@ TEST_CASE("an OBJ with texture coordinates, whose v goes upwards") {
     CHECK(text.find("f 1/1/1 2/2/2 3/3/3\n") != std::string::npos);
 }
 
-TEST_CASE("an OBJ has the leaves from behind too if asked for") {
+TEST_CASE("an OBJ has back faces of the leaves on request") {
     Mesh mesh = test::triangle_mesh();
     mesh.positions.resize(6);
     mesh.positions[3] = {1.0F, 1.0F, 0.0F};
@@ -93,7 +93,7 @@ TEST_CASE("an OBJ has the leaves from behind too if asked for") {
     CHECK(exported(mesh, ExportFormat::Obj, with) == once);
 }
 
-TEST_CASE("files have +Z up if asked for") {
+TEST_CASE("files have +Z up on request") {
     Mesh mesh = test::triangle_mesh(); // (0, 0, 0), (2, 0, 0), (0, 0.5, 0), faces +Z
     mesh.positions[1].z = 3.0F;
     ExportInfo with = info();
@@ -125,7 +125,7 @@ TEST_CASE("files have +Z up if asked for") {
     CHECK(read<float>(stl, 84 + 12 + 24 + 8) == 0.5F); // z of the third corner
 }
 
-TEST_CASE("an MTL gives materials of one name different ones") {
+TEST_CASE("materials with equal names get different names in an MTL") {
     Mesh mesh = test::triangle_mesh();
     mesh.materials.push_back(mesh.materials[0]);
     mesh.materials[1].colour = {0.0F, 0.5F, 1.0F, 0.25F};
@@ -142,7 +142,7 @@ TEST_CASE("an MTL gives materials of one name different ones") {
                   "illum 1\nPr 0.7\n");
 }
 
-TEST_CASE("pictures of an OBJ and of a USDA have the colour in them") {
+TEST_CASE("pictures of an OBJ and of a USDA include the colour of the material") {
     Mesh mesh = test::plant_mesh(); // bark, and leaves with an alpha mask
     ExportInfo with = info();
     with.picture_prefix = "p q";
@@ -278,7 +278,7 @@ TEST_CASE("a USDA of a triangle") {
     CHECK_FALSE(has("primvars"));
 }
 
-TEST_CASE("a USDA states each colour of vertices once") {
+TEST_CASE("a USDA writes each colour of vertices once") {
     Mesh mesh = test::triangle_mesh();
     const auto has = [&](const char* part) {
         return exported(mesh, ExportFormat::Usda).find(part) != std::string::npos;
@@ -327,7 +327,7 @@ TEST_CASE("a GLB of a triangle") {
     CHECK(read<std::uint16_t>(bytes, data + 8 + 72 + 4) == 2);
 }
 
-TEST_CASE("a glTF carries the buffer of the GLB as base64") {
+TEST_CASE("a glTF has the buffer of the GLB as base64") {
     const std::string glb = exported(test::triangle_mesh(), ExportFormat::Glb);
     const std::string text = exported(test::triangle_mesh(), ExportFormat::Gltf);
     const std::string key = R"("uri":"data:application/octet-stream;base64,)";

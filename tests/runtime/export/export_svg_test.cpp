@@ -75,7 +75,7 @@ TEST_CASE("runs of equal segments are one polyline") {
           "</svg>\n");
 }
 
-TEST_CASE("a segment that is not linked to the one before begins a polyline") {
+TEST_CASE("a segment that does not continue the previous one begins a polyline") {
     Skeleton skeleton;
     skeleton.segments = {upright(0.0F, kNoSegment, 0.25F), upright(1.0F, 0, 0.25F),
                          upright(1.0F, 0, 0.25F), upright(4.0F, 2, 0.25F)};
@@ -134,7 +134,7 @@ TEST_CASE("objects of mesh files are drawn if their meshes are known") {
     CHECK(text.find("viewBox=\"-0.08 -2.08 4.16 2.16\"") != std::string::npos);
 }
 
-TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
+TEST_CASE("a card with a picture is drawn as the outline of its opaque part") {
     // A white square of 8 by 8 texels in 16 by 16, with a red hole of 2 by 2.
     auto picture = std::make_shared<Texture>();
     picture->width = 16;
@@ -166,7 +166,7 @@ TEST_CASE("a card with a picture is drawn by the outline of what is opaque") {
         CHECK(std::max(std::abs(point.x - 0.5F), std::abs(point.y - 0.5F)) ==
               Approx(0.25F).margin(0.04));
     }
-    // The part outside of the given box is cut off.
+    // The part outside of the given box is clipped.
     CHECK(area(opacity_outline(*picture, glm::vec2(0.0F), glm::vec2(1.0F, 0.375F)).at(0)) ==
           Approx(0.5F * 0.125F).margin(0.02));
 

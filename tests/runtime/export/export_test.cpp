@@ -1,4 +1,4 @@
-// Exports of any format: output in pieces, sinks that stop, meshes that are too large or empty.
+// Exports in every format: output in pieces, sinks that stop, meshes that are too large or empty.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/text.h"
 #include "tests/support/meshes.h"
@@ -64,7 +64,7 @@ std::string refusal(const Mesh& mesh, ExportFormat format) {
 
 } // namespace
 
-TEST_CASE("formats go by the extension") {
+TEST_CASE("the extension determines the format") {
     CHECK(format_of_path("a.obj") == ExportFormat::Obj);
     CHECK(format_of_path("dir.off/a.PLY") == ExportFormat::Ply);
     CHECK(format_of_path("a.Off") == ExportFormat::Off);
@@ -80,7 +80,7 @@ TEST_CASE("formats go by the extension") {
     CHECK_FALSE(format_of_path(""));
 }
 
-TEST_CASE("every format is found by its own name alone") {
+TEST_CASE("every format is found by its name and by no other") {
     std::set<std::string_view> names;
     for (const ExportFormat format : export_formats()) {
         const FormatTraits& traits = traits_of(format);
@@ -95,7 +95,7 @@ TEST_CASE("every format is found by its own name alone") {
     CHECK(traits_of(ExportFormat::Obj).uses_mesh);
 }
 
-TEST_CASE("the README has the row of every format") {
+TEST_CASE("the README has a row for every format") {
     std::ifstream file(LSYS_SOURCE_DIR "/runtime/export/README.md");
     const std::string readme{std::istreambuf_iterator<char>(file), {}};
     for (const ExportFormat format : export_formats()) {
@@ -106,7 +106,7 @@ TEST_CASE("the README has the row of every format") {
     }
 }
 
-TEST_CASE("names of formats are listed in words") {
+TEST_CASE("names of formats are joined to a list") {
     const auto names = [](const std::vector<ExportFormat>& wanted) {
         return format_names("or", [&](const FormatTraits& traits) {
             return std::any_of(wanted.begin(), wanted.end(),
@@ -120,7 +120,7 @@ TEST_CASE("names of formats are listed in words") {
           "glb, gltf or usda");
 }
 
-TEST_CASE("large files come in pieces, and the same ones again") {
+TEST_CASE("large files are written in pieces, and the pieces are always the same") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
     for (const ExportFormat format : export_formats()) {
@@ -143,7 +143,7 @@ TEST_CASE("large files come in pieces, and the same ones again") {
     }
 }
 
-TEST_CASE("a sink that stops is left alone") {
+TEST_CASE("after a sink stops, nothing more is written") {
     const Mesh mesh = test::large_mesh(20000);
     const Skeleton skeleton = long_skeleton();
     for (const ExportFormat format : export_formats()) {
@@ -160,7 +160,7 @@ TEST_CASE("a sink that stops is left alone") {
           Stop::Cancelled);
 }
 
-TEST_CASE("where nothing is drawn nothing is written") {
+TEST_CASE("an empty mesh gives no file") {
     for (const ExportFormat format : export_formats()) {
         CAPTURE(traits_of(format).name);
         CHECK(refusal({}, format) == kNothing);
@@ -171,8 +171,8 @@ TEST_CASE("where nothing is drawn nothing is written") {
     CHECK(refusal(points, ExportFormat::Glb) == kNothing);
 }
 
-TEST_CASE("what a format cannot count is refused at once") {
-    // The large arrays are never touched, so they take no memory.
+TEST_CASE("meshes that are too large for a format are refused at once") {
+    // The large arrays are never written, so they take no physical memory.
     Mesh mesh = test::triangle_mesh();
     mesh.positions.resize(std::uint64_t{180} << 20);
     CHECK(refusal(mesh, ExportFormat::Glb) == kTooLarge);
@@ -182,7 +182,7 @@ TEST_CASE("what a format cannot count is refused at once") {
     CHECK(refusal(many, ExportFormat::Stl) == kTooLarge);
 }
 
-TEST_CASE("a primitive uses colours of vertices where they are not the material's") {
+TEST_CASE("a primitive uses colours of vertices if they differ from the colour of the material") {
     Mesh mesh = test::plant_mesh();
     std::string json = exported(mesh, ExportFormat::Gltf);
     // The third part has two palette colours, the others have their material's.
@@ -204,7 +204,7 @@ TEST_CASE("a primitive uses colours of vertices where they are not the material'
     CHECK(json.find("TEXCOORD_0") == std::string::npos);
 }
 
-TEST_CASE("textures are left out if they are not wanted") {
+TEST_CASE("textures are omitted on request") {
     std::string bytes;
     ExportInfo plain = info();
     plain.textures = false;
@@ -218,7 +218,7 @@ TEST_CASE("textures are left out if they are not wanted") {
     CHECK(exported(test::plant_mesh(), ExportFormat::Glb).find("image/png") != std::string::npos);
 }
 
-TEST_CASE("glTF gets directions of unit length") {
+TEST_CASE("directions in glTF have unit length") {
     Mesh mesh = test::tube_mesh(3, 4);
     Mesh wrong = mesh;
     wrong.normals[5] *= 3.0F;
@@ -236,7 +236,7 @@ TEST_CASE("glTF gets directions of unit length") {
     CHECK(exported(wrong, ExportFormat::Glb).size() == right.size());
 }
 
-TEST_CASE("a seed that JSON's readers would round is a string") {
+TEST_CASE("a seed that readers of JSON would round is written as a string") {
     ExportInfo large = info();
     large.seed = (std::uint64_t{1} << 53U) - 1;
     const auto text = [&large] {
@@ -254,7 +254,7 @@ TEST_CASE("a seed that JSON's readers would round is a string") {
     CHECK(text().find(R"("seed":"9007199254740992",)") != std::string::npos);
 }
 
-TEST_CASE("names cannot break the syntax around them") {
+TEST_CASE("special characters in names are escaped") {
     CHECK(one_line("a\nb\tc\x7F") == "a b c ");
     CHECK(valid_utf8("\xC3\xA4 \xC3( \xED\xA0\x80 \xF4\x90\x80\x80 \xC0\xAF") ==
           "\xC3\xA4 \xEF\xBF\xBD( \xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD "

@@ -168,7 +168,7 @@ TEST_CASE("at the time of each frame a film shows the mesh of the frame") {
     CHECK_FALSE(nodes[3].contains("scale"));
 }
 
-TEST_CASE("a film of one shape only moves, and one of a single frame does not") {
+TEST_CASE("a film of one shape is animated, and a film of one frame is not") {
     MeshFilmBuilder moving(24.0F);
     moving.add(frame_of(2, 0.5F));
     moving.add(frame_of(2, 1.0F));

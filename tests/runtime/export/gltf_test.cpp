@@ -43,7 +43,7 @@ File exported(const Mesh& mesh, ExportCompression compression) {
     return exported(mesh, info);
 }
 
-/// Bytes of the items of an accessor, decoded if the view is compressed.
+/// Bytes of the elements of an accessor, decoded if the view is compressed.
 std::string items(const File& file, std::size_t accessor) {
     const json& entry = file.document["accessors"][accessor];
     const json& view = file.document["bufferViews"][entry["bufferView"].get<std::size_t>()];
@@ -127,7 +127,7 @@ std::vector<std::array<Place, 3>> triangles_of(const std::string& indices,
 
 } // namespace
 
-TEST_CASE("indices have 16 bits up to the vertices that those can count") {
+TEST_CASE("indices have 16 bits if these can count the vertices") {
     for (const auto& [count, component] : {std::pair{21845U, 5123}, std::pair{21846U, 5125}}) {
         const File file = exported(triangles(count), ExportCompression::None);
         const json& primitive = file.document["meshes"][0]["primitives"][0];
@@ -140,7 +140,7 @@ TEST_CASE("indices have 16 bits up to the vertices that those can count") {
     }
 }
 
-TEST_CASE("a primitive has its own vertices in the order of their use, and bounds of them") {
+TEST_CASE("a primitive has its own vertices in the order of their use, with their bounds") {
     Mesh mesh = test::triangle_mesh();
     mesh.positions.assign({{9.0F, 9.0F, 9.0F},
                            {0.0F, 0.0F, 0.0F},
@@ -169,7 +169,7 @@ TEST_CASE("a primitive has its own vertices in the order of their use, and bound
     }
 }
 
-TEST_CASE("tangents come with a normal map only") {
+TEST_CASE("tangents are written only with a normal map") {
     const Mesh mesh = test::plant_mesh(); // bark, leaves and plain colours, all with tangents
     ExportInfo info;
     for (const bool textures : {true, false}) {
@@ -184,7 +184,7 @@ TEST_CASE("tangents come with a normal map only") {
     }
 }
 
-TEST_CASE("four materials that differ in colour become one with colours of vertices") {
+TEST_CASE("four materials that differ only in colour become one with colours of vertices") {
     const std::vector<glm::vec3> colours{
         {0.5F, 0.0F, 0.02F}, {0.25F, 0.0F, 0.01F}, {0.1F, 0.0F, 0.004F}, {0.003F, 0.0F, 0.0F}};
     const File file = exported(coloured_triangles(colours), ExportCompression::None);
@@ -197,16 +197,17 @@ TEST_CASE("four materials that differ in colour become one with colours of verti
     const std::string bytes = items(file, accessor_of(file, 0, "COLOR_0"));
     for (std::size_t vertex = 0; vertex < 12; ++vertex) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const float most = factor[channel].get<float>();
+            const float channel_factor = factor[channel].get<float>();
             const auto byte = static_cast<float>(at<std::uint8_t>(bytes, 4 * vertex + channel));
             const float wanted = colours[vertex / 3][static_cast<int>(channel)];
-            CHECK(std::abs(most * byte / 255.0F - wanted) <= 0.501F * most / 255.0F);
+            CHECK(std::abs(channel_factor * byte / 255.0F - wanted) <=
+                  0.501F * channel_factor / 255.0F);
         }
         CHECK(at<std::uint8_t>(bytes, 4 * vertex + 3) == 255);
     }
 }
 
-TEST_CASE("fewer materials, or ones that differ in more, stay apart") {
+TEST_CASE("fewer materials, or materials with more differences, are not merged") {
     const glm::vec3 grey(0.5F);
     CHECK(exported(coloured_triangles({grey, grey, grey}), ExportCompression::None)
               .document["materials"]
@@ -259,15 +260,15 @@ TEST_CASE("compressed positions decode within half a step, and normals and indic
         }
         const std::string normals = items(file, accessor_of(file, 0, "NORMAL"));
         const std::string given = items(plain, accessor_of(plain, 0, "NORMAL"));
-        Place most{};
+        Place max_found{};
         std::vector<Place> found_at(count);
-        float off = 0.0F;
+        float max_error = 0.0F;
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 found_at[i][axis] = at<std::uint16_t>(found, 4 * i + axis);
-                most[axis] = std::max(most[axis], found_at[i][axis]);
+                max_found[axis] = std::max(max_found[axis], found_at[i][axis]);
             }
-            float least = 2.0F;
+            float min_difference = 2.0F;
             for (const std::size_t other : places[found_at[i]]) {
                 float difference = 0.0F;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -275,13 +276,13 @@ TEST_CASE("compressed positions decode within half a step, and normals and indic
                     difference = std::max(
                         difference, std::abs(normal / 127.0F - at<float>(given, 3 * other + axis)));
                 }
-                least = std::min(least, difference);
+                min_difference = std::min(min_difference, difference);
             }
-            off = std::max(off, least);
+            max_error = std::max(max_error, min_difference);
         }
-        CHECK(static_cast<float>(*std::max_element(most.begin(), most.end())) == steps);
-        CHECK(entry["max"] == json({most[0], most[1], most[2]}));
-        CHECK(off <= 0.501F / 127.0F);
+        CHECK(static_cast<float>(*std::max_element(max_found.begin(), max_found.end())) == steps);
+        CHECK(entry["max"] == json({max_found[0], max_found[1], max_found[2]}));
+        CHECK(max_error <= 0.501F / 127.0F);
         const auto list = file.document["meshes"][0]["primitives"][0]["indices"].get<std::size_t>();
         const auto other =
             plain.document["meshes"][0]["primitives"][0]["indices"].get<std::size_t>();
@@ -290,7 +291,7 @@ TEST_CASE("compressed positions decode within half a step, and normals and indic
     }
 }
 
-TEST_CASE("triangles of a tube follow one another over edges, and equal vertices are one") {
+TEST_CASE("triangles of a tube are ordered by shared edges, and equal vertices are merged") {
     Mesh mesh = test::tube_mesh(60, 9);
     const LargeVector<std::uint32_t> before = mesh.indices.expanded();
     LargeVector<std::uint32_t> ordered = before;
@@ -353,7 +354,7 @@ TEST_CASE("compressed files are the same for any number of threads, and smaller"
     }
 }
 
-TEST_CASE("a long stem gets finer texture coordinates, and floats where 16 bits are too few") {
+TEST_CASE("a long stem gets finer texture coordinates, or floats if 16 bits are too few") {
     for (const auto& [tiles, bits] :
          {std::pair{1.0F, 12}, std::pair{7.9F, 12}, std::pair{9.0F, 13}, std::pair{127.0F, 16},
           std::pair{1000.0F, 16}, std::pair{1100.0F, 0}}) {
@@ -374,18 +375,19 @@ TEST_CASE("a long stem gets finer texture coordinates, and floats where 16 bits 
         }
         const json& transform = info["extensions"]["KHR_texture_transform"];
         const std::string bytes = items(file, accessor);
-        std::uint16_t most = 0;
+        std::uint16_t max_coordinate = 0;
         for (std::size_t i = 1; i < bytes.size() / 2; i += 2) {
-            most = std::max(most, at<std::uint16_t>(bytes, i));
+            max_coordinate = std::max(max_coordinate, at<std::uint16_t>(bytes, i));
         }
-        CHECK(most == (1 << bits) - 1);
-        CHECK(std::abs(transform["scale"][1].get<float>() * static_cast<float>(most) / 65535.0F -
+        CHECK(max_coordinate == (1 << bits) - 1);
+        CHECK(std::abs(transform["scale"][1].get<float>() * static_cast<float>(max_coordinate) /
+                           65535.0F -
                        tiles) < 1e-3F * tiles);
         CHECK(file.document["materials"][0]["normalTexture"]["extensions"] == info["extensions"]);
     }
 }
 
-TEST_CASE("a glTF refers to its buffer and pictures by escaped names") {
+TEST_CASE("a glTF names its buffer and pictures with escapes") {
     ExportInfo info;
     info.picture_prefix = "a b";
     info.buffer_name = "a b.bin";

@@ -48,7 +48,7 @@ TEST_CASE("half floats by the definition of binary16") {
     }
 }
 
-TEST_CASE("the digits of a half float read back as it, and none is idle") {
+TEST_CASE("the digits of a half float read back exactly, and no digit can be omitted") {
     const HalfDigits digits;
     CHECK(half_text(digits, 0.0F) == "0");
     CHECK(half_text(digits, -0.0F) == "0");
@@ -64,7 +64,7 @@ TEST_CASE("the digits of a half float read back as it, and none is idle") {
     }
 }
 
-TEST_CASE("rounded numbers have no digits that say nothing") {
+TEST_CASE("rounded numbers have no needless digits") {
     CHECK(rounded_text(0.0F, 4) == "0");
     CHECK(rounded_text(-0.0F, 4) == "0");
     CHECK(rounded_text(-0.00001F, 4) == "0");

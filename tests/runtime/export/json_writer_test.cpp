@@ -24,7 +24,7 @@ TEST_CASE("JSON has commas between values and none elsewhere") {
           }) == R"({"list":[1.5,2],"one":["x"]})");
 }
 
-TEST_CASE("JSON nests as deep as memory goes") {
+TEST_CASE("the nesting of JSON is limited only by memory") {
     constexpr int kDepth = 100'000;
     const std::string text = json_document([](JsonWriter& json) {
         for (int i = 0; i < kDepth; ++i) {
@@ -45,7 +45,7 @@ TEST_CASE("strings of JSON are escaped") {
     CHECK(json_document([&](JsonWriter& json) { json.value(large); }) == '"' + large + '"');
 }
 
-TEST_CASE("numbers of JSON are the shortest that read back") {
+TEST_CASE("numbers of JSON have the shortest text that reads back") {
     const auto number = [](auto value) {
         return json_document([value](JsonWriter& json) { json.value(value); });
     };
@@ -63,7 +63,7 @@ TEST_CASE("numbers of JSON are the shortest that read back") {
     CHECK(number(~std::uint64_t{0}) == R"("18446744073709551615")");
 }
 
-TEST_CASE("a string of JSON can come in pieces") {
+TEST_CASE("a string of JSON can be written in pieces") {
     std::string text;
     const ByteSink sink = [&text](std::string_view piece) {
         text += piece;
@@ -81,7 +81,7 @@ TEST_CASE("a string of JSON can come in pieces") {
     CHECK(text == R"({"data":"abcabcabc","rate":0.2500})");
 }
 
-TEST_CASE("members of an object may come from another document") {
+TEST_CASE("members of an object can be copied from another document") {
     const std::string members = json_document([](JsonWriter& json) { json.member("a", 1); });
     CHECK(members == R"("a":1)");
     CHECK(json_document([&](JsonWriter& json) {

@@ -37,7 +37,7 @@ TEST_CASE("the pivot is the start of the turtle, the base of the stem or the mid
     CHECK(pivot_of(Skeleton{}, PlantPivot::Base) == glm::vec3(0.0F));
 }
 
-TEST_CASE("a placed plant is moved and scaled as a whole") {
+TEST_CASE("placing moves and scales all parts of a plant") {
     const PlantPlacement placement{{1, 2, 3}, 100.0F};
     Skeleton plant = stem();
     place(placement, plant);

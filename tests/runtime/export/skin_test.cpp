@@ -1,4 +1,4 @@
-// Skins: the segments that move each vertex, and the joints that segments share.
+// Skins: the segments that move each vertex, and joints shared by segments.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/skin.h"
 #include "tests/runtime/plants.h"
@@ -67,7 +67,7 @@ PlantAnimation still(const Skeleton& plant, std::uint32_t frames) {
 
 } // namespace
 
-TEST_CASE("a ring hangs on the segments of its joint, half each") {
+TEST_CASE("a ring has half of its weight on each segment of its joint") {
     const Skeleton plant = crooked(5);
     for (const MeshOptions& options :
          {MeshOptions{}, MeshOptions{.texture_coordinates = false, .tangents = false},
@@ -99,7 +99,7 @@ TEST_CASE("a ring hangs on the segments of its joint, half each") {
     }
 }
 
-TEST_CASE("the rings of a sharp bend are shared out") {
+TEST_CASE("the rings of a sharp bend are assigned to different segments") {
     Skeleton plant = crooked(1);
     add_segment(plant, 0, leaning(2.8F), rod(1.0F, 0.1F, 1.0F, 1.0F)); // three rings
     const Mesh mesh = mesh_of(plant, {});
@@ -109,7 +109,7 @@ TEST_CASE("the rings of a sharp bend are shared out") {
     }
 }
 
-TEST_CASE("vertices of any tree hang on segments that they are at, by every method") {
+TEST_CASE("vertices of random trees are bound to a segment near them, with every mesh method") {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
         const Skeleton plant = random_tree(seed, 3);
         for (const MeshOptions& options :
@@ -147,7 +147,7 @@ TEST_CASE("vertices of any tree hang on segments that they are at, by every meth
     }
 }
 
-TEST_CASE("objects and polygons hang on their parents, or on nothing") {
+TEST_CASE("objects and polygons are bound to their parent segment, if any") {
     Skeleton plant = crooked(3);
     for (const std::uint32_t parent : {2U, 0U, kNoSegment}) {
         PlacedObject leaf;
@@ -176,7 +176,7 @@ TEST_CASE("objects and polygons hang on their parents, or on nothing") {
     }
 }
 
-TEST_CASE("segments that go together share a joint") {
+TEST_CASE("segments that move together share a joint") {
     // Segment 0 is at rest, 1 turns, 2 moves with 1, 3 turns further.
     const Skeleton plant = crooked(4);
     Mesh mesh = mesh_of(plant, {});
@@ -206,7 +206,7 @@ TEST_CASE("segments that go together share a joint") {
     CHECK(make_skin(mesh, plant, poses)->segments == std::vector<std::uint32_t>{1});
 }
 
-TEST_CASE("rotations of a joint are of unit length and do not change sides") {
+TEST_CASE("rotations of a joint have unit length and continuous signs") {
     const Skeleton plant = crooked(1);
     PlantAnimation poses = still(plant, 9);
     for (std::size_t i = 0; i < poses.places.size(); ++i) {
@@ -225,7 +225,7 @@ TEST_CASE("rotations of a joint are of unit length and do not change sides") {
     }
 }
 
-TEST_CASE("a USDA has the skin as a skeleton with a sample for each frame") {
+TEST_CASE("a USDA has a skeleton with a sample for each frame") {
     const Skeleton plant = crooked(2);
     const Mesh mesh = mesh_of(plant, {.sides = 3, .texture_coordinates = false, .tangents = false});
     PlantAnimation poses = still(plant, 2);
@@ -271,7 +271,7 @@ TEST_CASE("a USDA has the skin as a skeleton with a sample for each frame") {
     CHECK(has(fmt::format("({}, {}, {}, 1))]\n", rest.x, rest.y, rest.z)));
 }
 
-TEST_CASE("a skin has 65,535 joints that move, and no more") {
+TEST_CASE("a skin has at most 65,535 moving joints") {
     for (const std::uint32_t count : {kMaxJoints, kMaxJoints + 1}) {
         Skeleton plant;
         for (std::uint32_t i = 0; i < count; ++i) {

@@ -26,7 +26,7 @@ std::uint64_t field(const std::string& bytes, std::size_t at, std::size_t size) 
 struct ZipEntry {
     std::string name;
     std::string bytes;
-    std::size_t place = 0; // offset of its bytes
+    std::size_t place = 0; // offset of the contents
 };
 
 /// Entries by the central directory; checks that the local headers agree with it.
@@ -64,7 +64,7 @@ std::string exported_usdz(const Mesh& mesh, const ExportInfo& info) {
 
 } // namespace
 
-TEST_CASE("the checksum of an entry is CRC-32, however it comes in pieces") {
+TEST_CASE("the checksum of an entry is CRC-32 for any division into pieces") {
     EntrySize whole; // the check value of the CRC-32 of ISO 3309
     whole.add("123456789");
     CHECK(whole.checksum == 0xCBF43926U);
@@ -77,7 +77,7 @@ TEST_CASE("the checksum of an entry is CRC-32, however it comes in pieces") {
     CHECK(EntrySize().checksum == 0);
 }
 
-TEST_CASE("entries of an archive begin at multiples of 64 bytes, whatever their names and sizes") {
+TEST_CASE("entries with any name and size begin at multiples of 64 bytes") {
     // A header without padding has 30 bytes and the name, so these lengths give all remainders
     // modulo 64.
     for (std::size_t name_bytes = 1; name_bytes <= 65; ++name_bytes) {

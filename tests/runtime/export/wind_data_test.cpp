@@ -27,8 +27,8 @@ Skeleton forked() {
 }
 
 /// Displacement of the end of `way` for a branch of even stress, by definition: each segment turns
-/// by length / radius about its base and displaces the end by that angle times the length from
-/// there to the end.
+/// by length / radius about its base, and this angle times the length from the base of the segment
+/// to the end of `way` is added to the displacement.
 double bending(const Skeleton& plant, const std::vector<std::uint32_t>& way) {
     double sum = 0.0;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -44,7 +44,7 @@ double bending(const Skeleton& plant, const std::vector<std::uint32_t>& way) {
 
 } // namespace
 
-TEST_CASE("wind data hold pivot, distance, phase and stiffness") {
+TEST_CASE("wind data have pivot, distance, phase and stiffness") {
     const Skeleton plant = forked();
     const WindData wind(plant);
     const auto at_end = [&](std::uint32_t segment) {
@@ -73,11 +73,11 @@ TEST_CASE("wind data hold pivot, distance, phase and stiffness") {
     CHECK(wind.at({kNoSegment, kNoSegment}, {}).motion.y == 1.0F);
 }
 
-TEST_CASE("wind data of any tree are in their ranges and without steps along a branch") {
+TEST_CASE("wind data of random trees are within their ranges and continuous along a branch") {
     const Skeleton plant = tree(2, 4);
     const WindData wind(plant);
     std::set<float> phases;
-    float least = 1.0F;
+    float min_stiffness = 1.0F;
     for (std::uint32_t i = 0; i < plant.segments.size(); ++i) {
         const Segment& segment = plant.segments[i];
         const WindVertex end = wind.at({i, i}, tip(segment));
@@ -88,7 +88,7 @@ TEST_CASE("wind data of any tree are in their ranges and without steps along a b
         CHECK(end.motion.y <= start.motion.y);
         CHECK(end.pivot.y == Approx(start.pivot.y + segment.length).epsilon(1e-4));
         phases.insert(end.motion.x);
-        least = std::min(least, end.motion.y);
+        min_stiffness = std::min(min_stiffness, end.motion.y);
         if (segment.parent < i) {
             const WindVertex before =
                 wind.at({segment.parent, segment.parent}, tip(plant.segments[segment.parent]));
@@ -96,5 +96,5 @@ TEST_CASE("wind data of any tree are in their ranges and without steps along a b
         }
     }
     CHECK(phases.size() > 2);
-    CHECK(least == 0.0F);
+    CHECK(min_stiffness == 0.0F);
 }

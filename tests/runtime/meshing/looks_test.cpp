@@ -1,4 +1,4 @@
-// Materials of colour indexes on meshes, colours without an index, and pictures in JPEG.
+// Materials of colour indices on meshes, colours without an index, and pictures in JPEG.
 #include "runtime/export/export.h"
 #include "runtime/meshing/looks.h"
 #include "runtime/meshing/mesh.h"
@@ -70,7 +70,7 @@ const Material& material_named(const Mesh& mesh, const std::string& name) {
 
 } // namespace
 
-TEST_CASE("a material gives its index what it says, and keeps the rest", "[mesh]") {
+TEST_CASE("a material changes only the given properties of its colour index", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     const std::shared_ptr<const Texture> picture = grey_picture(255);
     add_look(
@@ -106,7 +106,7 @@ TEST_CASE("a material gives its index what it says, and keeps the rest", "[mesh]
     CHECK(material_named(mesh, "sphere 5").roughness == std::nullopt);
 }
 
-TEST_CASE("a relief alone stays with the picture of bark", "[mesh]") {
+TEST_CASE("a relief alone keeps the picture of bark", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     add_look(0,
              {.colour = {},
@@ -122,7 +122,7 @@ TEST_CASE("a relief alone stays with the picture of bark", "[mesh]") {
     CHECK(glm::vec3(bark.colour) == palette_colour(0));
 }
 
-TEST_CASE("a picture with holes is cut out", "[mesh]") {
+TEST_CASE("a picture with holes has an alpha mask", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     add_look(5,
              {.colour = {},
@@ -134,7 +134,7 @@ TEST_CASE("a picture with holes is cut out", "[mesh]") {
     CHECK(material_named(mesh_of(skeleton_of(looks)), "sphere 5").cut_out);
 }
 
-TEST_CASE("a colour of its own is a material and the colour of its vertices", "[mesh]") {
+TEST_CASE("a colour without an index is a material and the colour of vertices", "[mesh]") {
     const Mesh mesh = mesh_of(skeleton_of(nullptr));
     const Material& wood = material_named(mesh, "wood 3366FF");
     CHECK(wood.colour.r == Approx(0.0331048F));
@@ -149,7 +149,7 @@ TEST_CASE("a colour of its own is a material and the colour of its vertices", "[
     }
 }
 
-TEST_CASE("formats without pictures have the mean colour of a picture", "[mesh]") {
+TEST_CASE("formats without pictures have the mean colour of each picture", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     add_look(3,
              {.colour = glm::vec3(0.5F, 1.0F, 0.0F),
@@ -168,7 +168,7 @@ TEST_CASE("formats without pictures have the mean colour of a picture", "[mesh]"
     CHECK(without_look(looks.get(), 3) == kOwnColour + 0x5C8000);
 }
 
-TEST_CASE("glTF has the keys of a material", "[mesh]") {
+TEST_CASE("glTF has all properties of a material", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     add_look(0,
              {.colour = glm::vec3(0.5F, 0.25F, 0.125F),

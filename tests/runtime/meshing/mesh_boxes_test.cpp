@@ -248,7 +248,7 @@ TEST_CASE("faces of any number of corners become quads") {
     }
 }
 
-TEST_CASE("what is not closed is told") {
+TEST_CASE("meshes that are not closed are reported") {
     Workers workers(1);
     PolygonMesh open = cube();
     open.corners.resize(20);
@@ -284,7 +284,7 @@ TEST_CASE("boxes of random plants are closed") {
     }
 }
 
-TEST_CASE("a tree whose branches fit is one surface") {
+TEST_CASE("a tree whose branches fit onto their parents is one surface") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.08F);
     const std::uint32_t top = plant.grow(trunk, turned(20, {0, 0, 1}), 1.0F, 0.08F, 0.06F);
@@ -346,7 +346,7 @@ TEST_CASE("an unsmoothed box has the area of the segment's cross-section") {
     CHECK(test::volume_of(mesh) == Approx(std::numbers::pi * 0.01 * 2.0).epsilon(0.01));
 }
 
-TEST_CASE("too many or too short children are closed boxes of their own") {
+TEST_CASE("children that are too many or too short are separate closed boxes") {
     Plant many;
     const std::uint32_t trunk = many.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     for (int i = 0; i < 60; ++i) {
@@ -368,11 +368,11 @@ TEST_CASE("too many or too short children are closed boxes of their own") {
     CHECK(plants_in(meshed(back.skeleton, boxes(2))) == 2);
 }
 
-TEST_CASE("segments that cannot be drawn are passed over") {
+TEST_CASE("segments that cannot be drawn are skipped") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     const std::uint32_t without = plant.grow(trunk, turned(5, {1, 0, 0}), 0.0F, 0.1F, 0.1F);
-    plant.grow(without, turned(5, {1, 0, 0}), 1.0F, 0.1F, 0.1F); // is joined to the trunk
+    plant.grow(without, turned(5, {1, 0, 0}), 1.0F, 0.1F, 0.1F); // joined to the trunk
     CHECK(plants_in(meshed(plant.skeleton, boxes(1))) == 1);
     Plant thin;
     thin.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.0F, 0.0F);
@@ -384,7 +384,7 @@ TEST_CASE("segments that cannot be drawn are passed over") {
     CHECK(meshed(Skeleton{}, boxes(2)).positions.empty());
 }
 
-TEST_CASE("boxes keep colours, levels take steps away, and threads do not show") {
+TEST_CASE("boxes keep colours, coarser levels have fewer steps, and threads change nothing") {
     Plant plant = random_plant(77, 400, 60.0F);
     for (std::size_t i = 0; i < plant.skeleton.segments.size(); ++i) {
         plant.skeleton.segments[i].colour = static_cast<std::uint16_t>(i % 3);
@@ -438,7 +438,7 @@ TEST_CASE("an unsmoothed box of a .sys plant is its segment: length, widths, fla
     CHECK(plants_in(welded(two)) == 1);
 }
 
-TEST_CASE("plants of boxes are boxes unless another method is asked for") {
+TEST_CASE("plants with the setting for boxes are drawn as boxes unless options override it") {
     Plant plant;
     plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
     const auto vertices = [&](const MeshOptions& options) {
@@ -456,7 +456,7 @@ TEST_CASE("plants of boxes are boxes unless another method is asked for") {
     CHECK(vertices({.grooves = 0.1F}) > vertices({.subdivisions = 2}));
 }
 
-TEST_CASE("a branch does not flare where it leaves its parent") {
+TEST_CASE("a branch is not wider where it leaves its parent") {
     for (const float degrees : {35.0F, 60.0F, 90.0F}) {
         for (const float roll : {0.0F, 30.0F, 45.0F}) {
             Plant plant;
@@ -502,7 +502,7 @@ TEST_CASE("smoothed ends are flat, with a rounded edge") {
     CHECK(widest > 0.075F);
 }
 
-TEST_CASE("boxes that are cut at a joint overlap there") {
+TEST_CASE("separate boxes overlap at their joint") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     const std::uint32_t branch = plant.grow(trunk, turned(40, {1, 0, 0}), 1.0F, 0.1F, 0.1F);
@@ -531,7 +531,7 @@ TEST_CASE("boxes that are cut at a joint overlap there") {
     }
 }
 
-TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its ridges") {
+TEST_CASE("grooves of boxes are within the stem, symmetric, and keep its ridges") {
     Plant plant;
     std::uint32_t last = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     for (int i = 0; i < 4; ++i) {
@@ -544,8 +544,8 @@ TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its r
     REQUIRE(grooved.positions.size() == plain.positions.size());
     CHECK(test::topology_by_index(grooved).open_edges == 0);
     CHECK(test::corners_turned_over(grooved) < grooved.indices.size() / 300);
-    float least = 1.0F;
-    float most = 0.0F;
+    float min_depth = 1.0F;
+    float max_depth = 0.0F;
     for (std::size_t i = 0; i < plain.positions.size(); ++i) {
         const glm::vec3& at = plain.positions[i];
         if (at.y > 1.0F && at.y < 4.0F) {
@@ -554,12 +554,12 @@ TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its r
             const float depth = (before - after) / 0.1075F;
             CHECK(depth > -1e-4F);
             CHECK(depth < 0.3F + 1e-4F);
-            least = std::min(least, depth);
-            most = std::max(most, depth);
+            min_depth = std::min(min_depth, depth);
+            max_depth = std::max(max_depth, depth);
         }
     }
-    CHECK(least < 0.01F);
-    CHECK(most > 0.29F);
+    CHECK(min_depth < 0.01F);
+    CHECK(max_depth > 0.29F);
     // A coarser level has too few vertices for grooves, but the same mean thickness.
     options.level = 3;
     const Mesh coarse = meshed(plant.skeleton, options);
@@ -568,7 +568,7 @@ TEST_CASE("grooves of boxes cut into the stem, mirror each other, and keep its r
     CHECK(coarse_part == Approx(test::volume_of(grooved) / test::volume_of(plain)).epsilon(0.1));
 }
 
-TEST_CASE("too many subdivisions are refused before they are made") {
+TEST_CASE("too many subdivisions are refused before memory is allocated") {
     const Plant plant = random_plant(1, 50, 60.0F);
     for (const std::uint32_t subdivisions : {14U, 40U, 0xFFFFFFFFu}) {
         Mesh mesh;

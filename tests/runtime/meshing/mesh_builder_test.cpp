@@ -26,7 +26,7 @@ void fill(const MeshBlock& block, float value) {
 
 } // namespace
 
-TEST_CASE("parts that come whole keep their triangles as they are", "[mesh]") {
+TEST_CASE("whole parts keep their triangles unchanged", "[mesh]") {
     Mesh mesh;
     const MeshOptions options{.texture_coordinates = false, .tangents = false, .colours = false};
     MeshBuilder builder(options, mesh);
@@ -93,7 +93,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
     CHECK(mesh.colours[11] == 7);
 }
 
-TEST_CASE("arrays that the options leave out stay empty", "[mesh]") {
+TEST_CASE("arrays that the options exclude stay empty", "[mesh]") {
     Mesh mesh;
     mesh.tangents.resize(9);
     const MeshOptions options{.texture_coordinates = false, .tangents = false, .colours = false};
@@ -108,10 +108,10 @@ TEST_CASE("arrays that the options leave out stay empty", "[mesh]") {
     CHECK(mesh.byte_count() == 3 * 24 + 3 * 4);
 }
 
-TEST_CASE("what does not fit is refused before room is made", "[mesh]") {
+TEST_CASE("meshes over a limit are refused before memory is allocated", "[mesh]") {
     Mesh mesh;
     MeshBlock block;
-    SECTION("by bytes") {
+    SECTION("limit of bytes") {
         const MeshOptions options{.texture_coordinates = false,
                                   .tangents = false,
                                   .colours = false,
@@ -124,7 +124,7 @@ TEST_CASE("what does not fit is refused before room is made", "[mesh]") {
         CHECK_FALSE(builder.reserve(part, 0, 0, block));
         CHECK(builder.finish() == Stop::Limit);
     }
-    SECTION("by the reach of an index") {
+    SECTION("limit of indices") {
         const MeshOptions options;
         MeshBuilder builder(options, mesh);
         CHECK_FALSE(
@@ -136,7 +136,7 @@ TEST_CASE("what does not fit is refused before room is made", "[mesh]") {
     CHECK(mesh.parts.empty());
 }
 
-TEST_CASE("palette colours are told apart and repeat", "[mesh]") {
+TEST_CASE("palette colours are distinct and repeat", "[mesh]") {
     for (std::uint32_t i = 0; i < 25; ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
             CHECK(palette_colour(i) != palette_colour(j));

@@ -42,7 +42,7 @@ double volume(double sides, double length, double a, double b) {
 
 } // namespace
 
-TEST_CASE("a cylinder is closed and has its volume and its sides") {
+TEST_CASE("a cylinder is closed and has the volume and number of sides of its options") {
     for (const std::uint32_t sides : {3U, 4U, 7U, 64U}) {
         MeshOptions options;
         options.sides = sides;
@@ -61,7 +61,7 @@ TEST_CASE("a cylinder is closed and has its volume and its sides") {
     }
 }
 
-TEST_CASE("the normals of a cylinder stand on its sides and its ends") {
+TEST_CASE("normals of a cylinder are perpendicular to its sides and ends") {
     const Mesh mesh = meshed(one(2.0F, 0.5F, 0.5F));
     const glm::vec3 axis = one(1, 1, 1).segments[0].frame * glm::vec3(0, 1, 0);
     for (const glm::vec3& normal : mesh.normals) {
@@ -81,14 +81,14 @@ TEST_CASE("levels halve the sides of cylinders") {
     }
 }
 
-TEST_CASE("segments without length or width are no cylinders") {
+TEST_CASE("segments without length or width are not drawn") {
     CHECK(meshed(one(0.0F, 1.0F, 1.0F)).positions.empty());
     CHECK(meshed(one(1.0F, 0.0F, 0.0F)).positions.empty());
     CHECK(meshed(one(1.0F, 1e-9F, 0.0F)).positions.empty());
     CHECK(meshed(Skeleton{}).positions.empty());
 }
 
-TEST_CASE("many cylinders have parts by colour and do not depend on threads") {
+TEST_CASE("many cylinders have a part per colour and do not depend on threads") {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     Skeleton skeleton;

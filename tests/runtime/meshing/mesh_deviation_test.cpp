@@ -81,17 +81,17 @@ double from_axis(const glm::vec3& p) {
 
 } // namespace
 
-TEST_CASE("rings deviate by what is allowed, with the fewest odd sides", "[mesh][tubes]") {
-    const std::uint8_t most = GENERATE(std::uint8_t{4}, std::uint8_t{8}, std::uint8_t{17},
-                                       std::uint8_t{24}, std::uint8_t{64});
+TEST_CASE("rings have the smallest odd number of sides within the deviation", "[mesh][tubes]") {
+    const std::uint8_t max_sides = GENERATE(std::uint8_t{4}, std::uint8_t{8}, std::uint8_t{17},
+                                            std::uint8_t{24}, std::uint8_t{64});
     const float deviation = GENERATE(0.0003F, 0.001F, 0.004F, 0.02F, 1.0F);
-    CAPTURE(+most, deviation);
+    CAPTURE(+max_sides, deviation);
     const MeshOptions options{.deviation = deviation, .threads = 1};
-    const Mesh mesh = tubes(taper(most), options);
+    const Mesh mesh = tubes(taper(max_sides), options);
     const std::vector<Ring> rings = rings_of(mesh);
     REQUIRE(rings.size() == kPieces + 1);
     const double bound = static_cast<double>(deviation) * 1.00001;
-    std::uint32_t before = most;
+    std::uint32_t before = max_sides;
     for (std::uint32_t i = 0; i <= kPieces; ++i) {
         const auto [first, sides] = rings[i];
         const auto radius = static_cast<double>(radius_at(i));
@@ -99,7 +99,7 @@ TEST_CASE("rings deviate by what is allowed, with the fewest odd sides", "[mesh]
         REQUIRE(sides >= 3);
         REQUIRE(sides <= before);
         before = sides;
-        CHECK((sides == most || sides % 2 == 1));
+        CHECK((sides == max_sides || sides % 2 == 1));
         if (sides > 3) { // with fewer sides, the deviation would be too large
             CHECK(sagitta(radius, sides % 2 == 1 ? sides - 2 : sides - 1) >
                   0.99999 * static_cast<double>(deviation));
@@ -109,12 +109,12 @@ TEST_CASE("rings deviate by what is allowed, with the fewest odd sides", "[mesh]
             const glm::vec3& corner = mesh.positions[first + k];
             const glm::vec3& next = mesh.positions[first + k + 1];
             around += static_cast<double>(glm::length(next - corner));
-            if (sides < most) {
+            if (sides < max_sides) {
                 CHECK(std::abs(from_axis(corner) - radius) <= bound);
                 CHECK(std::abs(from_axis(0.5F * (corner + next)) - radius) <= bound);
             }
         }
-        CHECK(around == Approx(2.0 * most * radius * std::sin(kPi / most)));
+        CHECK(around == Approx(2.0 * max_sides * radius * std::sin(kPi / max_sides)));
     }
     CHECK(rings.back().sides <= rings.front().sides);
 }
@@ -223,7 +223,7 @@ TEST_CASE("a tree has fewer triangles and the same look", "[mesh][tubes]") {
     CHECK(triangles * 3 < whole.indices.size() * 2);
 }
 
-TEST_CASE("what deviates by nothing is what it was", "[mesh][tubes]") {
+TEST_CASE("a deviation of 0 gives the mesh without the option", "[mesh][tubes]") {
     const float noise = GENERATE(0.0F, 0.2F);
     const Skeleton skeleton = test::random_tree(5, 2);
     MeshOptions options{.segments = true, .bark_noise = noise, .threads = 1};
@@ -234,7 +234,7 @@ TEST_CASE("what deviates by nothing is what it was", "[mesh][tubes]") {
     CHECK(same(whole, tubes(skeleton, options)));
 }
 
-TEST_CASE("branches of few sides begin within parents of few sides", "[mesh][tubes]") {
+TEST_CASE("branches with few sides begin within parents with few sides", "[mesh][tubes]") {
     const float degrees = GENERATE(20.0F, 60.0F, 90.0F);
     const float radius = GENERATE(0.03F, 0.1F, 0.2F, 0.25F);
     const float deviation = GENERATE(0.003F, 0.02F, 1.0F);

@@ -29,7 +29,7 @@ double coverage_of(const Mesh& mesh, const Bounds& frame, int view) {
 
 } // namespace
 
-TEST_CASE("levels keep bounds and silhouette with fewer triangles", "[mesh][tubes]") {
+TEST_CASE("coarser levels have fewer triangles and keep bounds and silhouette", "[mesh][tubes]") {
     const std::uint32_t seed = GENERATE(1U, 2U, 3U, 4U);
     const std::uint32_t sides = GENERATE(8U, 24U);
     CAPTURE(seed, sides);
@@ -64,7 +64,7 @@ TEST_CASE("levels keep bounds and silhouette with fewer triangles", "[mesh][tube
     CHECK(triangles * 3 < finest.indices.size());
 }
 
-TEST_CASE("a straight taper keeps only its ends", "[mesh][tubes]") {
+TEST_CASE("at coarse levels, a straight taper has rings only at its ends", "[mesh][tubes]") {
     test::Plant plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 20; ++i) {
@@ -77,7 +77,7 @@ TEST_CASE("a straight taper keeps only its ends", "[mesh][tubes]") {
     CHECK(at_level(plant.skeleton(), 9, 0).positions.size() == 2 * 4 + 2);
 }
 
-TEST_CASE("fewer sides are as wide in the mean", "[mesh][tubes]") {
+TEST_CASE("rings with fewer sides have the same mean width", "[mesh][tubes]") {
     test::Plant plant;
     plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.sides = 32});
     const auto circumference = [&](std::uint32_t level) {

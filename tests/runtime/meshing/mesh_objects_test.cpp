@@ -82,7 +82,7 @@ TEST_CASE("an object is moved, turned and scaled") {
     CHECK(test::corners_turned_over(mesh) == 0);
 }
 
-TEST_CASE("a negative size mirrors an object and keeps its outside out") {
+TEST_CASE("a negative size mirrors an object, and its faces still point outwards") {
     const Mesh mesh = meshed(one({.kind = TurtleOperation::Cone, .size = -1.0F}));
     CHECK(test::bounds_of(mesh).low.y == -1.0F);
     CHECK(test::volume_of(mesh) > 0.2);
@@ -128,7 +128,7 @@ TEST_CASE("meshes of files are objects") {
     object.mesh_file = 1;
     object.size = 3.0F;
     Skeleton skeleton = one(object);
-    // There is no such mesh.
+    // No mesh has this index.
     skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 9});
     // The mesh is empty.
     skeleton.objects.push_back({.kind = TurtleOperation::MeshFile, .mesh_file = 0});
@@ -138,7 +138,7 @@ TEST_CASE("meshes of files are objects") {
     CHECK(mesh.materials[0].two_sided);
 }
 
-TEST_CASE("objects do not depend on threads, and levels make them cheaper") {
+TEST_CASE("objects do not depend on threads, and coarser levels have fewer triangles") {
     const Skeleton skeleton = random_objects(1, 5000);
     for (const float droop : {0.0F, 0.7F}) {
         const Mesh one_thread = meshed(skeleton, {.droop = droop, .threads = 1});
@@ -157,7 +157,7 @@ TEST_CASE("objects do not depend on threads, and levels make them cheaper") {
     }
 }
 
-TEST_CASE("arrays that are not asked for are not made") {
+TEST_CASE("arrays that the options exclude are not made") {
     MeshOptions options;
     options.texture_coordinates = false;
     options.tangents = false;
@@ -165,7 +165,7 @@ TEST_CASE("arrays that are not asked for are not made") {
     CHECK_FALSE(meshed(random_objects(2, 50), options).indices.empty());
 }
 
-TEST_CASE("leaves droop as the skeleton says, unless the options say otherwise") {
+TEST_CASE("the skeleton sets the droop of leaves, unless the options override it") {
     Skeleton skeleton = one({.kind = TurtleOperation::Leaf});
     const Mesh straight = meshed(skeleton);
     skeleton.leaf_droop = traits_of(TurtleProfile::Lplus).leaf_droop;
@@ -185,7 +185,7 @@ TEST_CASE("leaves droop as the skeleton says, unless the options say otherwise")
     }
 }
 
-TEST_CASE("leaves droop to the ground, whatever their frame, and are not stretched") {
+TEST_CASE("leaves of any direction droop to the ground and keep their length") {
     const Mesh straight = meshed(one({.kind = TurtleOperation::Leaf}));
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
@@ -241,15 +241,16 @@ TEST_CASE("objects over the limit leave the mesh empty") {
     CHECK(result.mesh.positions.empty());
 }
 
-TEST_CASE("materials of files are called by the file, once each and not as those of the library",
-          "[objects]") {
+TEST_CASE(
+    "materials of mesh files have unique names of the file, different from those of the library",
+    "[objects]") {
     CHECK(object_file_names({"leaves/maple.obj", "leaf.png", "old/Maple.png", "two words.obj",
                              "a\nb.obj", ".png", "other\\leaf.png"}) ==
           std::vector<std::string>{"maple", "leaf file", "Maple file", "two words", "a_b", "file",
                                    "leaf file 2"});
 }
 
-TEST_CASE("a plain material is called by all that it is on", "[objects]") {
+TEST_CASE("the name of a plain material lists the parts that use it", "[objects]") {
     Skeleton skeleton;
     Segment segment;
     segment.length = 1.0F;

@@ -133,7 +133,7 @@ TEST_CASE("triangles of random simple polygons have the area of the polygon") {
     }
 }
 
-TEST_CASE("corners on lines and on other corners leave the area as it is") {
+TEST_CASE("corners on edges and on other corners do not change the area") {
     // A comb on a grid, each edge with corners in between.
     Corners comb;
     for (int i = 0; i < 40; ++i) {
@@ -159,7 +159,7 @@ TEST_CASE("corners on lines and on other corners leave the area as it is") {
     CHECK(triangulated({{0, 0}, {1, 0}, {1, 1}, {3, 3}, {1, 1}, {0, 1}}).area == Approx(1.0));
 }
 
-TEST_CASE("polygons of any size, position and slenderness") {
+TEST_CASE("polygons of any size, position and aspect ratio") {
     const Corners arrow{{0, 0}, {2, 1}, {0, 2}, {1, 1}};
     for (const double scale : {1e-30, 1e-6, 1.0, 1e6, 1e30}) {
         Corners scaled;
@@ -173,7 +173,7 @@ TEST_CASE("polygons of any size, position and slenderness") {
     CHECK(triangulated({{0, 0}, {1e6, 0}, {1e6, 1}, {5e5, 0.5}, {0, 1}}).triangles == 3);
 }
 
-TEST_CASE("polygons that are none have no triangles") {
+TEST_CASE("degenerate polygons have no triangles") {
     CHECK(triangulated({}).triangles == 0);
     CHECK(triangulated({{1, 1}}).triangles == 0);
     CHECK(triangulated({{1, 1}, {2, 2}}).triangles == 0);
@@ -203,7 +203,7 @@ TEST_CASE("polygons that cross themselves have valid triangles") {
     }
 }
 
-TEST_CASE("polygons of ten thousand corners take no more than moments") {
+TEST_CASE("polygons of ten thousand corners are triangulated fast") {
     std::mt19937 random(3);
     const auto begin = std::chrono::steady_clock::now();
     constexpr std::size_t kCorners = 10'000;
@@ -232,7 +232,7 @@ TEST_CASE("polygons of ten thousand corners take no more than moments") {
     CHECK(passed.count() < 20.0); // s; it takes 1 s on a slow machine, more with sanitizers
 }
 
-TEST_CASE("the polygon of a turtle lies in its plane and faces its up") {
+TEST_CASE("the polygon of a turtle lies in its plane and faces its up direction") {
     // A concave polygon in a rotated plane.
     const Corners flat{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}};
     std::mt19937 random(4);
@@ -265,7 +265,7 @@ TEST_CASE("the polygon of a turtle lies in its plane and faces its up") {
     }
 }
 
-TEST_CASE("polygons that are not flat, or hardly polygons") {
+TEST_CASE("polygons that are not flat or nearly degenerate") {
     const Mesh saddle = meshed(skeleton_of({{0, 0, 0}, {1, 0, 0.5}, {1, 1, 0}, {0, 1, 0.5}}));
     CHECK(saddle.indices.size() == 6);
     const Mesh bow = meshed(skeleton_of({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}));

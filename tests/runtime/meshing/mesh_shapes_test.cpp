@@ -53,7 +53,7 @@ void check_box(const Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
 
 } // namespace
 
-TEST_CASE("objects of all levels are whole meshes that use their vertices") {
+TEST_CASE("objects of all levels are valid meshes without unused vertices") {
     for (const TurtleOperation kind : kObjects) {
         for (std::uint32_t level = 0; level < 40; level += level < 5 ? 1 : 30) {
             INFO(name_of(kind) << " at level " << level);
@@ -75,7 +75,7 @@ TEST_CASE("objects of all levels are whole meshes that use their vertices") {
     }
 }
 
-TEST_CASE("objects have the extents of the language") {
+TEST_CASE("objects have the extents of the language reference") {
     const glm::vec3 low(-0.5F, 0.0F, -0.5F);
     const glm::vec3 high(0.5F, 1.0F, 0.5F);
     for (const TurtleOperation kind :
@@ -114,7 +114,7 @@ TEST_CASE("coarse objects fill the same box with fewer triangles") {
     }
 }
 
-TEST_CASE("bodies are closed and have about the volume of what they stand for") {
+TEST_CASE("bodies are closed and have about the volume of the exact shape") {
     const double pi = std::numbers::pi;
     struct Body {
         TurtleOperation kind;
@@ -140,7 +140,7 @@ TEST_CASE("bodies are closed and have about the volume of what they stand for") 
     }
 }
 
-TEST_CASE("the normals of a sphere are its radii and those of a cone stand on its side") {
+TEST_CASE("normals of a sphere are its radii, and those of a cone are perpendicular to its side") {
     const Mesh sphere = mesh_of(make_shape(TurtleOperation::Sphere, 0));
     for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
         const glm::vec3 radius = 2.0F * (sphere.positions[i] - glm::vec3(0, 0.5F, 0));
@@ -198,13 +198,13 @@ TEST_CASE("a flower has petals that take a colour and a centre that keeps its ow
     CHECK(shape.parts[0].material.kind == MaterialKind::Flower);
 }
 
-TEST_CASE("what is no object has no shape") {
+TEST_CASE("operations that place no object have no shape") {
     CHECK(make_shape(TurtleOperation::Branch, 0).parts.empty());
     CHECK(make_shape(TurtleOperation::Nothing, 0).parts.empty());
     CHECK(make_shape(TurtleOperation::MeshFile, 0).parts.empty());
 }
 
-TEST_CASE("tangents follow u and tell mirrored texture coordinates") {
+TEST_CASE("tangents follow u and mark mirrored texture coordinates") {
     UserMesh user;
     user.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
     user.normals.assign(3, {0, 0, 1});

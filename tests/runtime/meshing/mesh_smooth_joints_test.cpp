@@ -57,11 +57,11 @@ joints_of(const Skeleton& skeleton, const MeshOptions& options, std::uint32_t fi
 }
 
 float max_turn(const std::vector<Joint>& joints) {
-    float least = 1.0F;
+    float min_cosine = 1.0F;
     for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-        least = std::min(least, glm::dot(joints[i].heading, joints[i + 1].heading));
+        min_cosine = std::min(min_cosine, glm::dot(joints[i].heading, joints[i + 1].heading));
     }
-    return std::acos(std::clamp(least, -1.0F, 1.0F)) / kDegree;
+    return std::acos(std::clamp(min_cosine, -1.0F, 1.0F)) / kDegree;
 }
 
 } // namespace
@@ -95,7 +95,7 @@ TEST_CASE("a smooth curve passes through the joints and turns by small steps", "
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
-TEST_CASE("rings of a smooth curve are no more than it bends", "[mesh][tubes]") {
+TEST_CASE("a smooth curve has no more rings than its bend needs", "[mesh][tubes]") {
     // Seven segments with six bends of 24 degrees turn by 144 degrees in all; a ring turns by at
     // most 11.5.
     const std::size_t rings = joints_of(chain(7, 24.0F, false, 0.002F), kSmooth, 0).size();
@@ -103,7 +103,7 @@ TEST_CASE("rings of a smooth curve are no more than it bends", "[mesh][tubes]") 
     CHECK(rings < 8 + 2 * 144 / 11);
 }
 
-TEST_CASE("a bend of equal segments keeps its curve in their circle", "[mesh][tubes]") {
+TEST_CASE("the curve through equal segments of a bend is near their circle", "[mesh][tubes]") {
     // The segments are chords of a circle: the curve through their ends must be near the circle.
     Plant plant;
     std::uint32_t last = kNoSegment;
@@ -125,7 +125,7 @@ TEST_CASE("a bend of equal segments keeps its curve in their circle", "[mesh][tu
     }
 }
 
-TEST_CASE("straight stems are the same with smooth joints, byte for byte", "[mesh][tubes]") {
+TEST_CASE("smooth joints do not change straight stems, byte for byte", "[mesh][tubes]") {
     Plant plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 6; ++i) {
@@ -181,7 +181,7 @@ TEST_CASE("a branch across or against its parent leaves as without smooth joints
           tubes(plant.skeleton(), {.threads = 1}).positions);
 }
 
-TEST_CASE("edges too short for their radius stay straight", "[mesh][tubes]") {
+TEST_CASE("edges that are too short for their radius stay straight", "[mesh][tubes]") {
     // Rings of a curve would cross on its inner side.
     const float degrees = GENERATE(60.0F, 90.0F, 120.0F, 170.0F, 180.0F);
     const float radius = GENERATE(0.05F, 0.3F, 1.0F, 5.0F);
@@ -193,7 +193,8 @@ TEST_CASE("edges too short for their radius stay straight", "[mesh][tubes]") {
     CHECK(test::topology_of(smooth).open_edges == test::topology_of(plain).open_edges);
 }
 
-TEST_CASE("smooth joints go with every option of tubes and any threads", "[mesh][tubes]") {
+TEST_CASE("smooth joints work with every option of tubes and any number of threads",
+          "[mesh][tubes]") {
     const std::uint32_t seed = GENERATE(1U, 2U, 3U);
     const Skeleton skeleton = test::random_tree(seed, 3);
     const Mesh plain = tubes(skeleton, {.threads = 1});
@@ -227,7 +228,7 @@ TEST_CASE("smooth joints go with every option of tubes and any threads", "[mesh]
     CHECK(tubes(skeleton, kSmooth).positions.size() > plain.positions.size());
 }
 
-TEST_CASE("coarser levels of smooth joints are cheaper", "[mesh][tubes]") {
+TEST_CASE("coarser levels of smooth joints have fewer triangles", "[mesh][tubes]") {
     const Skeleton skeleton = test::random_tree(4, 3);
     std::size_t triangles = tubes(skeleton, kSmooth).indices.size();
     for (std::uint32_t level = 1; level < 5; ++level) {

@@ -39,8 +39,8 @@ segment_to(const glm::vec3& base, const glm::vec3& end, float base_radius, float
     return segment;
 }
 
-/// Whether the convex hull of the balls at the ends of a segment contains a point: some ball
-/// between them does.
+/// Whether the convex hull of the balls at the ends of a segment contains a point: whether some ball
+/// between these balls contains it.
 bool holds(const Segment& segment, double min_radius, const glm::dvec3& point) {
     const glm::dvec3 offset = glm::dvec3(segment.base) - point;
     const glm::dvec3 line = glm::dvec3(tip(segment)) - glm::dvec3(segment.base);
@@ -86,15 +86,15 @@ double volume_by_cubes(const Skeleton& skeleton, double min_radius, double side,
 /// the triangle.
 double square_from(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
     constexpr int kSteps = 24;
-    double least = std::numeric_limits<double>::max();
+    double min_square = std::numeric_limits<double>::max();
     for (int i = 0; i <= kSteps; ++i) {
         for (int j = 0; i + j <= kSteps; ++j) {
             const glm::dvec3 at = corners[0] + (corners[1] - corners[0]) * (double(i) / kSteps) +
                                   (corners[2] - corners[0]) * (double(j) / kSteps) - point;
-            least = std::min(least, glm::dot(at, at));
+            min_square = std::min(min_square, glm::dot(at, at));
         }
     }
-    return least;
+    return min_square;
 }
 
 /// The number of edges that cross the inside of a triangle with which they share no vertex.
@@ -225,7 +225,7 @@ TEST_CASE("a standing stem has a flat base") {
     CHECK(test::volume_of(mesh) == Approx(kPi * 0.04 * 2.7 + half_ball).epsilon(0.02));
 }
 
-TEST_CASE("the solid of a branched plant is one shell with the volume of its cubes") {
+TEST_CASE("the solid of a branched plant is one shell with the volume counted in cubes") {
     const Skeleton skeleton = branched();
     const Mesh mesh = meshed(skeleton);
     check_closed(mesh, 1);
@@ -236,7 +236,7 @@ TEST_CASE("the solid of a branched plant is one shell with the volume of its cub
           Approx(volume_by_cubes(skeleton, min_radius, 0.012, 0.0)).epsilon(0.02));
 }
 
-TEST_CASE("no part of a solid is thinner than the width asked for") {
+TEST_CASE("no part of a solid is thinner than the minimum width") {
     MeshOptions options;
     options.min_width = 0.1F;
     const Skeleton skeleton = branched();
@@ -247,7 +247,7 @@ TEST_CASE("no part of a solid is thinner than the width asked for") {
           Approx(volume_by_cubes(skeleton, 0.05, 0.016, 0.0)).epsilon(0.02));
 }
 
-TEST_CASE("polygons and objects of a solid have a thickness and no hollow") {
+TEST_CASE("polygons and objects of a solid are thick and not hollow") {
     Skeleton skeleton;
     skeleton.corners = {{0, 0, 0}, {2, 0, 0}, {2, 0, 1}, {0, 0, 1}};
     skeleton.polygons.push_back({.first_corner = 0, .corner_count = 4});
@@ -270,7 +270,7 @@ TEST_CASE("polygons and objects of a solid have a thickness and no hollow") {
     CHECK(test::volume_of(round) > 4.0 / 3.0 * kPi);
 }
 
-TEST_CASE("triangles of any shape and size have the volume of their cubes") {
+TEST_CASE("solids of triangles of any shape and size have the volume counted in cubes") {
     // Large, small and narrow triangles and one without area; some share corners, some cross.
     Skeleton skeleton;
     const std::vector<std::array<glm::vec3, 3>> triangles{
@@ -314,7 +314,7 @@ TEST_CASE("triangles of any shape and size have the volume of their cubes") {
     CHECK(test::volume_of(mesh) == Approx(volume).epsilon(0.02));
 }
 
-TEST_CASE("parts of a solid that do not touch are shells of their own") {
+TEST_CASE("parts of a solid that do not touch are separate shells") {
     Skeleton skeleton = branched();
     skeleton.segments.push_back(segment_to({3, 1, 0}, {4, 1.2F, 0}, 0.1F, 0.1F));
     check_closed(meshed(skeleton), 2);

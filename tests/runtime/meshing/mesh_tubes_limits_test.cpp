@@ -79,7 +79,7 @@ bool same_bytes(const Mesh& a, const Mesh& b) {
 
 } // namespace
 
-TEST_CASE("random skeletons make good meshes at every level", "[mesh][tubes]") {
+TEST_CASE("random skeletons give valid meshes at every level", "[mesh][tubes]") {
     for (std::uint32_t seed = 1; seed <= 300; ++seed) {
         CAPTURE(seed);
         const Skeleton skeleton = random_skeleton(seed);
@@ -109,7 +109,7 @@ TEST_CASE("tubes are the same for any number of threads", "[mesh][tubes]") {
         REQUIRE(make_mesh(skeleton, {}, options, mesh) == std::nullopt);
         CHECK(same_bytes(one, mesh));
     }
-    // The result is the same in memory that held another mesh.
+    // The result is the same if the output already has another mesh.
     Mesh used = tubes(test::random_tree(8, 1), kBare);
     REQUIRE(make_mesh(skeleton, {}, options, used) == std::nullopt);
     CHECK(same_bytes(one, used));
@@ -144,7 +144,7 @@ TEST_CASE("segments of radius 0 draw nothing", "[mesh][tubes]") {
     CHECK(tubes(Skeleton{}, kBare).positions.empty());
 }
 
-TEST_CASE("radii that pass through 0 make points", "[mesh][tubes]") {
+TEST_CASE("a radius of 0 between segments gives a point", "[mesh][tubes]") {
     Plant plant;
     std::uint32_t last =
         plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.0F, .tip_radius = 0.1F});
@@ -154,7 +154,7 @@ TEST_CASE("radii that pass through 0 make points", "[mesh][tubes]") {
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
-TEST_CASE("sizes beyond reason are drawn or left out", "[mesh][tubes]") {
+TEST_CASE("unreasonable sizes are drawn or omitted", "[mesh][tubes]") {
     const float length = GENERATE(1e-30F, 1e-6F, 1.0F, 1e30F);
     const float radius = GENERATE(1e-30F, 1e-6F, 1.0F, 1e30F, 3e38F);
     CAPTURE(length, radius);
@@ -173,7 +173,7 @@ TEST_CASE("sizes beyond reason are drawn or left out", "[mesh][tubes]") {
     }
 }
 
-TEST_CASE("an axis a million segments deep keeps its frame", "[mesh][tubes]") {
+TEST_CASE("an axis of a million segments keeps its frame", "[mesh][tubes]") {
     Plant plant;
     plant.skeleton().segments.reserve(1000000);
     std::uint32_t last = kNoSegment;
@@ -191,7 +191,7 @@ TEST_CASE("an axis a million segments deep keeps its frame", "[mesh][tubes]") {
     CHECK(worst < 1e-4F);
 }
 
-TEST_CASE("threads that share a long axis make the same tube", "[mesh][tubes]") {
+TEST_CASE("a long axis is the same tube for any number of threads", "[mesh][tubes]") {
     // An axis longer than one piece of work, with branches, bends of all kinds, two colours, and a
     // gap after which the axis is long again.
     test::Numbers numbers(5);
@@ -210,15 +210,15 @@ TEST_CASE("threads that share a long axis make the same tube", "[mesh][tubes]") 
         }
     }
     MeshOptions options;
-    SECTION("bare") {
+    SECTION("no options") {
         options = kBare;
     }
-    SECTION("with all") {}
-    SECTION("with noise, and sides by radius") {
+    SECTION("all arrays") {}
+    SECTION("noise, and sides by radius") {
         options.bark_noise = 0.2F;
         options.deviation = 0.002F;
     }
-    SECTION("coarse") {
+    SECTION("coarse level") {
         options.level = 2;
     }
     options.threads = 1;
@@ -244,7 +244,7 @@ TEST_CASE("a segment drawn backwards begins an axis", "[mesh][tubes]") {
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
-TEST_CASE("limits of tubes are outcomes", "[mesh][tubes]") {
+TEST_CASE("tubes over a limit end with an outcome", "[mesh][tubes]") {
     const Skeleton skeleton = test::random_tree(3, 2);
     Mesh mesh;
     MeshOptions options = kBare;
@@ -257,7 +257,7 @@ TEST_CASE("limits of tubes are outcomes", "[mesh][tubes]") {
     CHECK(mesh.indices.empty());
 }
 
-TEST_CASE("noise is smooth and goes around", "[mesh][tubes]") {
+TEST_CASE("noise is smooth and periodic around the stem", "[mesh][tubes]") {
     const BarkNoise noise(0.7F, 42);
     const double step = 1e-4;
     const double around = 2.0 * 3.14159265358979;
@@ -277,24 +277,25 @@ TEST_CASE("noise is smooth and goes around", "[mesh][tubes]") {
     CHECK(noise.at(0.3F, 1.0).value != BarkNoise(0.7F, 43).at(0.3F, 1.0).value);
 }
 
-TEST_CASE("noise moves the bark by its part of the radius and leaves it closed", "[mesh][tubes]") {
+TEST_CASE("noise moves the bark by a fraction of the radius, and the tube stays closed",
+          "[mesh][tubes]") {
     Plant plant;
     const std::uint32_t first = plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.sides = 24});
     plant.add(first, {0, 1, 0}, 1.0F, {.sides = 24});
     MeshOptions options{.bark_noise = 0.2F, .threads = 1};
     const Mesh mesh = tubes(plant.skeleton(), options);
     CHECK(test::topology_of(mesh).open_edges == 0);
-    float least = 1.0F;
-    float most = 0.0F;
+    float min_radius = 1.0F;
+    float max_radius = 0.0F;
     // Without the vertices of the caps.
     for (std::size_t i = 1; i + 1 < mesh.positions.size(); ++i) {
         const float radius = std::hypot(mesh.positions[i].x, mesh.positions[i].z);
-        least = std::min(least, radius);
-        most = std::max(most, radius);
+        min_radius = std::min(min_radius, radius);
+        max_radius = std::max(max_radius, radius);
     }
-    CHECK(least >= 0.08F - 1e-6F);
-    CHECK(most <= 0.12F + 1e-6F);
-    CHECK(most - least > 0.01F);
+    CHECK(min_radius >= 0.08F - 1e-6F);
+    CHECK(max_radius <= 0.12F + 1e-6F);
+    CHECK(max_radius - min_radius > 0.01F);
 }
 
 } // namespace lsys

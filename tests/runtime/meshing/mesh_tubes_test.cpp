@@ -45,7 +45,7 @@ Skeleton bent(float degrees, float tip_radius) {
 
 } // namespace
 
-TEST_CASE("neighbours along an axis share their ring", "[mesh][tubes]") {
+TEST_CASE("consecutive segments of an axis share a ring", "[mesh][tubes]") {
     Plant plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 5; ++i) {
@@ -77,7 +77,7 @@ TEST_CASE("an isolated tube is closed", "[mesh][tubes]") {
     CHECK(test::volume_of(mesh) > 0.0);
 }
 
-TEST_CASE("a tube has its radius on both sides of a bend", "[mesh][tubes]") {
+TEST_CASE("a tube keeps its radius on both sides of a bend", "[mesh][tubes]") {
     const float degrees = GENERATE(0.0F, 10.0F, 30.0F, 59.0F);
     CAPTURE(degrees);
     const Skeleton skeleton = bent(degrees, 0.1F);
@@ -91,7 +91,7 @@ TEST_CASE("a tube has its radius on both sides of a bend", "[mesh][tubes]") {
     }
 }
 
-TEST_CASE("the radius at a joint is that of the child's base", "[mesh][tubes]") {
+TEST_CASE("the radius at a joint is the base radius of the child", "[mesh][tubes]") {
     Plant plant;
     const std::uint32_t first =
         plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.3F, .tip_radius = 0.3F});
@@ -121,7 +121,7 @@ TEST_CASE("a rolling turtle does not twist the tube", "[mesh][tubes]") {
     }
 }
 
-TEST_CASE("frames carried around bends stay flat in a plane", "[mesh][tubes]") {
+TEST_CASE("frames transported along bends in a plane do not twist", "[mesh][tubes]") {
     // Joints along a circle in the plane z = 0: the vertex that starts in direction z stays there.
     Plant plant;
     std::uint32_t last = kNoSegment;
@@ -136,7 +136,8 @@ TEST_CASE("frames carried around bends stay flat in a plane", "[mesh][tubes]") {
     }
 }
 
-TEST_CASE("lines between the corners of two rings are parallel to the edge", "[mesh][tubes]") {
+TEST_CASE("lines between corresponding corners of two rings are parallel to the segment",
+          "[mesh][tubes]") {
     // A helix: every bend has another axis. A bend of up to 60 degrees has one ring, up to 120 two.
     const float degrees = GENERATE(20.0F, 58.0F, 62.0F, 110.0F, 130.0F, 170.0F);
     CAPTURE(degrees);
@@ -177,7 +178,7 @@ TEST_CASE("normals point away from the axis and lean with the taper", "[mesh][tu
     CHECK(test::turned_over(tubes(bent(30.0F, 0.05F), kBare)) == 0);
 }
 
-TEST_CASE("texture runs around and up with square texels", "[mesh][tubes]") {
+TEST_CASE("texture coordinates run around and along the stem with square texels", "[mesh][tubes]") {
     Plant plant;
     const std::uint32_t first = plant.add(kNoSegment, {0, 1, 0}, 2.0F);
     plant.add(first, {0, 1, 0}, 1.0F);
@@ -202,7 +203,7 @@ TEST_CASE("texture runs around and up with square texels", "[mesh][tubes]") {
     }
 }
 
-TEST_CASE("each colour is a part with rings of its own", "[mesh][tubes]") {
+TEST_CASE("each colour is a part with separate rings", "[mesh][tubes]") {
     Plant plant;
     const std::uint32_t first = plant.add(kNoSegment, {0, 1, 0}, 1.0F);
     const std::uint32_t second = plant.add(first, {0, 1, 0}, 1.0F, {.colour = 3});

@@ -84,14 +84,14 @@ TEST_CASE("a leaf is opaque within the outline of the mesh") {
     CHECK(channel(leaf, 128, 150, 1) > channel(leaf, 170, 150, 1));
 }
 
-TEST_CASE("normals of the bark point out of it") {
+TEST_CASE("normals of the normal map of bark point outwards") {
     const Texture normals = bark_normals();
     for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
         REQUIRE(normals.texels[i + 2] > 128);
     }
 }
 
-TEST_CASE("other readers of PNG read what was written") {
+TEST_CASE("libpng reads the written PNG unchanged") {
     Texture odd{3, 2, {}};
     for (std::uint8_t i = 0; i < 24; ++i) {
         odd.texels.push_back(static_cast<std::uint8_t>(37 * i));
@@ -131,7 +131,7 @@ TEST_CASE("other readers of PNG read what was written") {
     }
 }
 
-TEST_CASE("a PNG says its size and whether it has opacity") {
+TEST_CASE("size and opacity are read from the header of a PNG") {
     const std::string bark = encode_png(material_texture(MaterialKind::Bark));
     const std::string leaf = encode_png(material_texture(MaterialKind::Leaf));
     CHECK(bark.substr(0, 8) == "\x89PNG\r\n\x1A\n");

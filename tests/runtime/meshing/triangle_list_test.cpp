@@ -102,7 +102,7 @@ std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
 
 } // namespace
 
-TEST_CASE("regular triangles are read as they would be listed", "[mesh]") {
+TEST_CASE("triangles in compact form are read like listed ones", "[mesh]") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         CAPTURE(seed);
         const auto [list, indices] = mixed_list(seed);
@@ -124,7 +124,7 @@ TEST_CASE("regular triangles are read as they would be listed", "[mesh]") {
     }
 }
 
-TEST_CASE("chunks go through all indices in order", "[mesh]") {
+TEST_CASE("chunks contain all indices in order", "[mesh]") {
     TriangleList list;
     list.append_bands({.first = 0, .sides = 8}, 2000);
     list.append({7, 8, 9});
@@ -143,7 +143,7 @@ TEST_CASE("a ring of more sides is joined corner by corner", "[mesh]") {
     CHECK(list == TriangleList{0, 4, 3, 0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 0, 6, 0, 3, 6});
 }
 
-TEST_CASE("lists are joined, with their vertices moved", "[mesh]") {
+TEST_CASE("a list can be appended with an offset of its vertices", "[mesh]") {
     auto [list, indices] = mixed_list(3);
     const auto [more, more_indices] = mixed_list(4);
     const TriangleList before = list;
@@ -159,7 +159,7 @@ TEST_CASE("lists are joined, with their vertices moved", "[mesh]") {
     CHECK(list.size() == indices.size());
 }
 
-TEST_CASE("a tube of millions of rings takes some bytes", "[mesh]") {
+TEST_CASE("a tube of millions of rings takes few bytes", "[mesh]") {
     // More indices than 32 bits can count: two blocks, whose border lies within the tube.
     TriangleList list;
     constexpr std::uint32_t kBands = 1U << 20;

@@ -1,4 +1,4 @@
-// Reading Wavefront OBJ: every form of a face, computed values, refused files.
+// Reading Wavefront OBJ: every notation of a face, computed values, refused files.
 #include "runtime/meshing/user_mesh.h"
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ TEST_CASE("an OBJ quad becomes a fan with normals") {
     CHECK(mesh.length() == 1.0F);
 }
 
-TEST_CASE("every form of an index of an OBJ face") {
+TEST_CASE("every notation of an index of an OBJ face") {
     const std::string head = kSquare + "vt 0 0\nvt 1 0.25\nvn 0 0 5\n";
     const auto form = GENERATE(as<std::string>(), "f 1 2 3", "f 1/1 2/2 3/1", "f 1//1 2//1 3//1",
                                "f 1/1/1 2/2/1 3/1/1", "f -4/-2/-1 -3/-1/-1 -2/-2/-1",
@@ -68,13 +68,13 @@ TEST_CASE("every form of an index of an OBJ face") {
     }
 }
 
-TEST_CASE("negative OBJ indices count from the face and not from the end of the file") {
+TEST_CASE("negative OBJ indices count back from their face, not from the end of the file") {
     const UserMesh mesh = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 3\nf -1 -3 -2");
     CHECK(mesh.positions.size() == 4);
     CHECK(mesh.positions[mesh.indices[3]] == glm::vec3(0, 0, 3));
 }
 
-TEST_CASE("corners of OBJ faces are shared where all of them is equal") {
+TEST_CASE("corners of OBJ faces are shared if all their indices are equal") {
     const UserMesh shared = read(kSquare + "f 1 2 3\nf 1 3 4\n");
     CHECK(shared.positions.size() == 4);
     const UserMesh split = read(kSquare + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/2 4/2\n");
@@ -125,7 +125,7 @@ TEST_CASE("numbers of OBJ files") {
     CHECK(message("vn 0 1") == "line 1: a normal needs three numbers of up to 1e18");
 }
 
-TEST_CASE("an OBJ face that cannot be is named by its line") {
+TEST_CASE("the message about an invalid OBJ face has its line") {
     const std::string eight = kSquare + kSquare;
     CHECK(message(eight + "\n\n\nf 1 2 9") == "line 12: face refers to vertex 9 of 8");
     CHECK(message(eight + "f 1 2 -9") == "line 9: face refers to vertex -9 of 8");
@@ -153,7 +153,7 @@ TEST_CASE("lines of other kinds are skipped") {
     CHECK(read(text).indices.size() == 3);
 }
 
-TEST_CASE("hostile OBJ text ends in an error or a mesh") {
+TEST_CASE("random OBJ text gives an error or a mesh") {
     const std::string zero(1, '\0');
     CHECK(message("v 0 0 0" + zero) == "line 1: a vertex needs three numbers of up to 1e18");
     CHECK(message(zero + "v\n" + kSquare + "f 1 2 3") == "read");
@@ -171,7 +171,7 @@ TEST_CASE("hostile OBJ text ends in an error or a mesh") {
     CHECK(read(many + face).positions.size() == 100'002);
 }
 
-TEST_CASE("an OBJ of any content uses no more memory than it may") {
+TEST_CASE("an OBJ with any text stays within the limit of memory") {
     constexpr std::size_t kCount = 20'000;
     const auto repeated = [](const std::function<std::string(std::size_t)>& line) {
         std::string text = kSquare;

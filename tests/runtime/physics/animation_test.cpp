@@ -9,7 +9,7 @@
 using namespace lsys;
 using namespace lsys::test;
 
-TEST_CASE("an animation is the poses at its frames") {
+TEST_CASE("an animation has the poses at its frames") {
     const Skeleton plant = tree(1, 3);
     PhysicsOptions options;
     options.threads = 1;
@@ -39,7 +39,8 @@ TEST_CASE("an animation is the poses at its frames") {
     CHECK(glm::length(animation.frame(4)[5].base - animation.frame(0)[5].base) > 1e-5F);
 }
 
-TEST_CASE("between frames no step is longer than the plant's, which stays as it was") {
+TEST_CASE(
+    "steps between frames are at most as long as the step of the options, which does not change") {
     const Skeleton plant = tree(0, 2);
     for (const float rate : {7.0F, 24.0F, 59.0F, 60.0F, 144.0F, 1000.0F}) {
         PhysicsOptions options;
@@ -58,8 +59,8 @@ TEST_CASE("between frames no step is longer than the plant's, which stays as it 
     CHECK(record(nothing, 3, 24.0F).places.empty());
 }
 
-TEST_CASE("in all frames objects and corners stay out of the ground") {
-    // A limp stalk with large leaves all around, tips of which reach the ground first.
+TEST_CASE("objects and corners stay above the ground in all frames") {
+    // A limp stalk with large leaves all around; tips of leaves reach the ground first.
     Skeleton plant;
     std::uint32_t last = kNoSegment;
     for (std::uint32_t i = 0; i < 12; ++i) {
@@ -108,7 +109,7 @@ TEST_CASE("in all frames objects and corners stay out of the ground") {
             if (settled) {
                 static_cast<void>(physics.settle(1e-6, 300));
             }
-            Skeleton first; // is exported, and moves with the frames
+            Skeleton first; // the exported skeleton, which moves with the frames
             physics.pose(first);
             const PlantAnimation animation = record(physics, 60, 24.0F);
             Skeleton pose;
@@ -136,7 +137,7 @@ TEST_CASE("in all frames objects and corners stay out of the ground") {
     }
 }
 
-TEST_CASE("a loop ends where it begins, and goes on as it begins") {
+TEST_CASE("a loop ends at its first pose with its first velocity") {
     const Skeleton plant = tree(1, 3);
     PhysicsOptions options;
     options.threads = 1;
@@ -151,14 +152,14 @@ TEST_CASE("a loop ends where it begins, and goes on as it begins") {
         const auto base = [&](std::uint32_t frame, std::size_t segment) {
             return glm::dvec3(clip.frame(frame)[segment].base);
         };
-        double most = 0.0; // m, max distance from the first frame
-        double step = 0.0; // m/frame, max change of the velocity between frames
-        double seam = 0.0; // m/frame, max change of the velocity at the seam
+        double max_distance = 0.0; // m, max distance from the first frame
+        double step = 0.0;         // m/frame, max change of the velocity between frames
+        double seam = 0.0;         // m/frame, max change of the velocity at the seam
         for (std::size_t i = 0; i < plant.segments.size(); ++i) {
             REQUIRE(clip.frame(0)[i].base == clip.frame(frames - 1)[i].base);
             REQUIRE(clip.frame(0)[i].frame == clip.frame(frames - 1)[i].frame);
             for (std::uint32_t frame = 1; frame + 1 < frames; ++frame) {
-                most = std::max(most, glm::length(base(frame, i) - base(0, i)));
+                max_distance = std::max(max_distance, glm::length(base(frame, i) - base(0, i)));
                 step = std::max(step, glm::length(base(frame + 1, i) - 2.0 * base(frame, i) +
                                                   base(frame - 1, i)));
             }
@@ -170,7 +171,7 @@ TEST_CASE("a loop ends where it begins, and goes on as it begins") {
                 REQUIRE(glm::length(end - clip.frame(frames / 2)[i].base) < 1e-4F);
             }
         }
-        CHECK(most > 0.0);
+        CHECK(max_distance > 0.0);
         CHECK(seam <= 3.0 * step + 1e-6);
         CHECK(loop.mismatch < 0.05);
     }
@@ -202,7 +203,7 @@ TEST_CASE("gusts repeat after their period") {
     CHECK(move_on() != before);
 }
 
-TEST_CASE("a plant at the places of its pose is its pose") {
+TEST_CASE("placing a plant at its pose changes nothing") {
     Skeleton plant = tree(1, 3);
     PlacedObject leaf;
     leaf.kind = TurtleOperation::Leaf;

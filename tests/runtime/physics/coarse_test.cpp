@@ -115,7 +115,7 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
     CHECK(coarse_plants(make_bodies(Skeleton{}, 0.2)).empty());
 }
 
-TEST_CASE("the runs of a curve have its masses, its contacts and the energy of its joints") {
+TEST_CASE("the runs of a curve have the masses, contacts and energy of the joints of the curve") {
     const Bodies whole = make_bodies(limp_curve(13), 0.2);
     const std::vector<CoarsePlant> stages = coarse_plants(whole);
     REQUIRE(stages.size() == 2);
@@ -168,7 +168,7 @@ TEST_CASE("the runs of a curve have its masses, its contacts and the energy of i
 }
 
 TEST_CASE("long curves without branches settle in few rounds") {
-    // Of all segments alone they took 300 and 200 rounds.
+    // Without stages, settling took 300 and 200 rounds.
     struct Curve {
         std::uint32_t order, rounds;
     };
@@ -224,7 +224,8 @@ TEST_CASE("twigs keep their bend when poses are completed") {
     }
 }
 
-TEST_CASE("a large plant that falls settles in few rounds, the same for any number of threads") {
+TEST_CASE(
+    "a large falling plant settles in few rounds, to the same pose for any number of threads") {
     const Skeleton plant = limp_plant();
     REQUIRE(plant.segments.size() >= kMinCoarsened);
     std::string expected;
@@ -252,7 +253,7 @@ TEST_CASE("a large plant that falls settles in few rounds, the same for any numb
     }
 }
 
-TEST_CASE("rounds of settling fit the size of a plant") {
+TEST_CASE("the number of rounds of settling depends on the size of the plant") {
     CHECK(settle_rounds(0) == 10'000);
     CHECK(settle_rounds(100) == 10'000);
     CHECK(settle_rounds(10'000) == 300);

@@ -45,7 +45,7 @@ double lowest(const Skeleton& rest, const Skeleton& bent) {
 
 } // namespace
 
-TEST_CASE("nothing that stands above the ground ends below it, and energy does not grow") {
+TEST_CASE("parts above the ground stay above it, and energy does not increase") {
     std::mt19937 numbers(4);
     for (int plant_number = 0; plant_number < 60; ++plant_number) {
         Skeleton plant = random_plant(numbers, 1 + below(numbers, 40), 0.5);
@@ -74,7 +74,7 @@ TEST_CASE("nothing that stands above the ground ends below it, and energy does n
     }
 }
 
-TEST_CASE("a stalk without stiffness lies on the ground, at its radius") {
+TEST_CASE("the axis of a limp stalk comes to rest at its radius above the ground") {
     Skeleton plant;
     const std::uint32_t first =
         add_segment(plant, kNoSegment, leaning(0.3F), rod(1.0F, 0.02F, 0.0F, 1.0F));
@@ -131,7 +131,7 @@ TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
     CHECK(turn_in_wind(1.1 * limit) > 0.1);
 }
 
-TEST_CASE("a flat plant that falls in its plane settles with the speed of Newton's method") {
+TEST_CASE("a flat plant that falls in its plane settles as fast as with Newton's method") {
     // A plant upright in its plane could fall to either side of the plane, so second derivatives
     // out of the plane are negative; derivatives within the plane must not be changed for that.
     Skeleton plant;
@@ -152,7 +152,7 @@ TEST_CASE("a flat plant that falls in its plane settles with the speed of Newton
     CHECK(lowest(plant, bent) >= -2e-5);
 }
 
-TEST_CASE("what is away from the ground does not feel it") {
+TEST_CASE("parts above the ground are not affected by it") {
     const Skeleton plant = tree(2, 4);
     PhysicsOptions options;
     options.threads = 1;

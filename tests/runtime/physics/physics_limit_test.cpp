@@ -33,7 +33,7 @@ bool is_sound(const Skeleton& plant) {
 
 } // namespace
 
-TEST_CASE("energy does not grow without wind, whatever the plant and the step") {
+TEST_CASE("without wind, energy does not increase for any plant and any time step") {
     std::mt19937 numbers(1);
     for (int plant_number = 0; plant_number < 400; ++plant_number) {
         const double range = plant_number % 3 == 0 ? 6.0 : uniform(numbers, 0.0, 6.0);
@@ -69,7 +69,7 @@ TEST_CASE("energy does not grow without wind, whatever the plant and the step") 
     }
 }
 
-TEST_CASE("plants of any numbers come down") {
+TEST_CASE("plants with random properties come down") {
     std::mt19937 numbers(8);
     int settled = 0;
     for (int plant_number = 0; plant_number < 100; ++plant_number) {
@@ -116,7 +116,7 @@ TEST_CASE("the same motion for any number of threads") {
     }
 }
 
-TEST_CASE("among many plants each moves as if it were alone") {
+TEST_CASE("each of many plants moves as it does alone") {
     std::mt19937 numbers(5);
     Skeleton single = random_plant(numbers, 6, 0.5);
     single.objects.clear();
@@ -152,7 +152,7 @@ TEST_CASE("among many plants each moves as if it were alone") {
     CHECK(one.energy() < 0.0);
 }
 
-TEST_CASE("a million segments on end need no stack") {
+TEST_CASE("a chain of a million segments needs no recursion") {
     Skeleton plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 1'000'000; ++i) {
@@ -208,7 +208,7 @@ TEST_CASE("without mass, length, radius or spring everything stays finite") {
     }
 }
 
-TEST_CASE("values that are no values count as none") {
+TEST_CASE("invalid properties and options give finite poses") {
     Skeleton plant;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
@@ -241,7 +241,7 @@ TEST_CASE("values that are no values count as none") {
     CHECK(bent.segments.empty());
 }
 
-TEST_CASE("what has no spring hangs down") {
+TEST_CASE("segments without a spring hang down") {
     Skeleton plant;
     const std::uint32_t first =
         add_segment(plant, kNoSegment, leaning(0.5F), rod(1.0F, 0.01F, 0.0F, 1.0F));
@@ -267,7 +267,7 @@ TEST_CASE("what has no spring hangs down") {
     }
 }
 
-TEST_CASE("steps of any length reach the rest of a tree") {
+TEST_CASE("steps of any length reach the rest pose of a tree") {
     const Skeleton plant = tree(2, 4);
     PhysicsOptions options;
     options.threads = 1;

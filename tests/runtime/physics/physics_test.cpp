@@ -71,7 +71,7 @@ TEST_CASE("a cantilever under its weight comes to rest at the closed form") {
     }
 }
 
-TEST_CASE("the steps of a damped cantilever end where settle ends") {
+TEST_CASE("steps of a damped cantilever converge to the pose of settle()") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(0.7F), rod(1.0F, 0.02F, 10.0F, 1.0F));
     for (const float step : {1.0F / 240.0F, 1.0F / 60.0F, 0.1F}) {
@@ -89,7 +89,7 @@ TEST_CASE("the steps of a damped cantilever end where settle ends") {
     }
 }
 
-TEST_CASE("a chain of two comes to rest where Newton's method puts it") {
+TEST_CASE("a chain of two comes to rest at the solution of Newton's method") {
     struct Case {
         double lean_1, lean_2, k_1, k_2, m_1, m_2, l_1, l_2;
     };
@@ -161,13 +161,13 @@ TEST_CASE("a rod in wind comes to rest at the closed form, downwind") {
             blown.pose(bent);
             lean = lean_of(bent.segments[0]);
         }
-        const auto [least, most] = std::minmax_element(leans.begin(), leans.end());
+        const auto [min_lean, max_lean] = std::minmax_element(leans.begin(), leans.end());
         if (gust == 0.0F) {
-            CHECK(*least == Approx(expected).margin(2e-6));
-            CHECK(*most - *least <= 1e-6);
+            CHECK(*min_lean == Approx(expected).margin(2e-6));
+            CHECK(*max_lean - *min_lean <= 1e-6);
         } else {
-            CHECK(*most - *least > 0.05);
-            CHECK(*least > 0.0);
+            CHECK(*max_lean - *min_lean > 0.05);
+            CHECK(*min_lean > 0.0);
         }
     }
 }
@@ -198,7 +198,7 @@ TEST_CASE("a free rod swings with the period of a compound pendulum") {
     CHECK(crossings[2] - crossings[1] == Approx(period).epsilon(1e-3));
 }
 
-TEST_CASE("two rods swing as Lagrange's equations say, and finer steps come nearer") {
+TEST_CASE("two rods swing by Lagrange's equations, and finer steps have smaller errors") {
     // Two equal rods of mass 1 and length 1 on springs, in a plane; angles are from +Y.
     constexpr double kSpring = 4.0;
     constexpr double kDamper = 0.05;
@@ -262,7 +262,7 @@ TEST_CASE("two rods swing as Lagrange's equations say, and finer steps come near
     CHECK(last_error < 5e-3);
 }
 
-TEST_CASE("with short steps and nothing that brakes a tree keeps its energy") {
+TEST_CASE("with short steps and without damping, a tree keeps its energy") {
     std::mt19937 numbers(3);
     const Skeleton plant = random_plant(numbers, 12, 0.3);
     std::vector<double> lost;
@@ -369,7 +369,7 @@ TEST_CASE("without wind and gravity nothing moves") {
     CHECK(same(plant, bent));
 }
 
-TEST_CASE("what a segment carries goes with it") {
+TEST_CASE("objects and polygons of a segment move with it") {
     Skeleton plant;
     const std::uint32_t trunk =
         add_segment(plant, kNoSegment, leaning(0.4F), rod(2.0F, 0.05F, 40.0F, 3.0F));
@@ -416,7 +416,7 @@ TEST_CASE("what a segment carries goes with it") {
                heading(glm::conjugate(plant.segments[trunk].frame) * plant.polygons[0].frame)));
 }
 
-TEST_CASE("leaves weigh what their size says") {
+TEST_CASE("the weight of leaves depends on their size") {
     // A rod without mass and a leaf at its tip; the leaf's centre of mass is half its length
     // farther out.
     Skeleton plant;

@@ -1,4 +1,4 @@
-// Compares buckling with closed forms, and tries the factor of standing_factor().
+// Compares buckling with closed forms, and tests the factor of standing_factor().
 #include "runtime/physics/stability.h"
 #include "tests/runtime/plants.h"
 
@@ -36,13 +36,13 @@ PhysicsOptions in_calm() {
 
 } // namespace
 
-TEST_CASE("one segment on a spring buckles where k = m g l / 2") {
+TEST_CASE("one segment on a spring buckles at k = m g l / 2") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(0.0F), rod(2.0F, 0.02F, 30.0F, 3.0F));
     CHECK(stability_of(plant, in_calm()).load_factor == Approx(30.0 / (3.0 * 9.81)).epsilon(1e-5));
 }
 
-TEST_CASE("two segments buckle where the determinant of their energy is 0") {
+TEST_CASE("two segments buckle if the determinant of their energy is 0") {
     // The energy for small angles is k1 a^2 / 2 + k2 (b - a)^2 / 2 - f (p a^2 + q b^2) / 2.
     Skeleton plant;
     const std::uint32_t first =
@@ -96,7 +96,7 @@ TEST_CASE("a trunk whose joints carry only their own segments is not measured as
     CHECK(found.load_factor > 1.0);
 }
 
-TEST_CASE("what hangs is stable under any weight") {
+TEST_CASE("hanging plants are stable under any weight") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(static_cast<float>(std::numbers::pi)),
                 rod(2.0F, 0.02F, 30.0F, 3.0F));
@@ -107,7 +107,7 @@ TEST_CASE("what hangs is stable under any weight") {
     CHECK(std::isinf(stability_of(column(5, 20.0, 0.01, 9e9), weightless).load_factor));
 }
 
-TEST_CASE("a plant stands with the factor that is advised, and falls with half of it") {
+TEST_CASE("a plant stands with the recommended factor and falls with half of it") {
     for (const double width : {0.01, 0.03}) {
         Skeleton plant = column(12, 20.0, width, 9e9);
         add_segment(plant, 11, leaning(0.9F),

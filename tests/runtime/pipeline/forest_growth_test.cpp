@@ -1,4 +1,4 @@
-// Growth of forests: moments between two years.
+// Growth of forests, with moments between two years.
 #include "runtime/pipeline/forest_growth.h"
 
 #include <catch2/catch.hpp>
@@ -73,7 +73,7 @@ bool is_same_wood(const LargeVector<Tree>& a, const LargeVector<Tree>& b) {
 
 } // namespace
 
-TEST_CASE("a whole year of a growing forest is the forest placed with that number of years") {
+TEST_CASE("at a whole year, a growing forest equals the forest placed with that number of years") {
     GrowingWood wood(kWood);
     ForestGrowth growth = wood.begin();
     CHECK(growth.last_year() == 30);
@@ -146,7 +146,7 @@ TEST_CASE("between two years trees grow, sprout from nothing and shrink to nothi
     CHECK(dead > 0);
 }
 
-TEST_CASE("trees with stages go through them, each from where it starts") {
+TEST_CASE("trees with stages pass through them, each from its first stage") {
     GrowingWood wood("key = 5\n[terrain]\nsize = 40\n[placement]\ncount = 300\n[[species]]\n"
                      "grammar = \"bush.lsys\"\nstages = [0, 1, 2, 3]\n");
     wood.placed(0);

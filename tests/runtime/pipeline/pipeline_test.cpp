@@ -50,7 +50,7 @@ TEST_CASE("the pipeline grows and meshes a plant from a file in memory") {
     CHECK_FALSE(mesh.value().positions.empty());
 }
 
-TEST_CASE("the pipeline says why there is no plant") {
+TEST_CASE("the error of the pipeline has the reason if there is no plant") {
     Project project = project_of({{"tree.lsys", kTree}, {"bad.lsys", "#n = 3; #w : F"}});
     const Outcome<Grammar> missing = load_grammar("none.lsys", {}, project);
     REQUIRE_FALSE(missing);
@@ -72,7 +72,7 @@ TEST_CASE("the pipeline says why there is no plant") {
     CHECK(grow_plant({}, grammar.value(), project).stop() == Stop::Cancelled);
 }
 
-TEST_CASE("the pipeline says why there is no mesh") {
+TEST_CASE("the error of the pipeline has the reason if there is no mesh") {
     Project project = project_of({{"tree.lsys", kTree}});
     Outcome<Grammar> grammar = load_grammar("tree.lsys", {}, project);
     REQUIRE(grammar);
@@ -168,7 +168,7 @@ std::map<std::uint32_t, double> heights_of(const GrownForest& grown) {
 
 } // namespace
 
-TEST_CASE("a species with heights draws them evenly, and tiles agree") {
+TEST_CASE("heights of a species are uniformly distributed and the same in tiles") {
     const Outcome<GrownForest> whole = forest_of(kShrub, "height = [4, 9]\n");
     REQUIRE(whole);
     const std::map<std::uint32_t, double> heights = heights_of(whole.value());
@@ -220,7 +220,7 @@ TEST_CASE("trees have the height of their grammar, times their scale") {
     }
 }
 
-TEST_CASE("flat species get no height") {
+TEST_CASE("species without height are not scaled") {
     const char* const flat = "#n = 2; #w : +(90) A; #p : A : * : F A;";
     const Outcome<GrownForest> scene = forest_of(flat, "height = [1, 2]\n");
     REQUIRE_FALSE(scene);

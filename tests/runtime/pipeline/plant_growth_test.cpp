@@ -149,7 +149,7 @@ TEST_CASE("frames of a growth begin at the axiom and end at the last generation"
     CHECK(is(moment_of_frame(5, 9, 0), 0, 0.0));
 }
 
-TEST_CASE("a whole generation of a growth is the ordinary plant") {
+TEST_CASE("a whole generation of growth equals the ordinary plant") {
     const GrowthSample sample = GENERATE(from_range(kGrowthSamples));
     INFO(sample.name);
     const std::string text = sample_text(sample.name);
@@ -170,7 +170,7 @@ TEST_CASE("a whole generation of a growth is the ordinary plant") {
     CHECK(lines_of(grown.at(0, 0.0)) == lines_of(ordinary_plant(text, 0).skeleton));
 }
 
-TEST_CASE("a growth leaves a generation and arrives at the next without a jump") {
+TEST_CASE("growth has no jump after a generation and before the next") {
     const GrowthSample sample = GENERATE(from_range(kGrowthSamples));
     INFO(sample.name);
     GrownSample grown(sample_text(sample.name), sample.generations, 1);
@@ -222,12 +222,12 @@ TEST_CASE("twice as many frames of a growth move half as far") {
         }
         return far;
     };
-    const float few = longest_way(16);
-    const float many = longest_way(32);
-    const float most = longest_way(64);
-    REQUIRE(few > 0.0F);
-    CHECK(many < 0.6F * few);
-    CHECK(most < 0.6F * many);
+    const float way_16 = longest_way(16);
+    const float way_32 = longest_way(32);
+    const float way_64 = longest_way(64);
+    REQUIRE(way_16 > 0.0F);
+    CHECK(way_32 < 0.6F * way_16);
+    CHECK(way_64 < 0.6F * way_32);
 }
 
 TEST_CASE("joints of a plant between generations are closed") {
@@ -240,7 +240,7 @@ TEST_CASE("joints of a plant between generations are closed") {
     }
 }
 
-TEST_CASE("segments between generations are pieces of the old ones, or grow from nothing") {
+TEST_CASE("segments between generations are pieces of old ones or grow from length 0") {
     // F is 1 long; its successor 1 + 3. At the start, both segments lie on the old F, with parts of
     // its length in proportion.
     GrownSample split("#set width 0.1; #w : F(1); #p : F(l) : * : F(l) [ +(90) F(2) ] F(3*l);", 1,
@@ -263,13 +263,13 @@ TEST_CASE("segments between generations are pieces of the old ones, or grow from
     CHECK(glm::length(turned.segments[1].base) == Approx(1.0));
 
     // Segments that the next generation does not draw shrink.
-    GrownSample gone("#set width 0.1; #w : F(1) F(2); #p : F(l) : l > 1 : A;", 1, 1);
-    const Skeleton going = gone.at(0, 0.5);
+    GrownSample shrinking("#set width 0.1; #w : F(1) F(2); #p : F(l) : l > 1 : A;", 1, 1);
+    const Skeleton going = shrinking.at(0, 0.5);
     REQUIRE(going.segments.size() == 2);
     CHECK(going.segments[0].length == Approx(1.0));
     CHECK(going.segments[1].length == Approx(1.0));
     CHECK(going.segments[1].parent == 0);
-    CHECK(gone.at(1, 0.0).segments.size() == 1);
+    CHECK(shrinking.at(1, 0.0).segments.size() == 1);
 }
 
 TEST_CASE("a growth is the same for any number of threads") {
@@ -281,7 +281,7 @@ TEST_CASE("a growth is the same for any number of threads") {
     }
 }
 
-TEST_CASE("a growth ends at limits as a plant does") {
+TEST_CASE("growth ends at the limits of a plant") {
     Project project = growth_project(1);
     project.host.read_file = [](const std::string&, const ReadLimit&) {
         return Result<std::string>(std::string("#n = 9; #w : F; #p : F : * : F F F;"));

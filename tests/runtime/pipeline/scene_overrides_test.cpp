@@ -31,7 +31,7 @@ TEST_CASE("unset overrides keep the values of a scene") {
     CHECK(scene.terrain.kind == TerrainKind::Flat);
 }
 
-TEST_CASE("overrides of a species are stronger than those of all species") {
+TEST_CASE("overrides of one species take precedence over those of all species") {
     Scene scene = two_species();
     SceneOverrides overrides;
     overrides.heroes = 5;
@@ -72,8 +72,8 @@ TEST_CASE("options give every species stages, and years are stages without domin
     CHECK(last_year(scene) == 60);
 
     const auto refused = [](const SceneOverrides& wrong) {
-        Scene of = two_species();
-        const Result<void> applied = apply(wrong, of);
+        Scene changed = two_species();
+        const Result<void> applied = apply(wrong, changed);
         return applied ? std::string() : applied.error().message;
     };
     SceneOverrides lone;
@@ -85,7 +85,7 @@ TEST_CASE("options give every species stages, and years are stages without domin
     CHECK(refused(overrides).find("--stages and -n do not go together") == 0);
 }
 
-TEST_CASE("of two overrides the one applied last wins") {
+TEST_CASE("the last of two overrides applies") {
     Scene scene = two_species();
     SceneOverrides command_line;
     command_line.count = 10;
@@ -134,7 +134,7 @@ TEST_CASE("a picture of the ground replaces that of the scene, and its normals")
     CHECK_FALSE(overrides.changes_placement());
 }
 
-TEST_CASE("overrides tell whether trees may stand elsewhere") {
+TEST_CASE("overrides report whether they may change the places of trees") {
     SceneOverrides overrides;
     CHECK_FALSE(overrides.changes_placement());
     overrides.heroes = 4;

@@ -60,7 +60,7 @@ std::vector<SettingText> one_of_each() {
 
 } // namespace
 
-TEST_CASE("a setting of an option compiles to the bytes of a file that has it") {
+TEST_CASE("a setting given by an option compiles to the same bytes as one in the file") {
     const std::string plain = "#n = 3;\n#define a 2;\n#w : FF;\n#f : F : ~ 1 : F + F;\n";
     const std::string own = compiled_with(plain, {});
     REQUIRE_FALSE(own.empty());
@@ -95,7 +95,8 @@ TEST_CASE("an option replaces the setting of a file, and may use its constants")
     CHECK(grammar.value().program->settings.angle == 25.0F);
 }
 
-TEST_CASE("a compiled grammar takes the settings that its code leaves open") {
+TEST_CASE(
+    "options can change only those settings of a compiled grammar that do not affect its code") {
     const std::string text = "#n = 1;\n#set angle 20;\n#w : F + F;\n";
     const Project project = setting_project({{"a.lsb", compiled_with(text, {})}});
     for (const SettingText& setting : one_of_each()) {
@@ -115,7 +116,7 @@ TEST_CASE("a compiled grammar takes the settings that its code leaves open") {
     }
 }
 
-TEST_CASE("settings reach all species of a scene") {
+TEST_CASE("settings given by options apply to all species of a scene") {
     const Project project =
         setting_project({{"a.lsys", "#n = 1; #w : F;"}, {"b.lsys", "#n = 1; #w : F;"}});
     SceneOverrides overrides;

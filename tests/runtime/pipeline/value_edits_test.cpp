@@ -27,7 +27,7 @@ with_setting(const std::string& text, const std::string& key, const std::string&
 
 } // namespace
 
-TEST_CASE("a value replaces that of its statement and nothing else") {
+TEST_CASE("only the value of the statement is replaced") {
     const std::string text = "// a\r\n#n  =  3 ; #set angle   25 ; // b\r\n"
                              "#param size (1 + 2) {0, 9}; #define half\t-0.5;\r\n#w : F;";
     CHECK(with_setting(text, "angle", "30") ==
@@ -42,21 +42,21 @@ TEST_CASE("a value replaces that of its statement and nothing else") {
     CHECK(written(text, {}) == text);
 }
 
-TEST_CASE("a setting without a statement follows the last one") {
+TEST_CASE("a setting without a statement is inserted after the last setting") {
     CHECK(with_setting("#set step 2;\n#set sides 5; // c\n#w : F;\n", "angle", "30") ==
           "#set step 2;\n#set sides 5; // c\n#set angle 30;\n#w : F;\n");
     CHECK(with_setting("#w : F;\r\n#set step 2;\r\n", "angle", "30") ==
           "#w : F;\r\n#set step 2;\r\n#set angle 30;\r\n");
     CHECK(with_setting("#w : F;\n#set step 2;", "angle", "30") ==
           "#w : F;\n#set step 2;\n#set angle 30;");
-    // Text after the statement on its line is not split.
+    // Text after the statement stays on its line.
     CHECK(with_setting("#set step 2; /* a\nb */ #w : F;\n", "angle", "30") ==
           "#set step 2;\n#set angle 30; /* a\nb */ #w : F;\n");
     CHECK(with_setting("#set step 2; #w :\nF;\n", "angle", "30") ==
           "#set step 2;\n#set angle 30; #w :\nF;\n");
 }
 
-TEST_CASE("the first setting of a file follows the comments at its begin") {
+TEST_CASE("the first setting of a file is inserted after the comments at its start") {
     CHECK(with_setting("// title\n\n  #n = 1;\n#w : F;\n", "angle", "30") ==
           "// title\n\n#set angle 30;\n  #n = 1;\n#w : F;\n");
     CHECK(with_setting("/* title\n*/ #w : F;\n", "angle", "30") ==

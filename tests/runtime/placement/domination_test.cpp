@@ -38,7 +38,7 @@ Domination grown(const PlacementOptions& options, std::uint32_t years) {
     return forest;
 }
 
-bool meet(const ForestPlant& a, const ForestPlant& b) {
+bool circles_overlap(const ForestPlant& a, const ForestPlant& b) {
     const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
     return std::hypot(static_cast<double>(a.place.x - b.place.x),
                       static_cast<double>(a.place.y - b.place.y)) < reach;
@@ -92,7 +92,7 @@ TEST_CASE("a stand of one age thins itself with a slope of -1.5") {
     }
 }
 
-TEST_CASE("plants whose circle a stronger one's meets are dominated, in every year") {
+TEST_CASE("in every year, plants whose circle overlaps that of a stronger plant are dominated") {
     PlacementOptions options = stand(2'500, 40.0);
     options.species.resize(2);
     options.species[1].growth.rate = 0.3F;
@@ -109,19 +109,19 @@ TEST_CASE("plants whose circle a stronger one's meets are dominated, in every ye
                 const float here = plants[i].radius * plants[i].vigour;
                 const float there = plants[j].radius * plants[j].vigour;
                 const bool stronger = there > here || (there == here && j < i);
-                dominated = j != i && stronger && meet(plants[i], plants[j]);
+                dominated = j != i && stronger && circles_overlap(plants[i], plants[j]);
             }
             // After the first year, the dominating plant may have died in the same year.
             REQUIRE((plants[i].dominated == dominated || (year > 0 && !dominated)));
         }
         REQUIRE(forest.step());
     }
-    // Among the living dominants no two meet.
+    // No two circles of living dominant plants overlap.
     for (std::size_t i = 0; i < forest.plants().size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const ForestPlant& a = forest.plants()[i];
             const ForestPlant& b = forest.plants()[j];
-            REQUIRE((a.dominated || b.dominated || !meet(a, b)));
+            REQUIRE((a.dominated || b.dominated || !circles_overlap(a, b)));
         }
     }
 }
@@ -140,19 +140,20 @@ TEST_CASE("circles of very different sizes find each other") {
     for (const ForestPlant& plant : forest.plants()) {
         if (plant.species == 0) {
             small_dominated += plant.dominated ? 1U : 0U;
-            small_under += std::any_of(forest.plants().begin(), forest.plants().end(),
-                                       [&](const ForestPlant& other) {
-                                           return other.species == 1 && meet(plant, other);
-                                       })
-                               ? 1U
-                               : 0U;
+            small_under +=
+                std::any_of(forest.plants().begin(), forest.plants().end(),
+                            [&](const ForestPlant& other) {
+                                return other.species == 1 && circles_overlap(plant, other);
+                            })
+                    ? 1U
+                    : 0U;
         }
     }
     CHECK(small_under > 500);
     CHECK(small_dominated >= small_under);
 }
 
-TEST_CASE("plants keep number, place and species, age by a year, and never shrink") {
+TEST_CASE("each year, plants keep number, place and species, get a year older and do not shrink") {
     PlacementOptions options = stand(2'000, 60.0);
     options.species[0].growth.maturity = 5;
     Domination forest = Domination::begin(options, ground()).value();
@@ -187,7 +188,7 @@ TEST_CASE("plants keep number, place and species, age by a year, and never shrin
     CHECK(next_number > 2'000); // seedlings have sprouted
 }
 
-TEST_CASE("trees of a year carry age and size of their plants, and look the same every year") {
+TEST_CASE("trees of a year have the age and size of their plants and look the same every year") {
     PlacementOptions options = stand(2'000, 60.0);
     options.species[0].min_scale = 0.8F;
     options.species[0].max_scale = 1.2F;
@@ -229,7 +230,7 @@ TEST_CASE("trees of a year carry age and size of their plants, and look the same
     CHECK(same_trees(place_trees(options, ground()).value().trees, old));
 }
 
-TEST_CASE("shade kills sooner what does not tolerate it") {
+TEST_CASE("species that do not tolerate shade die of it sooner") {
     const auto survivors = [](float tolerance) {
         PlacementOptions options = stand(10'000, 100.0);
         options.species[0].growth.seeds = 0.0F;
@@ -262,7 +263,7 @@ TEST_CASE("plants die of age, and seeds keep a forest alive") {
     }
 }
 
-TEST_CASE("seeds fall within their distance, and not where the species cannot live") {
+TEST_CASE("seeds fall within their distance and only where the species can live") {
     // A slope that rises to the east from 0 to 100 m over 100 m.
     const Terrain slope =
         Terrain::height_map({0.0, 0.0, 100.0, 100.0}, grey_map(2, 2, {0, 65535, 0, 65535}),
@@ -296,7 +297,7 @@ TEST_CASE("seeds fall within their distance, and not where the species cannot li
     CHECK(seedlings > 200);
 }
 
-TEST_CASE("a forest that would get too large stops as it was") {
+TEST_CASE("a forest that would get too large stops unchanged") {
     PlacementOptions options = stand(60'000, 1'000.0);
     options.species[0].growth.maturity = 1;
     options.species[0].growth.seeds = 200.0F;

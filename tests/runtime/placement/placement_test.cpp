@@ -24,7 +24,7 @@ Terrain flat_ground() {
 /// The smallest distance of two trees, and the fraction of probed places without a tree within
 /// `spacing`.
 struct Distances {
-    double least = 1.0e9;
+    double min_distance = 1.0e9;
     double lonely = 0.0; // fraction of probes without a tree
 };
 
@@ -36,9 +36,9 @@ Distances distances_of(const LargeVector<Tree>& trees, const Region& region, dou
     };
     for (std::size_t i = 0; i < trees.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            distances.least = std::min(distances.least,
-                                       distance(trees[i], static_cast<double>(trees[j].position.x),
-                                                static_cast<double>(trees[j].position.z)));
+            distances.min_distance = std::min(
+                distances.min_distance, distance(trees[i], static_cast<double>(trees[j].position.x),
+                                                 static_cast<double>(trees[j].position.z)));
         }
     }
     constexpr int kProbes = 30;
@@ -104,8 +104,7 @@ TEST_CASE("forests are the same on every machine and in every version") {
     }
 }
 
-TEST_CASE(
-    "trees of every method stand on the ground, within the region, each with its own number") {
+TEST_CASE("trees of every method stand on the ground within the region and have unique numbers") {
     const GreyMap map = sloped_map(16, 16);
     NoiseOptions noise;
     noise.feature = 30.0;
@@ -208,7 +207,7 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
     }
 }
 
-TEST_CASE("plants of year 0 are ahead by their stages, seedlings are not") {
+TEST_CASE("plants of year 0 begin at their stage, and seedlings at the first stage") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Domination, none, 60.0);
     for (PlacementSpecies& species : options.species) {
@@ -243,7 +242,7 @@ TEST_CASE("plants of year 0 are ahead by their stages, seedlings are not") {
     CHECK(error_of(options).find("the stages of species 1 take 0 years each") == 0);
 }
 
-TEST_CASE("uniform places are as many as asked for and evenly spread") {
+TEST_CASE("uniform places have the requested number and are evenly distributed") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Uniform, none, 100.0);
     options.count = 100'000;
@@ -289,7 +288,7 @@ TEST_CASE("uniform cells are a Poisson process: counts of squares vary as much a
     }
 }
 
-TEST_CASE("a jittered grid has one tree a square") {
+TEST_CASE("a jittered grid has one tree per square") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Jittered, none, 60.0);
     options.spacing = 2.0;
@@ -315,8 +314,8 @@ TEST_CASE("no two trees of a Poisson disk sample are nearer than its spacing, an
             options.spacing = spacing;
             const LargeVector<Tree> trees = place_trees(options, flat_ground()).value().trees;
             const Distances distances = distances_of(trees, options.region, spacing);
-            CHECK(distances.least >= spacing);
-            CHECK(distances.least < 1.01 * spacing);
+            CHECK(distances.min_distance >= spacing);
+            CHECK(distances.min_distance < 1.01 * spacing);
             CHECK(distances.lonely < 0.01);
             const double per_square =
                 static_cast<double>(trees.size()) * spacing * spacing / options.region.area();
@@ -336,7 +335,7 @@ TEST_CASE("Poisson distances hold far from the origin, where coordinates are coa
         options.region.x = 9'800.0;
         options.region.z = -9'800.0;
         const LargeVector<Tree> trees = place_trees(options, ground).value().trees;
-        CHECK(distances_of(trees, options.region, 1.25).least >= 1.25);
+        CHECK(distances_of(trees, options.region, 1.25).min_distance >= 1.25);
     }
 }
 
@@ -392,7 +391,7 @@ TEST_CASE("nothing grows where a density map is black or ends") {
         const LargeVector<Tree> trees = place_trees(options, flat_ground()).value().trees;
         CHECK(std::abs(static_cast<double>(trees.size()) - 80.0) < 15.0);
         for (const Tree& tree : trees) {
-            // A square of error diffusion may extend beyond the border.
+            // A square of error diffusion may cross the border.
             REQUIRE(tree.position.x > -1.6F);
             REQUIRE(tree.position.x < 11.6F);
             REQUIRE(std::abs(tree.position.z) < 11.6F);
@@ -407,7 +406,7 @@ TEST_CASE("nothing grows where a density map is black or ends") {
     }
 }
 
-TEST_CASE("species keep to their altitudes and slopes, and others take their places") {
+TEST_CASE("species grow only at their altitudes and slopes, and other species take their places") {
     const GreyMap none;
     NoiseOptions noise;
     noise.feature = 40.0;
@@ -451,7 +450,7 @@ TEST_CASE("species keep to their altitudes and slopes, and others take their pla
           "altitude and slope");
 }
 
-TEST_CASE("a species without a share is not chosen, wherever others can live") {
+TEST_CASE("a species with a share of 0 is not chosen where others can live") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Uniform, none, 100.0);
     options.species[0].share = 0.0;
@@ -462,7 +461,7 @@ TEST_CASE("a species without a share is not chosen, wherever others can live") {
     }
 }
 
-TEST_CASE("too many trees are refused before memory is taken") {
+TEST_CASE("too many trees are refused before memory is allocated") {
     const GreyMap map = grey_map(2, 2, {65535, 65535, 65535, 65535});
     PlacementOptions options = small_forest(PlacementMethod::Uniform, map, 100'000.0);
     options.count = 1'000'000'000;
@@ -484,7 +483,7 @@ TEST_CASE("too many trees are refused before memory is taken") {
                                "map is asked about is 1000000000");
 }
 
-TEST_CASE("options without sense are named") {
+TEST_CASE("the message about an invalid option names it") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const GreyMap map = grey_map(1, 1, {30000});
     const auto with = [&](PlacementMethod method, const auto& change) {
@@ -527,7 +526,7 @@ TEST_CASE("options without sense are named") {
           "the growth rate of species 1 is 9; it must be from 0.0001 to 6");
 }
 
-TEST_CASE("a forest of no trees, and of one") {
+TEST_CASE("forests of no trees and of one tree") {
     const GreyMap none;
     PlacementOptions options = small_forest(PlacementMethod::Uniform, none, 50.0);
     options.count = 0;

@@ -20,7 +20,7 @@ LargeVector<Tree> trees_of(const PlacementOptions& options, const Terrain& groun
 
 } // namespace
 
-TEST_CASE("4 by 4 tiles together are the whole, tree by tree") {
+TEST_CASE("4 by 4 tiles have exactly the trees of the whole") {
     const GreyMap map = sloped_map(9, 9);
     NoiseOptions noise;
     noise.feature = 40.0;
@@ -56,7 +56,7 @@ TEST_CASE("4 by 4 tiles together are the whole, tree by tree") {
     CHECK_FALSE(is_tileable(PlacementMethod::Domination));
 }
 
-TEST_CASE("a tile among many blocks of a Poisson sample is what the whole has there") {
+TEST_CASE("a tile has the trees of the whole also among many blocks of a Poisson sample") {
     const GreyMap none;
     const Terrain ground = Terrain::flat({0.0, 0.0, 1.0, 1.0}).value();
     PlacementOptions options = small_forest(PlacementMethod::PoissonCells, none, 300.0);
@@ -72,7 +72,7 @@ TEST_CASE("a tile among many blocks of a Poisson sample is what the whole has th
     CHECK(same_trees(trees_of(tile, ground), expected));
 }
 
-TEST_CASE("tiles far from the origin fit, up to where numbers end, and are refused beyond") {
+TEST_CASE("tiles far from the origin work up to the range of numbers and are refused beyond") {
     const GreyMap map = grey_map(1, 1, {40000});
     const Terrain ground = Terrain::flat({0.0, 0.0, 1.0, 1.0}).value();
     for (const PlacementMethod method : kTileableMethods) {

@@ -27,7 +27,7 @@ grey_map(std::uint32_t columns, std::uint32_t rows, const std::vector<std::uint1
     return map;
 }
 
-/// A map whose columns get brighter from black to white, and whose rows from half to full
+/// A map whose columns get brighter from black to white and whose rows get brighter from half to full
 /// brightness.
 inline GreyMap sloped_map(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint16_t> values;

@@ -74,7 +74,7 @@ TEST_CASE("a file that cannot be saved is refused") {
     CHECK_FALSE(with_painting("painted.erased = [1]\n" + kScene, {{}, {5}}, kSpecies));
 }
 
-TEST_CASE("painting puts trees on the ground of a region and takes others away") {
+TEST_CASE("a painting adds trees on the ground of a region and removes others") {
     const Region region{0.0, 0.0, 100.0, 100.0};
     NoiseOptions noise;
     const Result<Terrain> terrain = Terrain::noise(region, noise);

@@ -112,7 +112,7 @@ seed_distance = 33
 
 } // namespace
 
-TEST_CASE("a species may say which system of which dialect it is") {
+TEST_CASE("a species may select a dialect and a system of its file") {
     const Scene scene =
         scene_of("[[species]]\ngrammar = \"a.l\"\nsystem = \"Dragon\"\n"
                  "dialect = \"fractint\"\n"
@@ -150,7 +150,7 @@ TEST_CASE("a scene of one grammar has all defaults") {
     CHECK(std::isinf(scene.placement.species[0].steepest));
 }
 
-TEST_CASE("every key arrives where it belongs") {
+TEST_CASE("every key sets its option") {
     const Scene scene = scene_of(kEveryKey);
 
     CHECK(scene.placement.key == 9'223'372'036'854'775'807U);
@@ -224,7 +224,7 @@ TEST_CASE("a map is a PNG, or raw samples of a stated size") {
     CHECK(scene.placement.map_region->width == 100.0);
 }
 
-TEST_CASE("the ground shows a picture, with a relief and as large as asked for") {
+TEST_CASE("the ground has a picture with a relief and a size") {
     Scene scene = scene_of(with_species("[terrain]\norigin = [7, -3]\ncolour = \"a.png\""));
     CHECK(scene.terrain.colour.path == "a.png");
     CHECK(scene.terrain.normals.path.empty());
@@ -243,7 +243,7 @@ TEST_CASE("the ground shows a picture, with a relief and as large as asked for")
               .messages.find("3:8-9: `tile`") == 0);
 }
 
-TEST_CASE("every method has its keys and takes no others") {
+TEST_CASE("every method has its keys and refuses others") {
     const std::vector<std::pair<std::string, std::vector<std::string>>> methods{
         {"uniform", {"count = 2"}},
         {"poisson-disk", {"spacing = 2"}},
@@ -276,7 +276,7 @@ TEST_CASE("every method has its keys and takes no others") {
     }
 }
 
-TEST_CASE("places are those of the text behind tabs, wide characters and a byte order mark") {
+TEST_CASE("places are correct after tabs, wide characters and a byte order mark") {
     CHECK(parsed("\xEF\xBB\xBF# \xC3\xA9\n[[species]]\r\n\t\tgrammar = \"\xF0\x9F\x8C\xB2\" # "
                  "\xC3\xA9\r\n\tname = \"\xC3\xBC\"\t\r\n\trho = 2 # \xC3\xA9\r\n")
               .messages == "5:8-9: `rho` is 2; it must be from 0 to 1 [bad-scene-value]\n");
@@ -289,7 +289,7 @@ TEST_CASE("places are those of the text behind tabs, wide characters and a byte 
           "  label: this is a whole number\n");
 }
 
-TEST_CASE("a file that is no TOML has one message") {
+TEST_CASE("a file that is not TOML gives one message") {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"key = ", "1:7-7: the file ends within a key-value pair [scene-syntax]\n"},
         {"\tkey = [1, 2", "1:13-13: the file ends within an array [scene-syntax]\n"},
@@ -321,7 +321,7 @@ TEST_CASE("a file that is no TOML has one message") {
           std::string::npos);
 }
 
-TEST_CASE("a key of many parts is a mistake, and no recursion without end") {
+TEST_CASE("a key of very many parts is an error and does not exhaust the stack") {
     const std::string message = "a key of more than 16 parts [scene-syntax]\n";
     const auto repeated = [](std::string_view part, int count) {
         std::string text;
@@ -352,7 +352,7 @@ TEST_CASE("a key of many parts is a mistake, and no recursion without end") {
     CHECK(parsed(repeated("a.", 15) + "a = 1").messages.find("more than") == std::string::npos);
 }
 
-TEST_CASE("stages say where plants start, with every method") {
+TEST_CASE("stages set the first stage of plants with every method") {
     const std::string species = "[[species]]\ngrammar = \"a\"\nstages = [1, 2, 4]\n";
     Scene scene = scene_of(species);
     CHECK(scene.placement.species[0].stages == 3);
@@ -382,7 +382,7 @@ TEST_CASE("stages say where plants start, with every method") {
           "[conflicting-scene-keys]\n");
 }
 
-TEST_CASE("what a scene needs is missed") {
+TEST_CASE("missing required keys are reported") {
     CHECK(parsed("").messages ==
           "1:1-1: the scene has no `[[species]]` [missing-scene-key]\n"
           "  help: add one: `[[species]]`, and below it `grammar = \"pine.lsys\"`\n");
@@ -407,7 +407,7 @@ TEST_CASE("what a scene needs is missed") {
                            "`years_of_stage = 10`\n");
 }
 
-TEST_CASE("values out of range are named with their range") {
+TEST_CASE("messages about values out of range have the range") {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"key = -1", "`key` is -1; it must be 0 or more"},
         {"[terrain]\nsize = 0", "`size` is 0; it must be from 0.25 to 2,000,000 m"},
@@ -509,7 +509,7 @@ spacing = 5
           "[conflicting-scene-keys]\n");
 }
 
-TEST_CASE("tables of another kind are told apart") {
+TEST_CASE("tables and arrays of tables are not confused") {
     CHECK(parsed("[species]\ngrammar = \"a\"\n").messages ==
           "1:1-10: `species` must be a list of tables [bad-scene-value]\n"
           "  label: this is a table\n"
@@ -521,7 +521,7 @@ TEST_CASE("tables of another kind are told apart") {
           "  label: this is a date or time\n");
 }
 
-TEST_CASE("damaged scenes are mended or reported where they are damaged") {
+TEST_CASE("damaged scenes are repaired or reported at the damaged place") {
     const std::vector<std::string> pieces{
         "[",    "]",        "{",    "}",      "\"",      "=",  ".",  "nan",
         "-inf", "\xC3\xA9", "\xFF", "\t",     "\r\n",    "\n", "[[", "'''",
@@ -561,7 +561,7 @@ TEST_CASE("damaged scenes are mended or reported where they are damaged") {
     CHECK(refused < 3000);
 }
 
-TEST_CASE("painted trees and erased ones") {
+TEST_CASE("painted and erased trees") {
     const Scene scene =
         scene_of("[[species]]\ngrammar = \"a.lsys\"\nname = \"a\"\n"
                  "[[species]]\ngrammar = \"b.lsys\"\nname = \"b\"\n"
@@ -586,7 +586,7 @@ TEST_CASE("a species has heights or scales") {
           "[conflicting-scene-keys]\n  this decides: [4, 9]\n");
 }
 
-TEST_CASE("mistakes in paintings are shown at their place") {
+TEST_CASE("mistakes in paintings are reported at their place") {
     const std::string species = "[[species]]\ngrammar = \"a.lsys\"\nname = \"pine\"\n[painted]\n";
     CHECK(parsed(species + "trees = 3\n").messages.find("5:9-10: `trees` must be a list") == 0);
     CHECK(parsed(species + "trees = [[\"pin\", 1, 2, 3, 1]]\n")

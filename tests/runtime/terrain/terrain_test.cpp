@@ -65,7 +65,7 @@ TEST_CASE("a flat terrain is level") {
     CHECK(terrain.normal(3.0F, 4.0F) == glm::vec3(0.0F, 1.0F, 0.0F));
 }
 
-TEST_CASE("noise stays within its heights and is a function of its seed") {
+TEST_CASE("noise stays within its heights and depends only on its seed") {
     NoiseOptions options;
     options.height = 80.0;
     options.base = 10.0;
@@ -92,7 +92,8 @@ TEST_CASE("noise stays within its heights and is a function of its seed") {
     CHECK(differences > 19'900);
 }
 
-TEST_CASE("noise has no steps: neighbours are as near as the slope says, also far out") {
+TEST_CASE("noise is continuous: neighbouring heights differ as the slope says, also far from the "
+          "origin") {
     NoiseOptions options;
     options.octaves = 3;
     const Terrain terrain = Terrain::noise(kGround, options).value();
@@ -125,7 +126,7 @@ TEST_CASE("octaves differ by lacunarity and gain") {
     CHECK(wild.slope_step() == Approx(250.0 / 128.0 / 32.0));
 }
 
-TEST_CASE("both filters pass through the pixels and keep a plane") {
+TEST_CASE("both filters interpolate the pixels and reproduce a plane") {
     for (const HeightFilter filter : {HeightFilter::Bilinear, HeightFilter::Bicubic}) {
         const Terrain terrain =
             Terrain::height_map(kGround, plane(11, 7), {0.0, 65.535, filter}).value();
@@ -134,7 +135,8 @@ TEST_CASE("both filters pass through the pixels and keep a plane") {
         CHECK(terrain.height(500.0F, 300.0F) == Approx(1.0 + 6.0));
         CHECK(terrain.height(-150.0F, 25.0F) == Approx(0.35 + 3.25));
         CHECK(terrain.height(-499.0F, 299.0F) == Approx(0.001 + 5.99));
-        CHECK(terrain.height(-900.0F, -300.0F) == Approx(0.0).margin(1e-6)); // level beyond the map
+        CHECK(terrain.height(-900.0F, -300.0F) ==
+              Approx(0.0).margin(1e-6)); // constant beyond the map
         for (const float x : {-500.0F, 0.0F, 500.0F}) {
             const glm::vec3 normal = terrain.normal(x, 10.0F);
             CHECK(normal.x == Approx(-0.001).epsilon(1e-3));
@@ -145,7 +147,7 @@ TEST_CASE("both filters pass through the pixels and keep a plane") {
     }
 }
 
-TEST_CASE("bicubic heights are smooth where bilinear ones have a fold") {
+TEST_CASE("bicubic heights are smooth where bilinear heights have an edge") {
     const GreyMap ridge = map_of(5, 2, {0, 0, 60000, 0, 0, 0, 0, 60000, 0, 0});
     const Region ground{0.0, 0.0, 4.0, 1.0};
     const auto fold = [&](HeightFilter filter) {
@@ -202,7 +204,7 @@ TEST_CASE("every vertex of the ground's mesh lies at the height of its place") {
     CHECK(same.indices == mesh.indices);
 }
 
-TEST_CASE("pictures of the ground lie as tiles from their origin on") {
+TEST_CASE("pictures of the ground are tiled from their origin") {
     const Terrain terrain = Terrain::noise(kGround, NoiseOptions{}).value();
     TerrainMeshOptions options;
     options.columns = 16;
@@ -243,7 +245,7 @@ TEST_CASE("pictures of the ground lie as tiles from their origin on") {
     CHECK_FALSE(make_terrain_mesh(terrain, options));
 }
 
-TEST_CASE("terrains that cannot be say why") {
+TEST_CASE("messages about invalid terrains have the reason") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
     CHECK(terrain_error_of(Terrain::flat({0.0, 0.0, 0.0, 5.0})) ==

@@ -118,7 +118,7 @@ TEST_CASE("the pipe model needs room for a count of each segment") {
     CHECK(apply_pipe({2.0F, 1.0F}, kWood, bytes, plant) == std::nullopt);
 }
 
-TEST_CASE("factors of the pipe model are roots") {
+TEST_CASE("factors of the pipe model are the roots of the counts") {
     CHECK(pipe_factor(1, 3.3) == 1.0);
     CHECK(pipe_factor(4294967295U, 1.0) == 4294967295.0);
     CHECK(pipe_factor(1'000'000, 2.0) == 1000.0);
@@ -132,7 +132,7 @@ TEST_CASE("factors of the pipe model are roots") {
     CHECK(pipe_factor(8, 3.0) == 2.0);
 }
 
-TEST_CASE("a plant is scaled to its height, with its widths") {
+TEST_CASE("a plant and its widths are scaled to the height") {
     std::mt19937 numbers(3);
     Skeleton plant = test::random_plant(numbers, 200, 1.0);
     plant.corners.push_back({1.0F, 2.0F, 3.0F});
@@ -177,7 +177,7 @@ TEST_CASE("a plant is scaled to its height, with its widths") {
     check_close(plant.corners[0].y, 2.0F, factor);
 }
 
-TEST_CASE("a flat plant has no height, an empty one needs none") {
+TEST_CASE("a flat plant cannot be scaled, and an empty plant need not be") {
     Skeleton empty;
     CHECK(scale_to_height(1.0, kWood, empty));
     CHECK(height_of(empty) == 0.0);

@@ -25,7 +25,7 @@ Diagnostic diagnostic_of(TurtleFaultKind kind, std::uint64_t count) {
 
 } // namespace
 
-TEST_CASE("a message about the end of a word names no module") {
+TEST_CASE("a message about the end of a word has no module") {
     const Diagnostic one = diagnostic_of(TurtleFaultKind::UnclosedBranch, 1);
     CHECK(one.message == "the word ends with an open branch, which is closed there");
     CHECK(one.notes.empty());
@@ -36,7 +36,7 @@ TEST_CASE("a message about the end of a word names no module") {
           "module 0 of the word, a `F`, begins a polygon that nothing ends, which is not drawn");
 }
 
-TEST_CASE("a message about a module names it") {
+TEST_CASE("a message about a module has its name") {
     const Diagnostic vertex = diagnostic_of(TurtleFaultKind::VertexOutside, 2);
     CHECK(vertex.message == "module 0 of the word, a `F`, is a vertex outside of any polygon");
     CHECK(vertex.notes ==

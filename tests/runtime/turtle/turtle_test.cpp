@@ -74,7 +74,7 @@ Drawing draw(const std::string& word) {
 
 } // namespace
 
-TEST_CASE("a colour of its own leaves the index as it was") {
+TEST_CASE("a colour without an index does not change the index") {
     const Drawing drawing = draw("'(3)F['(0.2,0.4,1)F'F]'(0,0,0)[F]F'F");
     CHECK(drawing.status == std::nullopt);
     const LargeVector<Segment>& segments = drawing.skeleton.segments;
@@ -172,7 +172,7 @@ TEST_CASE("objects advance by their length") {
     CHECK(objects[3].kind == TurtleOperation::Disk);
 }
 
-TEST_CASE("polygons have the vertices of their dots, or else the ends of their steps") {
+TEST_CASE("vertices of a polygon are its dots, or without dots the ends of its steps") {
     const Drawing dots = draw("{.f(1).-(90)f(1).}");
     REQUIRE(dots.skeleton.polygons.size() == 1);
     CHECK(dots.skeleton.corners.size() == 3);
@@ -197,7 +197,7 @@ TEST_CASE("polygons open and close along the word, apart from branches") {
     CHECK(out.skeleton.corners.size() == 3);
 }
 
-TEST_CASE("what cannot be drawn is counted with its first place") {
+TEST_CASE("modules that cannot be drawn are counted, with the first place") {
     const Drawing outside = draw("F.F.F}F.");
     CHECK(outside.status == Stop::Diagnosed);
     CHECK(outside.fault(TurtleFaultKind::VertexOutside).count == 2);
@@ -231,7 +231,7 @@ TEST_CASE("a cut drops the rest of its branch") {
     CHECK(draw("F%F[F]F").skeleton.segments.size() == 1);
 }
 
-TEST_CASE("a word in pieces, of codes of any width, draws the same") {
+TEST_CASE("a word in pieces and with codes of any width gives the same drawing") {
     const char* const axiom = "F(1)[+(25)F(2)A]!(0.05)/(40)F{.f(1).&(20)f(1).}S(0.2)";
     const char* const production = "p : A : * : F(0.5)[^(30)F A]-(10)A";
     const Skeleton whole =
@@ -261,7 +261,7 @@ TEST_CASE("a word in pieces, of codes of any width, draws the same") {
     same(draw(stored.axiom(axiom).production(production).build(), 6).skeleton);
 }
 
-TEST_CASE("memory for a plant is an outcome") {
+TEST_CASE("too little memory for a plant is an outcome") {
     TurtleOptions options;
     options.max_bytes = 100'000;
     const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : F A A").build();
@@ -297,7 +297,7 @@ TEST_CASE("statistics of a skeleton are closed forms") {
     CHECK(glm::length(skeleton.segments[2].frame - skeleton.segments[0].frame) < 1e-6F);
 }
 
-TEST_CASE("traits of the program decide what its turtle does, not the profile") {
+TEST_CASE("the turtle follows the traits of the program, not the name of its profile") {
     const auto draw_with = [](const std::string& word, const TurtleTraits& traits) {
         Bytecode bytecode = BytecodeBuilder().axiom(word).build();
         bytecode.settings.traits = traits;
@@ -331,7 +331,7 @@ TEST_CASE("traits of the program decide what its turtle does, not the profile") 
     CHECK(turned.segments[1].colour == 15);
 }
 
-TEST_CASE("room is made for exactly what the operations of a word draw") {
+TEST_CASE("memory is reserved for exactly the parts that the word draws") {
     Bytecode bytecode = BytecodeBuilder().axiom("F F T f + [ L ] S { . F . f . }").build();
     give_operations(bytecode);
     Derivation derivation(bytecode, {});

@@ -1,4 +1,4 @@
-# Runs the golden runner on cases that are wrong on purpose; it must name each of them.
+# Runs the golden runner on cases that are wrong on purpose; the runner must report each of them.
 execute_process(COMMAND "${RUNNER}" --root "${ROOT}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 if(status EQUAL 0)
   message(FATAL_ERROR "the runner found nothing:\n${printed}")

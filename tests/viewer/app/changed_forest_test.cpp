@@ -1,5 +1,5 @@
-// Trees added to or removed from a forest after it was made: draw lists are as if they had always,
-// or never, been there.
+// Trees added to or removed from a forest after it was made: the draw lists equal those of a forest
+// that was made with, or without, these trees.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/painter.h"
 
@@ -45,7 +45,7 @@ Camera over_all() {
 
 } // namespace
 
-TEST_CASE("a forest that was changed is drawn as one that was always so") {
+TEST_CASE("a changed forest is drawn like a forest made with the same trees") {
     const auto whole = make_wood(3000, 200.0F);
     auto part = make_wood(3000, 200.0F);
     LargeVector<Tree>& trees = part->forest.trees;
@@ -53,7 +53,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     trees.resize(2000);
     ForestLod changed(part->model);
     ForestLod wanted(whole->model);
-    // Select once before the change, so that lists and pool must be updated.
+    // Select once before the change, so that draw lists and pool must be updated.
     static_cast<void>(drawn_by(changed, over_all()));
     for (std::uint32_t i = 0; i < last.size(); ++i) {
         CHECK(changed.change_tree(2000 + i, last[i], true) == 2000 + i);
@@ -62,7 +62,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     CHECK(drawn_by(changed, over_all()) == drawn_by(wanted, over_all()));
     const Camera inside{{100.0F, 2.0F, 100.0F}, {0.0F, 2.0F, 50.0F}, 50.0F};
     CHECK(drawn_by(changed, inside) == drawn_by(wanted, inside));
-    // Remove every third tree, placed ones and added ones.
+    // Remove every third of the placed and added trees.
     for (std::uint32_t i = 0; i < 3000; i += 3) {
         static_cast<void>(changed.change_tree(i, whole->forest.trees[i], false));
     }
@@ -92,7 +92,7 @@ TEST_CASE("a forest that was changed is drawn as one that was always so") {
     CHECK(drawn_by(changed, over_all()) == drawn_by(wanted, over_all()));
 }
 
-TEST_CASE("a tree in the place of another is drawn as itself") {
+TEST_CASE("a tree that replaces a removed one is drawn at its own place") {
     const auto wood = make_wood(100, 40.0F);
     ForestLod lod(wood->model);
     const Camera camera{{20.0F, 8.0F, -10.0F}, {20.0F, 0.0F, 20.0F}, 60.0F};
@@ -117,7 +117,7 @@ TEST_CASE("a tree in the place of another is drawn as itself") {
     CHECK_FALSE(stands(20.0F));
 }
 
-TEST_CASE("a forest without trees can be painted into") {
+TEST_CASE("trees can be painted in a forest without trees") {
     const auto wood = make_wood(0, 40.0F);
     ForestLod lod(wood->model);
     Tree tree;

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Collects the reports of a watch.
+/// Collects the changed files that a watch reports.
 class ReportLog {
 public:
     void add(const std::vector<std::string>& files) {
@@ -79,7 +79,7 @@ void settle() {
 
 } // namespace
 
-TEST_CASE("a file that is written, replaced, removed or made is told") {
+TEST_CASE("a file that is written, replaced, removed or created is reported") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     const std::string other = folder / "leaf.obj";
@@ -102,7 +102,7 @@ TEST_CASE("a file that is written, replaced, removed or made is told") {
     CHECK(watching.reports.waits_for(other));
 }
 
-TEST_CASE("a link is watched where it leads") {
+TEST_CASE("the target of a link is watched") {
     const ScratchFolder folder;
     std::filesystem::create_directory(folder / "real");
     const std::string real = folder / "real/plant.lsys";
@@ -116,7 +116,7 @@ TEST_CASE("a link is watched where it leads") {
     CHECK(watching.reports.waits_for(link));
 }
 
-TEST_CASE("what follows at once is one change, and other files are none") {
+TEST_CASE("changes in quick succession are one change, and other files are not reported") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "one");
@@ -133,7 +133,7 @@ TEST_CASE("what follows at once is one change, and other files are none") {
     CHECK(watching.reports.times() == 1);
 }
 
-TEST_CASE("a file that others are written beside is told in time") {
+TEST_CASE("a change is reported in time while other files in the folder are written") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "one");

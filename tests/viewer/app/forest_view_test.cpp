@@ -1,4 +1,4 @@
-// ForestView without a window: swap of forests, painting, the scene file.
+// ForestView without a window: replacing forests, painting, the scene file.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -134,7 +134,7 @@ void wait_for_watch() {
 
 } // namespace
 
-TEST_CASE("a scene is shown, and one that changes in its place") {
+TEST_CASE("a scene is shown, and shown again after it has changed") {
     const WoodFolder files(wood(200));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -158,7 +158,7 @@ TEST_CASE("a scene is shown, and one that changes in its place") {
     CHECK(viewed.renderer->errors().empty());
 }
 
-TEST_CASE("a scene or grammar in error leaves the picture as it was") {
+TEST_CASE("a scene or grammar with errors does not change the picture") {
     const WoodFolder files(wood(100));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -166,9 +166,9 @@ TEST_CASE("a scene or grammar in error leaves the picture as it was") {
     wait_for_watch();
     write_text(files.scene, wood(100) + "colour = 3\n");
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
-    const LscRun said = run_lsc({"forest", files.scene, "--check"}, "");
-    CHECK(said.status == 1);
-    CHECK(viewed.forest().messages() == said.err);
+    const LscRun checked = run_lsc({"forest", files.scene, "--check"}, "");
+    CHECK(checked.status == 1);
+    CHECK(viewed.forest().messages() == checked.err);
     CHECK(viewed.picture() == before);
     write_text(files.scene, wood(100));
     REQUIRE(viewed.until([&] { return !viewed.forest().failed(); }));
@@ -188,7 +188,7 @@ TEST_CASE("a scene or grammar in error leaves the picture as it was") {
     CHECK(viewed.forest().messages().find("error") == std::string::npos);
 }
 
-TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
+TEST_CASE("a scene that is deleted while it is shown is reported and shown again later") {
     const WoodFolder files(wood(50));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -210,7 +210,7 @@ TEST_CASE("a scene that is deleted while it is shown is told, and comes back") {
     CHECK_FALSE(viewed.forest().failed());
 }
 
-TEST_CASE("what a scene names and is missing is told at its place, and waited for") {
+TEST_CASE("missing files of a scene are reported at their place and watched for") {
     const WoodFolder files(wood(20));
     std::filesystem::remove(files.folder / "bush.lsys");
     ViewedForest viewed(forest_options(files.scene));
@@ -229,7 +229,7 @@ TEST_CASE("what a scene names and is missing is told at its place, and waited fo
     REQUIRE(viewed.until([&] { return viewed.forest().document()->scene.species.size() == 2; }));
 }
 
-TEST_CASE("what is set in the window takes the place of what the scene says") {
+TEST_CASE("values set in the window replace those of the scene") {
     const WoodFolder files(wood(100));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -281,7 +281,7 @@ TEST_CASE("a forest grows from its first year to its last") {
     CHECK(viewed.forest().years() == 0);
 }
 
-TEST_CASE("a forest that plays has no jumps between two moments, and pauses at a whole year") {
+TEST_CASE("the growth of a forest has no jumps between two moments and pauses at a whole year") {
     const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
                            "count = 60\nyears = 12\n[[species]]\nname = \"bush\"\n"
                            "grammar = \"bush.lsys\"\nstages = [1, 2, 3]\nyears_of_stage = 4\n"
@@ -346,7 +346,7 @@ TEST_CASE("a forest that plays has no jumps between two moments, and pauses at a
     CHECK(forest.stats().swaps >= 2);
 }
 
-TEST_CASE("trees are painted, undone, saved, and read again") {
+TEST_CASE("painted trees are undone, saved and read again") {
     const WoodFolder files(wood(50));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -385,7 +385,7 @@ TEST_CASE("trees are painted, undone, saved, and read again") {
     CHECK(again.picture() == painted);
 }
 
-TEST_CASE("trees erased from another placement than the file's are told when they are saved") {
+TEST_CASE("saving reports erased trees that belong to another placement than the file's") {
     const WoodFolder files(wood(200));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -403,7 +403,7 @@ TEST_CASE("trees erased from another placement than the file's are told when the
     CHECK(forest.note().find("erased from another placement") != std::string::npos);
 }
 
-TEST_CASE("what was painted is saved to the scene shown, not to one with errors opened since") {
+TEST_CASE("painted trees are saved to the scene shown, not to a scene with errors opened later") {
     const WoodFolder files(wood(50));
     const std::string broken = files.folder / "broken.toml";
     const std::string broken_text = wood(70) + "colour = 3\n";
@@ -445,7 +445,7 @@ TEST_CASE("nothing is saved before a forest is shown") {
     CHECK(read_text(files.scene) == wood(50) + "colour = 3\n");
 }
 
-TEST_CASE("a brush and an eraser work along the way of the mouse") {
+TEST_CASE("a brush and an eraser work along the path of the mouse") {
     const WoodFolder files(wood(1));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -477,7 +477,7 @@ TEST_CASE("a brush and an eraser work along the way of the mouse") {
     CHECK(forest.painting().tree_count() == 1);
 }
 
-TEST_CASE("what is painted outlives a grammar that changes, and can still be undone") {
+TEST_CASE("painted trees stay when a grammar changes, and can still be undone") {
     const WoodFolder files(wood(50));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -507,7 +507,8 @@ TEST_CASE("what is painted outlives a grammar that changes, and can still be und
     CHECK(read_text(files.scene).find("\"bush\", 1, 1, 0, 1") == std::string::npos);
 }
 
-TEST_CASE("the ground follows its picture, and keeps it while only the scene's values change") {
+TEST_CASE(
+    "the ground shows a changed picture and keeps its picture if only values of the scene change") {
     const WoodFolder files(wood(50));
     const auto paint = [&](std::uint8_t red, std::uint8_t blue) {
         write_text(files.folder / "ground.png",
@@ -539,7 +540,7 @@ TEST_CASE("the ground follows its picture, and keeps it while only the scene's v
     CHECK(after[corner] < after[corner + 2]);
 }
 
-TEST_CASE("slow pictures are coarser while something moves, and whole when all rests") {
+TEST_CASE("slow pictures are coarse while something moves and have full resolution at rest") {
     const WoodFolder files(wood(50));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));
@@ -557,7 +558,7 @@ TEST_CASE("slow pictures are coarser while something moves, and whole when all r
     CHECK_FALSE(forest.is_coarse());
 }
 
-TEST_CASE("another scene is opened without options, heroes and painting of the first") {
+TEST_CASE("opening another scene drops the options, heroes and painting of the first") {
     const WoodFolder first(wood(50));
     write_text(first.folder / "bush.lsys", std::string("#define size 1;\n") + kBush);
     const WoodFolder second(wood(40));
@@ -586,7 +587,7 @@ TEST_CASE("another scene is opened without options, heroes and painting of the f
     CHECK_FALSE(forest.document()->grown.reused_species[0]);
     CHECK_FALSE(forest.is_unsaved());
     CHECK_FALSE(forest.failed());
-    // Heroes of the previous scene are not reused for a scene in another folder.
+    // A scene in another folder does not reuse the heroes of the previous scene.
     forest.open(first.scene);
     REQUIRE(viewed.until_trees(50));
     CHECK_FALSE(forest.document()->grown.reused_species[0]);
@@ -611,7 +612,7 @@ TEST_CASE("dropped files show plants and forests in turn") {
     drop(files.scene);
     REQUIRE(viewed.views.forest() != nullptr);
     REQUIRE(viewed.until_swaps(1));
-    // With unsaved painting, the first drop or request to close only warns.
+    // If painted trees are unsaved, the first drop of a file or request to close only warns.
     viewed.look_at(30.0F, 30.0F);
     viewed.forest().settings.tool = PaintTool::OneTree;
     viewed.press();
@@ -684,7 +685,7 @@ TEST_CASE("keys and mouse choose and use the tools of a forest") {
     CHECK(panels.quits);
 }
 
-TEST_CASE("a hundred exchanges of forests leave nothing behind") {
+TEST_CASE("replacing the forest a hundred times leaks no objects of the renderer") {
     const WoodFolder files(wood(20));
     ViewedForest viewed(forest_options(files.scene));
     REQUIRE(viewed.until_swaps(1));

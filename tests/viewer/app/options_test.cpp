@@ -40,7 +40,7 @@ TEST_CASE("options switch shadows and the ground off") {
     CHECK_FALSE(bare.ground);
 }
 
-TEST_CASE("another file drops the options about the files of the command line") {
+TEST_CASE("opening another file drops the options about the files of the command line") {
     ViewOptions options = parsed<ViewOptions>({"a.l", "b.l", "-D", "a=1", "--set", "angle=3", "-n",
                                                "3", "-s", "3", "--dialect", "l3d", "--heroes", "3",
                                                "--camera", "fov 30", "--air", "5", "--no-shadows"});
@@ -59,7 +59,7 @@ TEST_CASE("another file drops the options about the files of the command line") 
     CHECK_FALSE(options.is_forest);
 }
 
-TEST_CASE("air belongs to forests") {
+TEST_CASE("the option --air is for forests") {
     CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).visibility == 2.5F);
     CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).visibility == 2.5F);
     CHECK(parsed<UsageError>({"tree.lsys", "--air", "2.5"}).message ==
@@ -77,7 +77,7 @@ TEST_CASE("an option of forests shows a grammar as a forest") {
     CHECK_FALSE(parsed<ViewOptions>({"tree.lsys", "-s", "3", "-D", "a=1"}).is_forest);
 }
 
-TEST_CASE("a plant has a height, and so have the trees of a forest") {
+TEST_CASE("plants and the trees of a forest have an option for height") {
     CHECK(parsed<ViewOptions>({"tree.lsys", "--height", "12.5"}).plant_height == 12.5F);
     CHECK_FALSE(parsed<ViewOptions>({"tree.lsys"}).plant_height);
     const auto forest = parsed<ViewOptions>({"wood.toml", "--height", "3"});
@@ -86,7 +86,7 @@ TEST_CASE("a plant has a height, and so have the trees of a forest") {
     CHECK_FALSE(parsed<UsageError>({"tree.lsys", "--height", "0"}).message.empty());
 }
 
-TEST_CASE("pictures are PNG, whatever the name wishes") {
+TEST_CASE("pictures are PNG with any extension of the name") {
     const UsageError usage = parsed<UsageError>({"tree.lsys", "--screenshot", "a/tree.jpg"});
     CHECK(usage.message == "`a/tree.jpg`: pictures are written as png");
     CHECK(usage.help == "name it `a/tree.png`");

@@ -39,7 +39,7 @@ constexpr const char* kEndless = "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x
 
 } // namespace
 
-TEST_CASE("a loader makes the plant and says which files are behind it") {
+TEST_CASE("a loader makes the plant and lists the files that the plant depends on") {
     PlantLoader loader([] {});
     loader.request(options_of(sample("teach-include")), SteadyClock::now());
     const LoadOutcome outcome = wait_for(loader);
@@ -53,7 +53,7 @@ TEST_CASE("a loader makes the plant and says which files are behind it") {
     CHECK_FALSE(loader.is_busy());
 }
 
-TEST_CASE("what is wrong is said as lsc says it, and missing files are known") {
+TEST_CASE("messages are those of lsc, and missing files are listed") {
     const ScratchFolder folder;
     write_text(folder / "bad.lsys", "#n = 2;\n#include \"none.lsys\";\n#w : F(;\n");
     PlantLoader loader([] {});
@@ -66,7 +66,7 @@ TEST_CASE("what is wrong is said as lsc says it, and missing files are known") {
     CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
 }
 
-TEST_CASE("the newest request wins, and what takes long is given up") {
+TEST_CASE("the newest request counts, and a slow earlier one is cancelled") {
     const ScratchFolder folder;
     write_text(folder / "endless.lsys", kEndless);
     ViewOptions endless = options_of(folder / "endless.lsys");
@@ -86,7 +86,7 @@ TEST_CASE("the newest request wins, and what takes long is given up") {
     CHECK_FALSE(loader.take());
 }
 
-TEST_CASE("a loader that goes gives up what it makes") {
+TEST_CASE("destroying a loader cancels its work") {
     const ScratchFolder folder;
     write_text(folder / "endless.lsys", kEndless);
     ViewOptions endless = options_of(folder / "endless.lsys");
@@ -101,7 +101,7 @@ TEST_CASE("a loader that goes gives up what it makes") {
     CHECK(SteadyClock::now() - start < 30s);
 }
 
-TEST_CASE("a request is repeated with what the file says now") {
+TEST_CASE("a repeated request reads the file again") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "#n = 0;\n#w : F;\n");

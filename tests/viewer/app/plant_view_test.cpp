@@ -1,4 +1,4 @@
-// PlantView without a window: swap of plants, pictures.
+// PlantView without a window: replacing plants, pictures.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
@@ -88,7 +88,7 @@ std::string plant(int segments) {
 
 } // namespace
 
-TEST_CASE("a hundred reloads leave nothing behind") {
+TEST_CASE("a hundred reloads leak no objects of the renderer") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, plant(1));
@@ -109,7 +109,7 @@ TEST_CASE("a hundred reloads leave nothing behind") {
     CHECK(viewed.renderer->errors().empty());
 }
 
-TEST_CASE("a file that changes is shown, and one in error leaves the picture as it was") {
+TEST_CASE("a changed file is shown, and a file with errors does not change the picture") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, plant(2));
@@ -135,7 +135,7 @@ TEST_CASE("a file that changes is shown, and one in error leaves the picture as 
     CHECK(viewed.view.messages().empty());
 }
 
-TEST_CASE("a plant that draws nothing is reported, and one that draws is not") {
+TEST_CASE("a plant that draws nothing is reported, and a plant that draws is not") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     const std::string text = "lsview: the plant has nothing to draw after 1 generation\n";
@@ -158,7 +158,7 @@ TEST_CASE("a plant that draws nothing is reported, and one that draws is not") {
     CHECK(run_lsview({file, "--screenshot", folder / "a.png", "--size", "8x8"}).err.empty());
 }
 
-TEST_CASE("a note goes away after a while") {
+TEST_CASE("a note disappears after some seconds") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, plant(1));
@@ -173,7 +173,7 @@ TEST_CASE("a note goes away after a while") {
     CHECK_FALSE(view.drop_old_note(now + 2 * kNoteTime));
 }
 
-TEST_CASE("a missing file that is included is waited for") {
+TEST_CASE("the plant appears when a missing included file is created") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "#include \"axiom.lsys\";\n#n = 0;\n");
@@ -186,7 +186,7 @@ TEST_CASE("a missing file that is included is waited for") {
     CHECK_FALSE(viewed.view.failed());
 }
 
-TEST_CASE("settings make the plant anew, and constants that vanish are let go") {
+TEST_CASE("a changed setting makes a new plant, and values of removed constants are dropped") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "#n = 3;\n#param a 2 {1, 5};\n#w : F(a) A;\n#p : A : * : F A;\n");
@@ -237,7 +237,7 @@ std::vector<glm::vec3> vertices_of(const PlantView& view) {
 
 } // namespace
 
-TEST_CASE("a setting turned and written back is one line of the file, with the same plant") {
+TEST_CASE("writing a changed setting to the file changes one line and not the plant") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     const std::string text = "// A fork.\r\n#n = 2;\r\n#set step 2; // metres\r\n"
@@ -355,7 +355,7 @@ TEST_CASE("growth plays from the axiom to the end, with moments between generati
     CHECK(viewed.picture() == whole);
 }
 
-TEST_CASE("growth that is paused stays, goes on, and makes way for a whole generation") {
+TEST_CASE("growth can be paused and resumed, and ends if a generation is chosen") {
     ViewOptions options = plant_options(sample("teach-param"));
     options.grow = true; // growth starts to play
     ViewedPlant viewed(options);
@@ -383,7 +383,7 @@ TEST_CASE("growth that is paused stays, goes on, and makes way for a whole gener
     CHECK(viewed.view.document()->plant.generations == viewed.view.generations());
 }
 
-TEST_CASE("a plant bends in the wind and stands again without") {
+TEST_CASE("a plant bends in the wind and stands again without wind") {
     ViewedPlant viewed(plant_options(sample("teach-bending")));
     REQUIRE(viewed.until_swaps(1));
     viewed.step();
@@ -400,7 +400,7 @@ TEST_CASE("a plant bends in the wind and stands again without") {
     CHECK(viewed.picture() == still);
 }
 
-TEST_CASE("another file is opened with all in view") {
+TEST_CASE("another file is opened with the whole plant in view") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     const Camera before = viewed.view.settings.camera;
@@ -425,7 +425,7 @@ TEST_CASE("another file is opened without the options of the first") {
     CHECK(viewed.view.document()->plant.skeleton.segments.size() == 8);
 }
 
-TEST_CASE("keys change what is shown, letters move while flying") {
+TEST_CASE("keys change the display, and letters move the camera while flying") {
     ViewedPlant viewed(plant_options(sample("teach-param")));
     REQUIRE(viewed.until_swaps(1));
     PlantViewSettings& settings = viewed.view.settings;
@@ -501,7 +501,7 @@ TEST_CASE("the mouse orbits, pans and zooms") {
     CHECK(glm::distance(camera.eye, camera.target) < glm::distance(before.eye, before.target));
 }
 
-TEST_CASE("shaders that change are compiled, and those with mistakes leave the picture") {
+TEST_CASE("changed shaders are compiled, and shaders with mistakes do not change the picture") {
     const ScratchFolder folder;
     const std::string shaders = LSYS_SOURCE_DIR "/viewer/shaders/";
     for (const auto& entry : std::filesystem::directory_iterator(shaders)) {

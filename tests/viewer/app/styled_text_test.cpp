@@ -1,4 +1,4 @@
-// Text with the colours of a terminal as lines of runs.
+// Text with colour codes of a terminal, split into lines of runs of equal colour.
 #include "viewer/app/styled_text.h"
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ std::string shown(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("lines and colours of a terminal are told apart") {
+TEST_CASE("text is split at line ends and at colour codes") {
     CHECK(styled_lines("").empty());
     CHECK(shown("a\nb") == "0:a;/0:b;");
     CHECK(shown("a\n") == "0:a;");
@@ -38,7 +38,7 @@ TEST_CASE("lines and colours of a terminal are told apart") {
     CHECK(shown("a\x1b[1") == "0:a;");
 }
 
-TEST_CASE("a line without its colours is the text") {
+TEST_CASE("a line without its colour codes is plain text") {
     const std::vector<TextLine> lines = styled_lines("x \x1b[1;32mapplies\x1b[0m y\n");
     REQUIRE(lines.size() == 1);
     CHECK(plain_text(lines[0]) == "x applies y");

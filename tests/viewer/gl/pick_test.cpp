@@ -1,4 +1,5 @@
-// Compares picks with rays through all triangles of a forest; tests colours of branches.
+// Compares picked branches with ray casts against all triangles of a forest; tests colours of
+// branches.
 #include "tests/viewer/wood.h"
 #include "viewer/gl/headless_context.h"
 #include "viewer/gl/renderer.h"
@@ -139,7 +140,7 @@ struct PickedWood {
 
 } // namespace
 
-TEST_CASE("a picked branch is the one that a ray through the middle of the pixel meets first") {
+TEST_CASE("a picked branch is the first one on the ray through the middle of the pixel") {
     PickedWood wood;
     // Levels depend on the heights of trees in pixels, so a larger picture is needed for the finest
     // level.
@@ -182,11 +183,11 @@ TEST_CASE("a picked branch is the one that a ray through the middle of the pixel
     INFO(branches << " pixels with branches, " << instances.size() << " of them different");
     CHECK(branches > 15);
     CHECK(instances.size() > 3);
-    CHECK(wrong <= branches / 50); // at edges, since vertices are rounded on the device
+    CHECK(wrong <= branches / 50); // at edges, because the device rounds vertices
     CHECK(wood.renderer->errors().empty());
 }
 
-TEST_CASE("a pick tells sky, ground and impostors apart, and leaves the picture as it was") {
+TEST_CASE("picking distinguishes sky, ground and impostors and does not change the picture") {
     PickedWood wood;
     wood.show();
     wood.renderer->draw(wood.frame, {0, 0, kWidth, kHeight});
@@ -253,14 +254,14 @@ TEST_CASE("a pixel of a branch has the colour of its id, age or hero") {
                     return glm::normalize(colour - 0.8F * std::min({colour.r, colour.g, colour.b}));
                 };
                 std::uint32_t nearest = 0;
-                float least = 9.0F;
+                float min_difference = 9.0F;
                 for (const LegendEntry& entry : legend) {
                     const float apart =
                         glm::distance(hue(shown), hue(glm::vec3(std::sqrt(entry.colour.r),
                                                                 std::sqrt(entry.colour.g),
                                                                 std::sqrt(entry.colour.b))));
-                    if (apart < least) {
-                        least = apart;
+                    if (apart < min_difference) {
+                        min_difference = apart;
                         nearest = entry.value;
                     }
                 }

@@ -7,7 +7,7 @@
 
 using lsys::view::name_files;
 
-TEST_CASE("the log of a shader names the files") {
+TEST_CASE("numbers of sources in the log of a shader are replaced by file names") {
     const std::vector<std::string> files{"plant.glsl", "light.glsl"};
     CHECK(name_files("", files).empty());
     CHECK(name_files("0:12(3): error: no `x`\n1(4) : error C1008\n", files) ==
@@ -16,7 +16,7 @@ TEST_CASE("the log of a shader names the files") {
           "2:1(1): error\nerror\n0\n1 error\n:1");
 }
 
-TEST_CASE("a log with a number that no integer holds stays as it is") {
+TEST_CASE("a number in a log that is too large for an integer stays unchanged") {
     const std::string row = "99999999999999999999999:1(1): error";
     CHECK(name_files(row, std::vector<std::string>{"plant.glsl"}) == row);
 }

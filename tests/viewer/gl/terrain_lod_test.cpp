@@ -51,7 +51,7 @@ TEST_CASE("corners lie on the terrain") {
     }
 }
 
-TEST_CASE("patches cover the ground once, and their heights are there") {
+TEST_CASE("patches cover the ground once and lie within the height grids") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : ground_cameras()) {
@@ -89,7 +89,7 @@ TEST_CASE("patches cover the ground once, and their heights are there") {
     }
 }
 
-TEST_CASE("nothing in view is left out") {
+TEST_CASE("everything in view is drawn") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     for (const Camera& camera : ground_cameras()) {
@@ -122,7 +122,7 @@ TEST_CASE("nothing in view is left out") {
 
 // Between corners, the surface differs from the terrain by millimetres near the eye, with cells of
 // 0.5 m, and by at most 0.25 % of the distance farther away: a pixel or two.
-TEST_CASE("the surface that is drawn is near the terrain") {
+TEST_CASE("the drawn surface is near the terrain") {
     const Terrain terrain = hills(240.0F);
     TerrainLod lod(terrain, 3000.0F);
     const glm::vec3 eye = ground_cameras()[0].eye;
@@ -144,7 +144,7 @@ TEST_CASE("the surface that is drawn is near the terrain") {
     }
 }
 
-TEST_CASE("the ground is the same wherever the camera was before") {
+TEST_CASE("the ground does not depend on earlier positions of the camera") {
     const Terrain terrain = hills(240.0F);
     TerrainLod fresh(terrain, 3000.0F);
     TerrainLod used(terrain, 3000.0F);

@@ -23,7 +23,7 @@ glm::vec3 clip(const Camera& camera, float aspect, const glm::vec3& place) {
 
 } // namespace
 
-TEST_CASE("a camera is read as it was written") {
+TEST_CASE("a written camera is read back unchanged") {
     Camera camera;
     camera.eye = {0.1F, -3.25e-5F, 1e6F};
     camera.target = {1.0F / 3.0F, 2.0F, -7.0F};
@@ -33,7 +33,7 @@ TEST_CASE("a camera is read as it was written") {
     CHECK(read.value() == camera);
 }
 
-TEST_CASE("parts of a camera may be left out") {
+TEST_CASE("parts of a camera may be omitted") {
     const Camera otherwise;
     const Result<Camera> read = parse_camera("fov 20", otherwise);
     REQUIRE(read);
@@ -49,7 +49,7 @@ TEST_CASE("parts of a camera may be left out") {
     CHECK(with_parts("target 1,2,30", first) == first); // refused: eye and target are equal
 }
 
-TEST_CASE("what is no camera is refused in words") {
+TEST_CASE("an invalid camera is refused with a message") {
     const char* const text =
         GENERATE("eye 1,2", "eye 1,2,3,4", "eye 1,2,x", "fov 0", "fov 180", "fov nan",
                  "eye inf,0,0", "zoom 2", "eye", "target 4,2,6", "eye 1,2,3 eye");
@@ -59,7 +59,7 @@ TEST_CASE("what is no camera is refused in words") {
     CHECK(read.error().message.find("camera") != std::string::npos);
 }
 
-TEST_CASE("orbiting keeps target and distance, and stops short of the pole") {
+TEST_CASE("orbiting keeps target and distance and stops before the pole") {
     const Camera camera;
     const float distance = glm::distance(camera.eye, camera.target);
     const Camera around = orbited(orbited(camera, 1.0F, 0.3F), -1.0F, -0.3F);
@@ -71,7 +71,7 @@ TEST_CASE("orbiting keeps target and distance, and stops short of the pole") {
     CHECK(forward_of(above).y < -0.99F);
 }
 
-TEST_CASE("moving goes along the picture, turning stays in place") {
+TEST_CASE("moving follows the axes of the picture, and turning keeps the position") {
     const Camera camera;
     const Camera to_right = moved(camera, 2.0F, 0.0F, 0.0F);
     CHECK(near(to_right.eye - camera.eye, 2.0F * right_of(camera)));

@@ -1,4 +1,4 @@
-// Compares LOD bands with a search tree by tree.
+// Compares LOD bands with a direct computation for each tree.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/impostor_plan.h"
 
@@ -54,7 +54,7 @@ std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const Draw
 
 } // namespace
 
-TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
+TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
     const auto wood = make_wood(3000, 200.0F);
     ForestLod lod(wood->model);
     CHECK(lod.trees().size() == 3000);
@@ -135,12 +135,12 @@ TEST_CASE("every pixel of a tree in view is of exactly one LOD band") {
     CHECK(blended > 0);
 }
 
-TEST_CASE("what comes nearer blends from one LOD band to the next") {
+TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
     const auto wood = make_wood(200, 5.0F);
     ForestLod lod(wood->model);
     constexpr float kStep = 1.004F;
     const LodOptions options = wood_lod();
-    const float most = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
+    const float max_change = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
     std::map<std::uint32_t, float> branches_before;
     float horizon_before = 0.0F;
     float largest = 0.0F;
@@ -162,10 +162,10 @@ TEST_CASE("what comes nearer blends from one LOD band to the next") {
         for (std::uint32_t tree = 0; tree < lod.trees().size() && !is_first; ++tree) {
             const float change = std::abs(branches[tree] - branches_before[tree]);
             largest = std::max(largest, change);
-            REQUIRE(change <= most);
+            REQUIRE(change <= max_change);
         }
         if (!is_first) {
-            REQUIRE(std::abs(horizon - horizon_before) <= most);
+            REQUIRE(std::abs(horizon - horizon_before) <= max_change);
         }
         branches_before = std::move(branches);
         horizon_before = horizon;
@@ -175,7 +175,7 @@ TEST_CASE("what comes nearer blends from one LOD band to the next") {
     CHECK(horizon_before == 0.0F);
 }
 
-TEST_CASE("every corner in view of a tree with branches is of a branch that is drawn") {
+TEST_CASE("every corner in view of a tree drawn as branches belongs to a drawn branch") {
     const auto wood = make_wood(3000, 200.0F);
     const TreeForm& form = wood->model.forms[0];
     const InstanceCache& cache = *form.cache;
@@ -228,7 +228,7 @@ TEST_CASE("every corner in view of a tree with branches is of a branch that is d
     CHECK(left_out > 100); // else the test would check nothing
 }
 
-TEST_CASE("what wind moves into the view is drawn") {
+TEST_CASE("branches that wind moves into the view are drawn") {
     const auto wood = make_wood(3000, 200.0F);
     ForestLod lod(wood->model);
     LodOptions calm = wood_lod();
@@ -276,7 +276,7 @@ TEST_CASE("all corners of a tree lie within its sphere") {
     }
 }
 
-TEST_CASE("what is listed does not know what was looked at before") {
+TEST_CASE("draw lists do not depend on earlier views") {
     const auto wood = make_wood(3000, 200.0F);
     std::vector<Camera> all = cameras();
     for (std::size_t last = 0; last < all.size(); ++last) {
@@ -297,12 +297,12 @@ TEST_CASE("what is listed does not know what was looked at before") {
     }
 }
 
-TEST_CASE("places of trees never overlap, and are used again") {
+TEST_CASE("spans of a pool never overlap and are reused") {
     const auto wood = make_wood(2000, 100.0F);
     ForestLod lod(wood->model);
     LodOptions options = wood_lod();
     options.level_pixels = {400.0F, 200.0F, 100.0F, 30.0F};
-    std::uint64_t most = 0;
+    std::uint64_t max_used = 0;
     for (std::uint32_t step = 0; step < 200; ++step) {
         const float along = static_cast<float>(step % 100);
         const DrawLists& lists = lod.select(
@@ -320,15 +320,15 @@ TEST_CASE("places of trees never overlap, and are used again") {
         }
         REQUIRE(end <= lod.pool().branches().size());
         REQUIRE(used == lod.pool().used());
-        most = std::max(most, used);
+        max_used = std::max(max_used, used);
         for (const BranchEntry branch : lists.branches) {
             REQUIRE(branch.slot() < end);
         }
     }
-    CHECK(lod.pool().branches().size() < 2 * most);
+    CHECK(lod.pool().branches().size() < 2 * max_used);
 }
 
-TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
+TEST_CASE("a full pool evicts unused spans, then refuses new ones") {
     BranchPool pool(10);
     const std::vector<PoolBranch> four(4);
     pool.begin_frame(1);
@@ -347,7 +347,7 @@ TEST_CASE("a pool that is full forgets what is not in use, and then refuses") {
     CHECK(pool.add(5, std::vector<PoolBranch>(11)).count == 0);
 }
 
-TEST_CASE("triangles are bounded, and trees wait where too many come near at once") {
+TEST_CASE("the number of triangles is limited, and trees wait if too many come near at once") {
     const auto wood = make_wood(3000, 200.0F);
     ForestLod lod(wood->model);
     const Frustum frustum = make_frustum(cameras()[0], 1280, 720);
@@ -374,7 +374,7 @@ TEST_CASE("triangles are bounded, and trees wait where too many come near at onc
     CHECK(second.waiting + 3 == first.waiting);
 }
 
-TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") {
+TEST_CASE("coarser levels have fewer triangles and do not change the finest") {
     const auto wood = make_wood(10, 20.0F);
     const TreeForm& form = wood->model.forms[0];
     for (std::uint32_t level = 1; level < kTreeLevels; ++level) {
@@ -388,7 +388,7 @@ TEST_CASE("coarser levels have fewer triangles, and leave the finest as it is") 
     }
 }
 
-TEST_CASE("what is known of a forest is not meshed again") {
+TEST_CASE("meshes of a known forest are reused") {
     const std::unique_ptr<Wood> wood = make_wood(10, 20.0F);
     KnownModel known{&wood->model, wood->forest.key, {}, {std::size_t{0}}};
     const auto made = [&] {
@@ -410,7 +410,8 @@ TEST_CASE("what is known of a forest is not meshed again") {
     CHECK(made().forms[0].meshes != wood->model.forms[0].meshes);
 }
 
-TEST_CASE("impostors are of every hero, and cells of a form's trees fill their square") {
+TEST_CASE(
+    "a species has a limited number of impostors, and trees of a cluster lie within its cell") {
     const auto wood = make_wood(3000, 200.0F);
     const ForestLod lod(wood->model);
     const ImpostorPlan plan = plan_impostors(lod);
@@ -430,7 +431,7 @@ TEST_CASE("impostors are of every hero, and cells of a form's trees fill their s
     CHECK_FALSE(plan_impostors(ForestLod(grove->model)).has_clusters);
 }
 
-TEST_CASE("a forest without trees lists nothing") {
+TEST_CASE("a forest without trees has empty draw lists") {
     const auto wood = make_wood(0, 20.0F);
     ForestLod lod(wood->model);
     const DrawLists& lists = lod.select(make_frustum(Camera{}, 64, 48), {});

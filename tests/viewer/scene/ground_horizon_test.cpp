@@ -1,4 +1,4 @@
-// Compares occlusion by the ground with lines of sight sampled in steps.
+// Compares occlusion by the ground with sampled lines of sight.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/ground_horizon.h"
@@ -51,7 +51,7 @@ Box box_on(const Terrain& terrain, std::mt19937& draws, const glm::vec3& eye) {
 
 } // namespace
 
-TEST_CASE("what the ground hides cannot be seen") {
+TEST_CASE("boxes reported as hidden by the ground are invisible") {
     const Terrain terrain = hills(1000.0F);
     TerrainLod ground(terrain, kReach);
     GroundHorizon horizon;
@@ -87,7 +87,7 @@ TEST_CASE("what the ground hides cannot be seen") {
     CHECK(visible_boxes > 1500);
 }
 
-TEST_CASE("level ground hides nothing, and from below there is none") {
+TEST_CASE("level ground hides nothing, and from below the ground hides nothing") {
     const Terrain flat = Terrain::flat({0.0, 0.0, 1000.0, 1000.0}).value();
     TerrainLod level(flat, kReach);
     GroundHorizon horizon;
@@ -113,7 +113,7 @@ TEST_CASE("level ground hides nothing, and from below there is none") {
     }
 }
 
-TEST_CASE("trees behind the ground are left out, and no others") {
+TEST_CASE("only trees behind the ground are omitted") {
     const auto wood = make_wood_on_hills(6000, 600.0F);
     const TreeForm& form = wood->model.forms[0];
     ForestLod lod(wood->model);

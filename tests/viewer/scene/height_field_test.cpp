@@ -15,7 +15,7 @@ using namespace lsys::view;
 namespace {
 
 std::optional<double>
-meets(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+intersect(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 ab = b - a;
     const glm::dvec3 ac = c - a;
     const glm::dvec3 p = glm::cross(ray.direction, ac);
@@ -48,7 +48,7 @@ slow_pick(const HeightField& field, const Region& region, const Ray& ray) {
             const glm::dvec3 b = at(column + 1, row);
             const glm::dvec3 c = at(column, row + 1);
             const glm::dvec3 d = at(column + 1, row + 1);
-            for (const auto& t : {meets(ray, a, b, d), meets(ray, a, d, c)}) {
+            for (const auto& t : {intersect(ray, a, b, d), intersect(ray, a, d, c)}) {
                 if (t && (!nearest || *t < *nearest)) {
                     nearest = t;
                 }
@@ -68,7 +68,7 @@ Terrain hills(const Region& region) {
 
 } // namespace
 
-TEST_CASE("a ray picks what a test of every triangle finds") {
+TEST_CASE("a ray finds the same place as a test of every triangle") {
     const Region region{-30.0, 10.0, 64.0, 48.0};
     const HeightField field(hills(region), GENERATE(37U, 64U), 29);
     std::uint32_t hits = 0;
@@ -126,7 +126,7 @@ TEST_CASE("rays along axes, straight down and away from the ground") {
     CHECK_FALSE(field.pick({{40.0, 30.0, 40.0}, {0.0, -1.0, 0.0}}));
 }
 
-TEST_CASE("no ray from above misses between cells") {
+TEST_CASE("no ray from above passes between cells") {
     const Region region{0.0, 0.0, 10.0, 10.0};
     const HeightField field(hills(region), 333, 77);
     for (std::uint32_t i = 0; i < 20'000; ++i) {

@@ -1,4 +1,4 @@
-// Compares opaque boxes of tiles with a search texel by texel.
+// Compares boxes of opaque texels with a search of all texels.
 #include "viewer/scene/impostor_texels.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 
 using namespace lsys::view;
 
-TEST_CASE("the box of a tile holds what is opaque there, with a margin, and nothing of others") {
+TEST_CASE("the box of a tile has its opaque texels, with a margin, and none of other tiles") {
     constexpr std::uint32_t kSide = 32;
     constexpr std::uint32_t kWidth = 3 * kSide;
     constexpr float kMargin = 2.0F;
@@ -51,7 +51,7 @@ TEST_CASE("the box of a tile holds what is opaque there, with a margin, and noth
     }
 }
 
-TEST_CASE("the box of a tile without anything is empty") {
+TEST_CASE("the box of a transparent tile is empty") {
     std::vector<std::uint8_t> picture(std::size_t{4} * 16 * 16, 127);
     CHECK(opaque_box(picture, 16, {0, 0, 16}, 3.0F) == glm::vec4(0.0F));
 }

@@ -39,7 +39,7 @@ double distance(const Tree& a, const Tree& b) {
 
 } // namespace
 
-TEST_CASE("a brush fills its circle to its density and no further") {
+TEST_CASE("a brush fills its circle up to its density") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     Painter painter({}, {}, kRegion, terrain, 1);
     Brush brush;
@@ -64,7 +64,7 @@ TEST_CASE("a brush fills its circle to its density and no further") {
     }
 }
 
-TEST_CASE("painted trees keep away from placed ones and stay within the region") {
+TEST_CASE("painted trees keep their distance from placed ones and stay within the region") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     const LargeVector<Tree> placed = forest(2000, terrain);
     Painter painter(placed, {}, kRegion, terrain, 1);
@@ -83,7 +83,7 @@ TEST_CASE("painted trees keep away from placed ones and stay within the region")
     }
 }
 
-TEST_CASE("erasing takes exactly what lies under the brush") {
+TEST_CASE("erasing removes exactly the trees under the brush") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     const LargeVector<Tree> placed = forest(5000, terrain);
     Painter painter(placed, {}, kRegion, terrain, 1);
@@ -95,7 +95,7 @@ TEST_CASE("erasing takes exactly what lies under the brush") {
     }
 }
 
-TEST_CASE("strokes are undone and redone in order, and a new one ends redoing") {
+TEST_CASE("strokes are undone and redone in order, and a new stroke ends redoing") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     const LargeVector<Tree> placed = forest(1000, terrain);
     Painter painter(placed, {}, kRegion, terrain, 1);
@@ -143,7 +143,7 @@ TEST_CASE("strokes are undone and redone in order, and a new one ends redoing") 
     CHECK(matches(states[4]));
 }
 
-TEST_CASE("a painting goes on where it was saved") {
+TEST_CASE("a saved painting can be continued") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     const LargeVector<Tree> placed = forest(1000, terrain);
     Painter painter(placed, {}, kRegion, terrain, 1);
@@ -184,7 +184,7 @@ TEST_CASE("erased trees may still be among those that were placed") {
     CHECK(painter.is_changed());
 }
 
-TEST_CASE("one tree is put where it is asked for, but not into another") {
+TEST_CASE("a single tree is placed where requested, but not within another tree") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     Painter painter({}, {}, kRegion, terrain, 1);
     REQUIRE(painter.plant(30.0F, 40.0F, Brush{}).size() == 1);
@@ -195,7 +195,7 @@ TEST_CASE("one tree is put where it is asked for, but not into another") {
     CHECK(painter.undo().size() == 2);
 }
 
-TEST_CASE("a painter goes on with the same trees elsewhere, and not with others") {
+TEST_CASE("a painter continues in a new forest with the same trees, but not with others") {
     const Terrain terrain = Terrain::flat(kRegion).value();
     LargeVector<Tree> placed = forest(1000, terrain);
     Painter painter(placed, {}, kRegion, terrain, 1);
@@ -214,7 +214,7 @@ TEST_CASE("a painter goes on with the same trees elsewhere, and not with others"
     CHECK_FALSE(painter.move_to(forest(1000, higher), higher));
 }
 
-TEST_CASE("painting looks at as many trees in a small forest as in a large one") {
+TEST_CASE("painting examines as many trees in a large forest as in a small one") {
     // Both forests are equal around the brush, and differ in the number of trees elsewhere.
     const Terrain terrain = Terrain::flat(kRegion).value();
     const auto strokes = [&](std::uint64_t count) {

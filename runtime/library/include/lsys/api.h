@@ -1,11 +1,11 @@
-// The version of the library, and what marks its functions as public. Every other header includes
-// this one.
+// The version of the library, and macros that mark its functions as public. Every other public header
+// includes this header.
 #pragma once
 
 #define LSYS_VERSION_MAJOR 0
 #define LSYS_VERSION_MINOR 1
 #define LSYS_VERSION_PATCH 0
-/// As one number, for comparisons: 1.2.3 is 10203.
+/// The version as one number, for comparisons: 1.2.3 is 10203.
 #define LSYS_VERSION (LSYS_VERSION_MAJOR * 10000 + LSYS_VERSION_MINOR * 100 + LSYS_VERSION_PATCH)
 
 #if defined(_WIN32) && defined(LSYS_SHARED)
@@ -20,9 +20,9 @@
 #define LSYS_API
 #endif
 
-// The public names lie in an inline namespace, so that programs write lsys::Grammar, and a program
-// and a library of different interfaces do not link. The sources of the library, which have other
-// things of these names in namespace lsys, see it as a plain namespace.
+// The public names are in an inline namespace: programs write lsys::Grammar, and a program and a
+// library with different interfaces do not link. For the sources of the library the namespace is not
+// inline, because namespace lsys has other types with these names.
 #ifdef LSYS_BUILDS_LIBRARY
 #define LSYS_INTERFACE v0
 #else
@@ -31,8 +31,8 @@
 
 namespace lsys::LSYS_INTERFACE {
 
-/// The version of the library that is linked, "0.1.0". Headers of another version may have been
-/// compiled: compare with LSYS_VERSION.
+/// The version of the linked library, "0.1.0". It may differ from LSYS_VERSION, the version of the
+/// compiled headers.
 [[nodiscard]] LSYS_API const char* version() noexcept;
 [[nodiscard]] LSYS_API int version_number() noexcept;
 

@@ -1,4 +1,4 @@
-// Export: a plant and its mesh as the bytes of a file that other programs read.
+// Export: writes a plant and its mesh as a file for other programs.
 #pragma once
 
 #include <cstdint>
@@ -21,21 +21,21 @@ enum class Compression : std::uint8_t {
 
 enum class UpAxis : std::uint8_t { Y, Z };
 
-/// Options that a format does not have are an error, as for `lsc export`.
+/// Options of an export. An option that the format does not accept is an error, as in `lsc export`.
 struct ExportOptions {
-    std::string name = "plant";                  // of nodes and meshes
-    Compression compression = Compression::None; // of glb and gltf
-    UpAxis up = UpAxis::Y;                       // of obj, ply, stl, usda and usdz
+    std::string name = "plant";                  // name of nodes and meshes
+    Compression compression = Compression::None; // for glb and gltf
+    UpAxis up = UpAxis::Y;                       // for obj, ply, stl, usda and usdz
 };
 
 /// Names of the formats, "glb", "obj" ...
 [[nodiscard]] LSYS_API const std::vector<std::string>& export_formats();
-/// The format of a path by its ending, in lower case; empty: none.
+/// The format of a path by its extension, in lower case; empty: none.
 [[nodiscard]] LSYS_API std::string format_of_path(std::string_view path);
 
-/// Writes one file to `write` in pieces, until it returns false (Status::Cancelled). Its pictures
-/// are in the file, as in glb, or left out. An exception of `write` ends the call, which throws it
-/// on. Returns the number of bytes.
+/// Calls `write` with one file in pieces, until it returns false (Status::Cancelled). Pictures are
+/// embedded, as in glb, or left out. An exception of `write` ends the call and is rethrown. Returns
+/// the number of bytes.
 [[nodiscard]] LSYS_API Outcome<std::uint64_t>
 export_plant(const Plant& plant,
              const Mesh& mesh,

@@ -1,5 +1,5 @@
-// Messages: what a call of the library says to the author of a grammar and to its caller, as data
-// and as text. Values; they keep the sources that they point into.
+// Messages: the diagnostics of a library call, for authors of grammars and for callers, as data and as
+// text. Messages are values, and hold the source texts to which they refer.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Label {
     std::string text;
 };
 
-/// Replaces the text of `place`.
+/// A replacement of the text at `place`.
 struct Edit {
     Place place;
     std::string replacement;
@@ -41,14 +41,14 @@ struct Edit {
 struct Fix {
     std::string title;
     std::vector<Edit> edits;
-    /// No other repair is plausible. Other repairs need the consent of the author.
+    /// Whether no other repair is plausible. Uncertain repairs need the consent of the author.
     bool certain = false;
 };
 
 /// One message. Messages about files and options have no code and no place.
 struct Diagnostic {
     Severity severity = Severity::Error;
-    std::string code; // stable name, `unknown-name`; `lsc explain CODE` has a page on it
+    std::string code; // stable name, `unknown-name`; `lsc explain CODE` explains it
     std::string message;
     std::optional<Place> place;
     std::string label; // text at the place; may be empty
@@ -62,7 +62,7 @@ enum class MessageStyle : std::uint8_t {
     Frames,       // with the lines of the source and carets
     ColourFrames, // for terminals
     Lines,        // file:line:column: severity: message [code]
-    Json,         // one object a line
+    Json,         // one object per line
 };
 
 /// The messages of a call, in order.
@@ -75,7 +75,7 @@ public:
     Messages& operator=(Messages&&) noexcept;
     ~Messages();
 
-    /// At most 100,000 are kept.
+    /// All messages, at most 100,000.
     [[nodiscard]] const std::vector<Diagnostic>& all() const;
     [[nodiscard]] bool empty() const { return all().empty(); }
     [[nodiscard]] bool has_errors() const;

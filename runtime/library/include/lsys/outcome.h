@@ -1,5 +1,5 @@
-// Outcome: what a call of the library returns: a value or the reason why there is none, and in both
-// cases the messages of the call.
+// Outcome: the result of a library call: a value or the reason why there is none, and in both cases
+// the messages of the call.
 #pragma once
 
 #include <cassert>
@@ -14,13 +14,13 @@ namespace lsys::LSYS_INTERFACE {
 enum class Status : std::uint8_t {
     Ok,
     Diagnosed,   // mistakes of the author of a grammar or scene
-    Failed,      // a file cannot be read, an option does not fit
-    Limit,       // a limit of Limits
+    Failed,      // a file cannot be read, or an option is invalid
+    Limit,       // a value of Limits is exceeded
     OutOfMemory, // a failed allocation
     Cancelled,   // by Host::progress or Host::cancelled
 };
 
-/// The name of a status in words: "out of memory".
+/// The text of a status: "out of memory".
 [[nodiscard]] LSYS_API const char* text_of(Status status) noexcept;
 
 template <typename T>

@@ -1,6 +1,6 @@
-// Plant: what the turtle draws from a word, as a skeleton of segments, objects and polygons; and its
+// Plant: the drawing of a word by the turtle, a skeleton of segments, objects and polygons; and its
 // Mesh, triangles with materials. Metres, kilograms, right-handed axes, +Y up. Arrays are spans into
-// the plant or mesh, which is not copied: they are valid as long as one copy of it is.
+// the plant or mesh, without a copy: they are valid as long as any copy of the plant or mesh exists.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +44,8 @@ struct Quaternion {
 
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFu;
 
-/// The colour of an item: an index of the grammar's palette up to 65,535, or from kRgbColour on a
-/// colour of its own, kRgbColour + red * 65,536 + green * 256 + blue in sRGB.
+/// The colour of an item: an index of the grammar's palette up to 65,535, or an RGB colour,
+/// kRgbColour + red * 65,536 + green * 256 + blue in sRGB.
 using Colour = std::uint32_t;
 inline constexpr Colour kRgbColour = 0x01000000u;
 
@@ -68,8 +68,8 @@ struct Segment {
 /// A leaf, flower, sphere or mesh of the object library, drawn from `position` along its frame's +Y.
 /// 56 bytes.
 struct Object {
-    std::uint8_t kind = 0;  // in object_kinds()
-    std::uint32_t file = 0; // in Plant::files(), for the kind "mesh_file"
+    std::uint8_t kind = 0;  // index in object_kinds()
+    std::uint32_t file = 0; // index in Plant::files(), for the kind "mesh_file"
     Vector3 position;
     float size = 1.0F; // factor
     Quaternion frame;
@@ -97,20 +97,20 @@ struct Polygon {
 struct GrowOptions {
     std::optional<std::uint32_t> generations; // unset: Grammar::generations(), else 0
     std::optional<std::uint64_t> seed;        // unset: Grammar::seed()
-    std::optional<float> height;              // m, to which the plant is scaled
-    /// Draws while it derives, without holding the last word. For grammars without contexts.
+    std::optional<float> height;              // m; if set, the plant is scaled to this height
+    /// Draw while deriving, without storing the last word. For grammars without contexts.
     bool stream = false;
 };
 
 /// Measures of a plant.
 struct PlantSize {
-    Vector3 low; // the box of axes, objects and corners, without radii
+    Vector3 low; // bounds of axes, objects and corners, without radii
     Vector3 high;
     double height = 0.0;      // m
-    double crown_width = 0.0; // m, twice the greatest horizontal distance from the start
-    double length = 0.0;      // m, of all segments
-    double volume = 0.0;      // m^3, of all segments
-    double mass = 0.0;        // kg, of all segments
+    double crown_width = 0.0; // m, twice the max horizontal distance from the start
+    double length = 0.0;      // m, sum over all segments
+    double volume = 0.0;      // m^3, sum over all segments
+    double mass = 0.0;        // kg, sum over all segments
     std::vector<std::uint64_t> segments_by_order;
 };
 
@@ -124,7 +124,7 @@ public:
     [[nodiscard]] std::span<const Object> objects() const;
     [[nodiscard]] std::span<const Polygon> polygons() const;
     [[nodiscard]] std::span<const Vector3> corners() const;
-    /// Meshes and pictures of `#object`, as the grammar names them.
+    /// Paths of the meshes and pictures of `#object`, as written in the grammar.
     [[nodiscard]] const std::vector<std::string>& files() const;
     [[nodiscard]] PlantSize measure() const;
 
@@ -140,8 +140,8 @@ private:
 grow(const Grammar& grammar, const GrowOptions& options = {}, const Project& project = {});
 
 enum class MeshMethod : std::uint8_t {
-    Default,   // as the grammar's dialect draws: boxes or tubes
-    Tubes,     // linked tubes along axes
+    Default,   // boxes or tubes, depending on the dialect of the grammar
+    Tubes,     // tubes along axes with shared rings at joints
     Cylinders, // one closed cylinder for each segment
     Boxes,     // joined boxes, smoothed by Catmull-Clark subdivision
     Solid,     // one closed surface, for printing
@@ -149,9 +149,9 @@ enum class MeshMethod : std::uint8_t {
 
 struct MeshOptions {
     MeshMethod method = MeshMethod::Default;
-    std::uint32_t sides = 0; // of all cross-sections; 0: those of the grammar
-    /// Tubes: greatest distance in metres of a ring from its circle, kept with the fewest sides.
-    /// 0: sides alone count.
+    std::uint32_t sides = 0; // of all cross-sections; 0: the values of the grammar
+    /// Tubes: max distance in metres of a ring from its circle; rings get the fewest sides within
+    /// this distance. 0: rings have the given sides.
     float deviation = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
@@ -165,7 +165,7 @@ struct Material {
     Vector4 colour; // red, green, blue, opacity
     float roughness = 1.0F;
     bool two_sided = false;
-    bool cut_out = false; // its picture has opacity
+    bool cut_out = false; // texels below half opacity are discarded
 };
 
 /// Triangles of one material: indices first_index to first_index + index_count.
@@ -175,16 +175,16 @@ struct MeshPart {
     std::uint64_t index_count = 0;
 };
 
-/// Where read_vertices() writes: each pointer is that of the first vertex, or null for what is not
-/// wanted; the next vertex is `stride` bytes after it. For a buffer of interleaved vertices all
-/// pointers lie in the first one.
+/// Output arrays of read_vertices(). Each pointer is the place for the first vertex, or null to skip
+/// the attribute; the next vertex is `stride` bytes later. For interleaved vertices all pointers are
+/// within the first vertex.
 struct VertexTarget {
     void* positions = nullptr;           // 3 floats
     void* normals = nullptr;             // 3 floats
     void* texture_coordinates = nullptr; // 2 floats
     void* tangents = nullptr;            // 4 floats
     void* colours = nullptr;             // 4 floats: linear red, green, blue, 1
-    std::size_t stride = 0;              // of all; 0: each array is packed
+    std::size_t stride = 0;              // bytes, of all arrays; 0: each array is packed
 };
 
 /// Triangles, counter-clockwise seen from outside. Cheap to copy, immutable, safe to use from
@@ -198,7 +198,7 @@ public:
     tangents() const;                                      // may be empty; w: sign of the bitangent
     [[nodiscard]] std::span<const Colour> colours() const; // of each vertex
     [[nodiscard]] std::uint64_t index_count() const;       // three for each triangle
-    /// Writes indices `first` to `first + count`, which the mesh keeps in a packed form.
+    /// Writes the indices [first, first + count), which the mesh stores in a packed form.
     /// Precondition: first + count <= index_count().
     void read_indices(std::uint64_t first, std::uint64_t count, std::uint32_t* to) const;
     /// Writes all vertices, on several threads.

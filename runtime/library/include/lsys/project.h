@@ -1,5 +1,5 @@
-// Project: what all calls share: where files come from, how much may be used, and how a long call is
-// watched and ended.
+// Project: the input that all calls share: the source of files, limits, and functions to observe and
+// cancel long calls.
 #pragma once
 
 #include <atomic>
@@ -18,24 +18,24 @@ struct FileContents {
     std::string reason;
 };
 
-/// How far a derivation is.
+/// Progress of a derivation.
 struct Progress {
-    std::uint32_t generation = 0; // being derived
+    std::uint32_t generation = 0; // generation being derived
     std::uint32_t generations = 0;
-    std::uint64_t modules = 0; // written so far of this generation
+    std::uint64_t modules = 0; // modules of this generation written so far
 };
 
-/// Functions of the caller. They are called from any thread, but never from two at once. An
-/// exception that one throws ends the call, which throws it on.
+/// Functions of the caller. They are called from any thread, but never from two at once. An exception
+/// thrown by one of them ends the library call, which rethrows it.
 struct Host {
-    /// Reads a file: grammars, their includes, meshes, pictures, scenes. Unset: the files of the
-    /// system.
+    /// Reads a file: grammars, their includes, meshes, pictures, scenes. Unset: files are read from
+    /// disk.
     std::function<FileContents(const std::string& path)> read_file;
-    /// Called some times a second and after each generation; returns false to end the call with
+    /// Called several times per second and after each generation; returns false to end the call with
     /// Status::Cancelled. May be unset.
     std::function<bool(const Progress& progress)> progress;
-    /// Another thread sets it to true to end the call with Status::Cancelled; the call does so itself
-    /// if a function ends it. May be null.
+    /// Set to true by another thread to end the call with Status::Cancelled. The call sets it too if
+    /// a function ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
 };
 
@@ -49,7 +49,7 @@ struct Project {
     Host host;
     Limits limits;
     std::uint32_t threads = 0;      // 0: as many as the machine has
-    std::vector<std::string> deny;  // codes of warnings that are errors; "warnings": all
+    std::vector<std::string> deny;  // codes of warnings that count as errors; "warnings": all
     std::vector<std::string> allow; // codes that are not reported
 };
 

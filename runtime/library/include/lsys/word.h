@@ -1,5 +1,5 @@
-// Word: a derived string of modules, packed: a code for each module, and the binary32 parameters of
-// those codes that store any, in order.
+// Word: a derived string of modules in packed form: a code for each module, and the stored binary32
+// parameters of all modules, in order.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@ struct DeriveOptions {
     std::optional<std::uint64_t> seed;        // unset: Grammar::seed()
 };
 
-/// What a code of a word stands for. A module whose arguments are the same wherever it is written
-/// has a code with `constants`, and stores no parameters.
+/// The meaning of a code of a word. A code may include constant arguments, `constants`; its modules
+/// then store no parameters.
 struct ModuleKind {
     std::string name;                    // "F", "+", "leaf"
-    std::uint32_t stored_parameters = 0; // in Word::parameters() for each such module
-    std::vector<float> constants;        // its parameters, if none are stored
+    std::uint32_t stored_parameters = 0; // number of items in Word::parameters() for each module
+    std::vector<float> constants;        // parameters of each module, if none are stored
 };
 
-/// A module of a word. Valid as long as the word.
+/// A module of a word. Valid as long as the word exists.
 struct Module {
     std::string_view name;
     std::span<const float> parameters;
@@ -49,18 +49,18 @@ public:
     [[nodiscard]] std::uint32_t code_bytes() const;
     /// The stored parameters of all modules, in order.
     [[nodiscard]] std::span<const float> parameters() const;
-    /// By code.
+    /// The kinds of modules, indexed by code.
     [[nodiscard]] const std::vector<ModuleKind>& kinds() const;
 
     /// Calls visit(module) for modules `first` to `first + count` in order, until it returns false.
-    /// Finding the first takes time linear in `first`.
+    /// Finding the first module takes time linear in `first`.
     void visit(std::uint64_t first,
                std::uint64_t count,
                const std::function<bool(const Module& module)>& visit) const;
     /// The text of the word, which parses again as an axiom of its grammar.
     [[nodiscard]] std::string text() const;
-    /// Hands the text to `write` in pieces, until it returns false. Returns whether all was
-    /// written.
+    /// Calls `write` with the text in pieces, until it returns false. Returns whether the whole text
+    /// was written.
     bool write_text(const std::function<bool(std::string_view piece)>& write) const;
 
     struct Data;
