@@ -88,6 +88,18 @@ function(lsys_target_name folder result)
   set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
+# Sub-folders of runtime/platform with code of other systems than the one that the build is for.
+if(WIN32)
+  set(LSYS_OTHER_SYSTEMS posix linux macos web)
+elseif(EMSCRIPTEN)
+  set(LSYS_OTHER_SYSTEMS linux macos windows)
+elseif(APPLE)
+  set(LSYS_OTHER_SYSTEMS linux windows web)
+else()
+  set(LSYS_OTHER_SYSTEMS macos windows web polled)
+endif()
+list(JOIN LSYS_OTHER_SYSTEMS "|" LSYS_OTHER_SYSTEMS)
+
 # lsys_folder(FOLDER PACKAGES...): adds the library of a folder of cmake/Layers.cmake, from all sources in the folder
 # and its private sub-folders. Links it to the libraries of the folders that the table lists, and to PACKAGES.
 function(lsys_folder folder)
@@ -101,7 +113,7 @@ function(lsys_folder folder)
       list(APPEND sources "${source}")
     endif()
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/")
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/|/runtime/platform/(${LSYS_OTHER_SYSTEMS})/")
   lsys_library(${name} ${sources})
   lsys_layer_includes(${folder} included)
   foreach(other ${included})
