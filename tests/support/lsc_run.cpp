@@ -1,6 +1,7 @@
 #include "tests/support/lsc_run.h"
 
 #include "runtime/cli/lsc.h"
+#include "runtime/platform/process.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +10,6 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace lsys::tests {
 
@@ -59,7 +59,7 @@ void write_text(const fs::path& path, std::string_view text) {
 ScratchFolder::ScratchFolder() {
     static std::atomic<int> number{0};
     path_ = fs::temp_directory_path() /
-            ("lsc-test-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
+            ("lsc-test-" + std::to_string(platform::process_id()) + "-" + std::to_string(++number));
     fs::remove_all(path_);
     fs::create_directories(path_);
 }

@@ -1,6 +1,7 @@
 #include "tests/support/ui_runner.h"
 
 #include "runtime/cli/lsc.h"
+#include "runtime/platform/process.h"
 #include "tests/support/ui_case.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,6 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
-#include <unistd.h>
 
 namespace lsys::tests {
 
@@ -43,7 +43,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 class Scratch {
 public:
     Scratch() : before_(fs::current_path()) {
-        path_ = fs::temp_directory_path() / ("lsc-ui-" + std::to_string(::getpid()));
+        path_ = fs::temp_directory_path() / ("lsc-ui-" + std::to_string(platform::process_id()));
         fs::remove_all(path_);
         fs::create_directories(path_);
     }
