@@ -1,5 +1,6 @@
 #include "runtime/program/files.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/base/size_text.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/platform/file.h"
@@ -117,8 +118,8 @@ std::string errno_text(int reason) {
 
 std::string numbered_path(const std::string& path, std::uint32_t number) {
     std::filesystem::path name(path);
-    const std::string extension = name.extension().string();
-    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
+    const std::string extension = path_text(name.extension());
+    return path_text(name.replace_extension(fmt::format(".{:04}{}", number, extension)));
 }
 
 void report_complete_frames(const std::string& path,
