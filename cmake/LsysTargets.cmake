@@ -16,8 +16,7 @@ mark_as_advanced(LSYS_FAST_FLOAT)
 if(NOT LSYS_HAS_FLOAT_CHARS AND NOT LSYS_FAST_FLOAT)
   message(FATAL_ERROR "fast_float is missing, which numbers need with this standard library: install libfast-float-dev")
 endif()
-target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>"
-  "LSYS_PORTABLE_CHARS=$<NOT:$<BOOL:${LSYS_HAS_FLOAT_CHARS}>>")
+target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>")
 # Every target links fmt and glm, because the precompiled headers include them.
 target_link_libraries(lsys_options INTERFACE fmt::fmt glm::glm)
 target_compile_options(lsys_options INTERFACE

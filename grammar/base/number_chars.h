@@ -1,12 +1,15 @@
 // Numbers as characters, by std::from_chars and std::to_chars. The only place that calls them for
-// floating-point numbers: where the standard library lacks those (libc++), the build sets
-// LSYS_PORTABLE_CHARS, and impl/portable_chars.h gives the same values and the same characters.
+// floating-point numbers: where the standard library lacks those (libc++), impl/portable_chars.h
+// gives the same values and the same characters.
 #pragma once
 
 #include <charconv>
 #include <concepts>
 
-#if LSYS_PORTABLE_CHARS
+#if defined(__cpp_lib_to_chars)
+#define LSYS_PORTABLE_CHARS 0
+#else
+#define LSYS_PORTABLE_CHARS 1
 #include "grammar/base/impl/portable_chars.h"
 #endif
 
