@@ -19,7 +19,8 @@ set(LSYS_LAYERS
   "compiler/lower: grammar/base compiler/bytecode compiler/program"
   "compiler: grammar/base grammar/ast compiler/bytecode compiler/program compiler/resolve compiler/lint compiler/lower"
   "compiler/instancing: grammar/base compiler/bytecode compiler/program compiler/lower"
-  "runtime/base: grammar/base"
+  "runtime/platform:"
+  "runtime/base: grammar/base runtime/platform"
   "runtime/derive: grammar/base compiler/bytecode runtime/base"
   "runtime/turtle: grammar/base compiler/bytecode runtime/base runtime/derive"
   "runtime/meshing: grammar/base runtime/base runtime/turtle"
@@ -30,13 +31,13 @@ set(LSYS_LAYERS
   "runtime/scene: grammar/base runtime/base runtime/derive runtime/forest runtime/terrain runtime/placement"
   "runtime/export: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/forest"
   "runtime/pipeline: grammar/base grammar/ast grammar/lsys grammar/dialects compiler/bytecode compiler/growth compiler/program compiler compiler/instancing runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/placement runtime/scene"
-  "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
-  "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
+  "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
+  "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
   "runtime/library: grammar/base grammar/rendering compiler/bytecode compiler/growth compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/export runtime/pipeline runtime/program"
   "runtime/python:"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
-  "viewer/app: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
+  "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
 
 # lsys_layer(PATH RESULT): sets RESULT to the innermost folder of the table that contains PATH.
 function(lsys_layer path result)

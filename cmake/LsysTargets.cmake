@@ -5,6 +5,17 @@
 # changes values.
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
+# Whether the standard library reads and writes floating-point numbers by std::from_chars and std::to_chars; libc++ 13
+# does not. Then grammar/base/impl/portable_chars.cpp does, which needs fast_float.
+include(CheckCXXSourceCompiles)
+check_cxx_source_compiles("#include <charconv>
+  int main() { char b[32]; float x = 1; std::to_chars(b, b + 32, x); return std::from_chars(b, b + 32, x).ptr == b; }"
+  LSYS_HAS_FLOAT_CHARS)
+find_path(LSYS_FAST_FLOAT fast_float/fast_float.h)
+mark_as_advanced(LSYS_FAST_FLOAT)
+if(NOT LSYS_HAS_FLOAT_CHARS AND NOT LSYS_FAST_FLOAT)
+  message(FATAL_ERROR "fast_float is missing, which numbers need with this standard library: install libfast-float-dev")
+endif()
 target_compile_definitions(lsys_options INTERFACE "LSYS_THREADS=$<BOOL:${LSYS_THREADS}>")
 # Every target links fmt and glm, because the precompiled headers include them.
 target_link_libraries(lsys_options INTERFACE fmt::fmt glm::glm)
@@ -88,6 +99,18 @@ function(lsys_target_name folder result)
   set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
+# Sub-folders of runtime/platform with code of other systems than the one that the build is for.
+if(WIN32)
+  set(LSYS_OTHER_SYSTEMS posix linux macos web)
+elseif(EMSCRIPTEN)
+  set(LSYS_OTHER_SYSTEMS linux macos windows)
+elseif(APPLE)
+  set(LSYS_OTHER_SYSTEMS linux windows web)
+else()
+  set(LSYS_OTHER_SYSTEMS macos windows web polled)
+endif()
+list(JOIN LSYS_OTHER_SYSTEMS "|" LSYS_OTHER_SYSTEMS)
+
 # lsys_folder(FOLDER PACKAGES...): adds the library of a folder of cmake/Layers.cmake, from all sources in the folder
 # and its private sub-folders. Links it to the libraries of the folders that the table lists, and to PACKAGES.
 function(lsys_folder folder)
@@ -101,7 +124,7 @@ function(lsys_folder folder)
       list(APPEND sources "${source}")
     endif()
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/")
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/|/runtime/platform/(${LSYS_OTHER_SYSTEMS})/|/portable_chars\\.cpp$")
   lsys_library(${name} ${sources})
   lsys_layer_includes(${folder} included)
   foreach(other ${included})

@@ -2,10 +2,10 @@
 
 #include "compiler/bytecode/instructions.h"
 #include "grammar/base/counted_text.h"
+#include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -45,7 +45,7 @@ private:
 
     static std::string real(float value) {
         char buffer[32];
-        const auto end = std::to_chars(std::begin(buffer), std::end(buffer), value).ptr;
+        const auto end = number_to_chars(std::begin(buffer), std::end(buffer), value).ptr;
         return {buffer, end};
     }
 

@@ -1,9 +1,10 @@
 #include "compiler/program/message_words.h"
 
+#include "grammar/base/number_chars.h"
+
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 
 namespace lsys {
 
@@ -19,7 +20,7 @@ std::string quoted(std::string_view name) {
 
 std::string number_text(float value) {
     std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    const auto result = number_to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return {buffer.data(), result.ptr};
 }
 

@@ -3,10 +3,10 @@
 #include "compiler/bytecode/distributions.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/counted_text.h"
+#include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -19,7 +19,7 @@ namespace {
 
 void append_number(std::string& out, float value) {
     char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    const auto end = number_to_chars(buffer, buffer + sizeof buffer, value).ptr;
     out.append(buffer, end);
 }
 

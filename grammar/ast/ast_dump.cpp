@@ -1,6 +1,9 @@
 #include "grammar/ast/ast_dump.h"
 
-#include <charconv>
+#include "grammar/base/number_chars.h"
+
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -278,7 +281,7 @@ private:
 
     void number(float value) {
         char buffer[32];
-        out_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+        out_.append(buffer, number_to_chars(buffer, buffer + sizeof buffer, value).ptr);
     }
 
     const Ast& ast_;

@@ -1,6 +1,7 @@
 #include "grammar/ast/include_chain.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/paths.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,11 +35,8 @@ std::string normalised_path(std::string_view path) {
 }
 
 std::string path_beside(std::string_view including, std::string_view path) {
-    const std::size_t slash = including.rfind('/');
-    if (path.starts_with('/') || slash == std::string_view::npos) {
-        return std::string(path);
-    }
-    return std::string(including.substr(0, slash + 1)) + std::string(path);
+    return is_absolute_path(path) ? std::string(path)
+                                  : std::string(folder_of_path(including)) + std::string(path);
 }
 
 IncludeChain::IncludeChain(const ParseContext& context, FileId root) : context_(context) {

@@ -2,8 +2,8 @@
 
 #include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
+#include "grammar/base/number_chars.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
@@ -56,7 +56,7 @@ Literal read_literal(std::string_view text) {
         }
     }
     float value = 0.0F;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     LSYS_CHECK(error == std::errc::result_out_of_range ||
                (error == std::errc{} && end == text.data() + text.size()));
     if (error == std::errc::result_out_of_range || std::isinf(value)) {

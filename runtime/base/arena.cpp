@@ -1,16 +1,16 @@
 #include "runtime/base/arena.h"
 
-#include "runtime/base/huge_pages.h"
+#include "runtime/platform/memory.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <sys/mman.h>
 #include <utility>
 
 namespace lsys {
 
 namespace {
+
+using platform::kHugePage;
 
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
 constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
@@ -19,32 +19,10 @@ constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
 constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 /// Min bytes of address space of a large arena; only pages that are written take memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
+static_assert(kMaxSmallArena % platform::kPage == 0);
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) {
     return (bytes + unit - 1) / unit * unit;
-}
-
-std::byte* map(std::size_t bytes) {
-    void* address = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    return address == MAP_FAILED ? nullptr : static_cast<std::byte*>(address);
-}
-
-/// Maps `bytes`, a multiple of kHugePage, at an address that is a multiple of kHugePage.
-std::byte* map_aligned(std::size_t bytes) {
-    std::byte* const begin = map(bytes + kHugePage);
-    if (begin == nullptr) {
-        return nullptr;
-    }
-    const std::size_t head =
-        (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
-    if (head != 0) {
-        munmap(begin, head);
-    }
-    if (head != kHugePage) {
-        munmap(begin + head + bytes, kHugePage - head);
-    }
-    return begin + head;
 }
 
 } // namespace
@@ -70,7 +48,7 @@ Arena& Arena::operator=(Arena&& other) noexcept {
 
 void Arena::release() {
     if (data_ != nullptr) {
-        munmap(data_, capacity_);
+        platform::release_memory(data_, capacity_);
     }
     data_ = nullptr;
     capacity_ = 0;
@@ -86,13 +64,15 @@ bool Arena::reserve(std::size_t bytes) {
         release();
         if (bytes <= kMaxSmallArena) {
             capacity_ = kMaxSmallArena;
-            data_ = map(capacity_);
+            data_ = platform::reserve_memory(capacity_, platform::kPage);
         } else {
-            capacity_ = std::max(round_up(bytes, kHugePage) * 4, kLargeReservation);
-            data_ = map_aligned(capacity_);
+            if (platform::kReservesPages) {
+                capacity_ = std::max(round_up(bytes, kHugePage) * 4, kLargeReservation);
+                data_ = platform::reserve_memory(capacity_, kHugePage);
+            }
             if (data_ == nullptr) {
                 capacity_ = round_up(bytes, kHugePage);
-                data_ = map_aligned(capacity_);
+                data_ = platform::reserve_memory(capacity_, kHugePage);
             }
         }
         if (data_ == nullptr) {
@@ -100,7 +80,12 @@ bool Arena::reserve(std::size_t bytes) {
             return false;
         }
     }
-    used_ = std::max(used_, bytes);
+    if (bytes > used_) {
+        if (!platform::commit_memory(data_ + used_, bytes - used_)) {
+            return false;
+        }
+        used_ = bytes;
+    }
     advise();
     return true;
 }
@@ -113,7 +98,7 @@ void Arena::advise() {
     const std::size_t rest = used_ % kHugePage;
     const std::size_t end = used_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
     if (end > advised_) {
-        advise_huge_pages(data_ + advised_, end - advised_);
+        platform::advise_huge_pages(data_ + advised_, end - advised_);
         advised_ = end;
     }
 }

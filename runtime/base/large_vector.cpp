@@ -1,12 +1,14 @@
 #include "runtime/base/large_vector.h"
 
-#include "runtime/base/huge_pages.h"
+#include "runtime/platform/memory.h"
 
 #include <new>
 
 namespace lsys {
 
 namespace {
+
+using platform::kHugePage;
 
 constexpr std::size_t kLarge = 2 * kHugePage; // bytes; smaller blocks get no huge pages
 
@@ -17,7 +19,7 @@ void* allocate_large(std::size_t bytes) {
         return ::operator new(bytes);
     }
     void* const address = ::operator new (bytes, std::align_val_t{kHugePage});
-    advise_huge_pages(address, bytes);
+    platform::advise_huge_pages(address, bytes);
     return address;
 }
 

@@ -1,4 +1,5 @@
 #include "grammar/base/counted_text.h"
+#include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/cli/export_stats.h"
@@ -64,11 +65,11 @@ ExitStatus add_side_files(Export& run,
                           OutputSet& files) {
     // Each level of detail has pictures of its own; all frames share theirs.
     info.picture_prefix = run.command.lods != 0
-                              ? path.stem().string()
-                              : std::filesystem::path(run.command.output).stem().string();
+                              ? path_text(path.stem())
+                              : path_text(std::filesystem::path(run.command.output).stem());
     const bool separate = run.command.buffers == BufferPlace::Separate;
     const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
-    info.buffer_name = separate ? buffer.filename().string() : std::string();
+    info.buffer_name = separate ? path_text(buffer.filename()) : std::string();
     std::vector<PictureFile> pictures;
     ExitStatus status = run.console.take(make_picture_files(run.mesh, run.format, info), pictures);
     if (status != ExitStatus::Ok) {
@@ -85,7 +86,7 @@ ExitStatus add_side_files(Export& run,
         }
     }
     if (separate) {
-        return files.add(buffer.string(), [&](const ByteSink& sink) {
+        return files.add(path_text(buffer), [&](const ByteSink& sink) {
             return write_gltf_buffer(run.mesh, skeleton, info, sink);
         });
     }
@@ -93,8 +94,8 @@ ExitStatus add_side_files(Export& run,
         return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
-    info.mtl_name = library.filename().string();
-    return files.add(library.string(),
+    info.mtl_name = path_text(library.filename());
+    return files.add(path_text(library),
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
@@ -143,10 +144,10 @@ ExitStatus mesh_wanted_level(Export& run, const Skeleton& skeleton, const MeshOp
 ExportInfo export_info(const Export& run) {
     const ExportCommand& command = run.command;
     ExportInfo info;
-    info.grammar = std::filesystem::path(command.file).filename().string();
+    info.grammar = path_text(std::filesystem::path(command.file).filename());
     // Nodes are named after the output, else after the grammar; exporters have a default name.
     const std::string& named = command.output == "-" ? command.file : command.output;
-    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
+    info.name = named == "-" ? "" : path_text(std::filesystem::path(named).stem());
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = "lsc " LSC_VERSION;
@@ -330,7 +331,7 @@ ExitStatus write_lods(Export& run, const Skeleton& skeleton) {
                     return export_mesh(run.mesh, placed, run.format, info, sink);
                 });
             }
-            list.push_back({.name = std::filesystem::path(path).filename().string(),
+            list.push_back({.name = path_text(std::filesystem::path(path).filename()),
                             .triangles = run.mesh.indices.size() / 3,
                             .pixels = run.levels.levels[i].pixels,
                             .coverage = meshes[i].coverage});
@@ -888,7 +889,7 @@ namespace {
 /// The output name corrected by exchanging two letters of its extension or replacing one; empty: none.
 std::string nearest_output(const std::string& output) {
     const std::size_t dot = output.rfind('.');
-    if (dot == std::string::npos || output.find('/', dot) != std::string::npos) {
+    if (dot == std::string::npos || dot < folder_of_path(output).size()) {
         return {};
     }
     std::string ending = output.substr(dot + 1);

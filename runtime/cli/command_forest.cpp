@@ -1,3 +1,4 @@
+#include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_set.h"
 #include "runtime/cli/surface_options.h"
@@ -201,7 +202,7 @@ ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
                         OutputSet& outputs) {
     for (const PictureFile& picture : pictures) {
         const std::string beside =
-            (std::filesystem::path(path).parent_path() / picture.name).string();
+            path_text(std::filesystem::path(path).parent_path() / picture.name);
         const ExitStatus added = outputs.add(
             beside, [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (added != ExitStatus::Ok) {
@@ -224,7 +225,7 @@ glm::vec3 pivot_of(const Run& run) {
 
 ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string& path) {
     ForestExportInfo info;
-    info.name = std::filesystem::path(path).stem().string();
+    info.name = path_text(std::filesystem::path(path).stem());
     info.generator = "lsc " LSC_VERSION;
     constexpr float kCell = 100.0F;
     const bool whole_trees = run.command.instances != ForestInstances::Branches;
@@ -236,7 +237,7 @@ ExitStatus write_instances(Run& run, const ForestScene& scene, const std::string
     info.collision_names = run.command.collision_names;
     info.threads = run.command.run.threads;
     info.compression = run.command.compression.value_or(ExportCompression::None);
-    info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+    info.picture_prefix = path_text(std::filesystem::path(run.command.output).stem());
     OutputSet outputs(run.console); // pictures are added before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
@@ -271,7 +272,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     ExportInfo info;
     info.subject = ExportSubject::Forest;
     info.unit = run.command.unit;
-    info.grammar = std::filesystem::path(path).stem().string();
+    info.grammar = path_text(std::filesystem::path(path).stem());
     info.seed = run.grown.forest.key;
     info.generator = "lsc " LSC_VERSION;
     info.threads = options.threads;
@@ -283,7 +284,7 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
     if (path == "-") {
         info.textures = format.pictures == ExportPictures::Inside;
     } else {
-        info.picture_prefix = std::filesystem::path(run.command.output).stem().string();
+        info.picture_prefix = path_text(std::filesystem::path(run.command.output).stem());
         std::vector<PictureFile> pictures;
         status = run.console.take(make_picture_files(mesh, run.target.format, info), pictures);
         if (status == ExitStatus::Ok) {
@@ -292,8 +293,8 @@ ExitStatus write_baked(Run& run, const ForestScene& scene, const std::string& pa
         if (status == ExitStatus::Ok && format.has_mtl) {
             const std::filesystem::path library =
                 std::filesystem::path(path).replace_extension(".mtl");
-            info.mtl_name = library.filename().string();
-            status = outputs.add(library.string(),
+            info.mtl_name = path_text(library.filename());
+            status = outputs.add(path_text(library),
                                  [&](const ByteSink& sink) { return write_mtl(mesh, info, sink); });
         }
         if (status != ExitStatus::Ok) {

@@ -1,4 +1,5 @@
 #include "grammar/base/counted_text.h"
+#include "grammar/base/paths.h"
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"
@@ -73,7 +74,7 @@ ExitStatus import_text(const std::string& path,
             return report_error(changed.error(), console);
         }
         imported.text = fmt::format(
-            "// Imported from `{}`, {}{}.\n{}", fs::path(shown_path(path)).filename().string(),
+            "// Imported from `{}`, {}{}.\n{}", path_text(fs::path(shown_path(path)).filename()),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
             format_text(changed.value()));
@@ -132,7 +133,7 @@ std::string unused_path(const std::string& stem, FolderImport& import) {
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
         name = fmt::format("{}-{}.lsys", stem, number);
     }
-    return (import.folder / name).string();
+    return path_text(import.folder / name);
 }
 
 /// Writes a file whose name the program chose; replaces an existing file only with --force.
@@ -224,7 +225,7 @@ Result<void> make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     return error ? Result<void>(Error{fmt::format("cannot make the folder `{}`: {}",
-                                                  folder.string(), error.message())})
+                                                  path_text(folder), error.message())})
                  : Result<void>();
 }
 
@@ -259,18 +260,18 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
         if (path.extension() == ".lsb") {
             continue;
         }
-        Outcome<GrammarText> text = read_grammar(path.string(), command.grammar.dialect,
+        Outcome<GrammarText> text = read_grammar(path_text(path), command.grammar.dialect,
                                                  make_project(console, command.run));
         if (!text || text.value().dialect == Dialect::Lsys) {
             continue;
         }
         const bool several = has_systems(text.value().dialect) && command.grammar.system.empty() &&
                              systems_in(text.value().dialect, text.value().bytes).size() > 1;
-        const std::string name = path.filename().string();
+        const std::string name = path_text(path.filename());
         const Result<void> result =
-            several
-                ? import_systems(path.string(), text.value(), name + ".", import)
-                : import_one(path.string(), std::move(text.value()), command.grammar, name, import);
+            several ? import_systems(path_text(path), text.value(), name + ".", import)
+                    : import_one(path_text(path), std::move(text.value()), command.grammar, name,
+                                 import);
         if (!result) {
             return report_error(result.error(), console);
         }
@@ -291,7 +292,7 @@ import_to_folder(const ImportCommand& command, const GrammarText& text, const Co
 
 bool is_folder(const std::string& path) {
     std::error_code error;
-    return path.ends_with('/') || (!path.empty() && fs::is_directory(path, error));
+    return names_folder(path) || (!path.empty() && fs::is_directory(path, error));
 }
 
 } // namespace

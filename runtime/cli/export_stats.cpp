@@ -1,22 +1,15 @@
 #include "runtime/cli/export_stats.h"
 
 #include "runtime/derive/runtime_diagnostic.h"
+#include "runtime/platform/memory.h"
 #include "runtime/turtle/turtle_diagnostic.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
-
 namespace lsys::lsc {
 
 namespace {
-
-std::uint64_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) << 10;
-}
 
 std::string number_text(double value) {
     return fmt::format("{:.4g}", value);
@@ -59,7 +52,7 @@ std::string export_stats_text(const Plant& plant, const Mesh& mesh, const Export
     }
     row("mesh", milliseconds(timing.mesh_seconds));
     row("file", milliseconds(timing.write_seconds));
-    row("peak memory", byte_size_text(peak_memory()));
+    row("peak memory", byte_size_text(platform::peak_memory()));
     return text;
 }
 
@@ -88,7 +81,7 @@ std::string export_stats_json(const Plant& plant, const Mesh& mesh, const Export
     stages["physics"] = 1e3 * timing.physics_seconds;
     stages["mesh"] = 1e3 * timing.mesh_seconds;
     stages["file"] = 1e3 * timing.write_seconds;
-    object["peak_memory_bytes"] = peak_memory();
+    object["peak_memory_bytes"] = platform::peak_memory();
     return object.dump() + '\n';
 }
 

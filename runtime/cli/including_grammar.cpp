@@ -1,5 +1,7 @@
 #include "runtime/cli/including_grammar.h"
 
+#include "grammar/base/paths.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -75,7 +77,7 @@ std::optional<std::string> find_including_grammar(const std::string& path) {
     for (const fs::path& folder : {part.parent_path(), part.parent_path().parent_path()}) {
         for (const fs::path& grammar : grammars_in(folder)) {
             if (grammar != part && includes(grammar, part)) {
-                return grammar.lexically_proximate(fs::current_path(failed)).string();
+                return path_text(grammar.lexically_proximate(fs::current_path(failed)));
             }
         }
     }

@@ -1,5 +1,7 @@
 #include "runtime/cli/lod_files.h"
 
+#include "grammar/base/paths.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -40,12 +42,12 @@ double lod_distance(const PlantExtent& extent, float pixels) {
 
 std::string lod_path(const std::string& path, std::size_t number) {
     std::filesystem::path name(path);
-    const std::string extension = name.extension().string();
-    return name.replace_extension(fmt::format(".LOD{}{}", number, extension)).string();
+    const std::string extension = path_text(name.extension());
+    return path_text(name.replace_extension(fmt::format(".LOD{}{}", number, extension)));
 }
 
 std::string lods_json_path(const std::string& path) {
-    return std::filesystem::path(path).replace_extension(".lods.json").string();
+    return path_text(std::filesystem::path(path).replace_extension(".lods.json"));
 }
 
 std::string

@@ -1,9 +1,9 @@
 #include "runtime/derive/word_text.h"
 
 #include "grammar/base/names.h"
+#include "grammar/base/number_chars.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 
 namespace lsys {
@@ -26,7 +26,7 @@ bool is_one_character(std::string_view name) {
 }
 
 char* put_number(char* at, float value) {
-    return std::to_chars(at, at + kNumberBytes, value).ptr;
+    return number_to_chars(at, at + kNumberBytes, value).ptr;
 }
 
 } // namespace

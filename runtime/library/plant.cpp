@@ -1,4 +1,5 @@
 #include "compiler/bytecode/turtle_operation.h"
+#include "grammar/base/paths.h"
 #include "runtime/base/workers.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
@@ -176,7 +177,7 @@ Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Pr
         [&] { return grow_plant(inner, copy, call.project()); },
         [&](::lsys::Plant plant) {
             return Plant(std::make_shared<const Plant::Data>(Plant::Data{
-                std::move(plant), std::filesystem::path(inner.file).filename().string()}));
+                std::move(plant), path_text(std::filesystem::path(inner.file).filename())}));
         });
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/meshing/user_mesh.h"
 
 #include "grammar/base/hash.h"
+#include "grammar/base/number_chars.h"
 #include "runtime/base/size_text.h"
 
 #include <fmt/format.h>
@@ -250,7 +251,7 @@ private:
         }
         double value = 0.0;
         const char* const end = digits.data() + digits.size();
-        const auto [stop, problem] = std::from_chars(digits.data(), end, value);
+        const auto [stop, problem] = number_from_chars(digits.data(), end, value);
         if (stop != end || problem == std::errc::invalid_argument) {
             return std::nullopt;
         }
@@ -510,7 +511,7 @@ ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
 /// The number written as `word`; 1 if it is no number.
 float number_of(std::string_view word) {
     float number = 1.0F;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const auto [end, failure] = number_from_chars(word.data(), word.data() + word.size(), number);
     return failure == std::errc() && end == word.data() + word.size() && std::isfinite(number)
                ? number
                : 1.0F;

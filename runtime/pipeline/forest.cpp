@@ -1,6 +1,7 @@
 #include "runtime/pipeline/forest.h"
 
 #include "compiler/instancing/instance.h"
+#include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/forest/tree_heights.h"
 #include "runtime/meshing/texture.h"
@@ -33,7 +34,8 @@ std::string path_in(const std::string& folder, const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(folder) / path;
     const std::filesystem::path normal = whole.lexically_normal();
     std::error_code missing;
-    return std::filesystem::equivalent(whole, normal, missing) ? normal.string() : whole.string();
+    return std::filesystem::equivalent(whole, normal, missing) ? path_text(normal)
+                                                               : path_text(whole);
 }
 
 /// Axioms whose NoVariety note has been given: path of the file and offset of the axiom.
@@ -69,7 +71,7 @@ Scene scene_of(const std::vector<std::string>& grammars) {
     scene.placement.count = kDefaultCount;
     for (const std::string& path : grammars) {
         SceneSpecies& species = scene.species.emplace_back();
-        species.name = std::filesystem::path(path).stem().string();
+        species.name = path_text(std::filesystem::path(path).stem());
         species.grammar.path = path;
         scene.placement.species.emplace_back();
     }
@@ -388,7 +390,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
             return step.end(Stop::Diagnosed);
         }
         loaded.scene = std::move(*read);
-        loaded.folder = std::filesystem::path(path).parent_path().string();
+        loaded.folder = path_text(std::filesystem::path(path).parent_path());
     }
     if (!values_of("seed", overrides.grammar.settings).empty()) {
         return step.fail("--set seed: plants of a forest have seeds of their own, from --seed");

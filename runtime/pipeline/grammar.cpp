@@ -3,6 +3,7 @@
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
 #include "grammar/base/message_levels.h"
+#include "grammar/base/paths.h"
 #include "grammar/dialects/other_language.h"
 #include "grammar/lsys/parse_with_names.h"
 #include "runtime/pipeline/setting_options.h"
@@ -148,7 +149,7 @@ std::string standard_input_as(const std::string& name) {
 }
 
 std::string standard_input_in(const std::string& folder) {
-    return folder.empty() ? "-" : folder + (folder.ends_with('/') ? "" : "/") + kStandardInput;
+    return folder.empty() ? "-" : folder + (names_folder(folder) ? "" : "/") + kStandardInput;
 }
 
 bool is_standard_input(const std::string& path) {

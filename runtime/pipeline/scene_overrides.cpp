@@ -1,5 +1,7 @@
 #include "runtime/pipeline/scene_overrides.h"
 
+#include "grammar/base/paths.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +24,7 @@ void replace_if_set(const std::optional<Value>& option, Target& target) {
 
 Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain) {
     const auto absolute = [](const std::string& path) {
-        return SceneFile{std::filesystem::absolute(path).string(), {}};
+        return SceneFile{path_text(std::filesystem::absolute(path)), {}};
     };
     if (!overrides.ground_picture.empty()) {
         terrain.colour = absolute(overrides.ground_picture);
@@ -157,7 +159,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     const bool dominates = placement.method == PlacementMethod::Domination;
     replace_if_set(overrides.years, dominates ? placement.years : placement.stages_passed);
     if (!overrides.density_map.empty()) {
-        scene.density_map.path = std::filesystem::absolute(overrides.density_map).string();
+        scene.density_map.path = path_text(std::filesystem::absolute(overrides.density_map));
     }
     if (overrides.size) {
         const auto side = static_cast<double>(*overrides.size);

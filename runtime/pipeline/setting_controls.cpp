@@ -1,12 +1,12 @@
 #include "runtime/pipeline/setting_controls.h"
 
 #include "compiler/bytecode/settings.h"
+#include "grammar/base/number_chars.h"
 #include "runtime/pipeline/setting_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace lsys {
@@ -107,7 +107,7 @@ std::optional<std::array<float, 4>> numbers_of(std::string_view values, std::siz
         while (at != end && *at == ' ') {
             ++at;
         }
-        const auto [next, failure] = std::from_chars(at, end, numbers[i]);
+        const auto [next, failure] = number_from_chars(at, end, numbers[i]);
         if (failure != std::errc() || !std::isfinite(numbers[i]) || (next != end && *next != ' ')) {
             return std::nullopt;
         }

@@ -1,11 +1,11 @@
 #include "runtime/program/arguments.h"
 
 #include "grammar/base/names.h"
+#include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 
@@ -24,7 +24,7 @@ template <typename T>
 Parsed<T> parse_all(std::string_view text) {
     Parsed<T> parsed;
     const char* const end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, parsed.value);
+    const auto [last, error] = number_from_chars(text.data(), end, parsed.value);
     parsed.error = error == std::errc() && last != end ? std::errc::invalid_argument : error;
     return parsed;
 }

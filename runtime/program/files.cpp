@@ -1,30 +1,27 @@
 #include "runtime/program/files.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/base/size_text.h"
 #include "runtime/pipeline/grammar.h"
-#include "runtime/program/descriptor.h"
+#include "runtime/platform/file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <istream>
-#include <memory>
-#include <sys/random.h>
-#include <sys/stat.h>
-#include <sys/sysmacros.h>
-#include <unistd.h>
 #include <utility>
 
 namespace lsys {
 
 namespace {
+
+using platform::FileFacts;
+using platform::FileType;
+using platform::Reason;
 
 constexpr std::size_t kReadBytes = std::size_t{1} << 20;
 
@@ -41,47 +38,50 @@ Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
 }
 
 /// The reason to refuse reading a file; empty if it may be read.
-std::string_view refusal_reason(const struct stat& facts, int descriptor, FileKind kind) {
-    if (S_ISDIR(facts.st_mode)) {
+std::string_view refusal_reason(FileType type, FileKind kind) {
+    switch (type) {
+    case FileType::Directory:
         return "it is a directory";
-    }
-    const bool is_null = S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 3);
-    if (S_ISREG(facts.st_mode) || is_null) {
+    case FileType::Regular:
+    case FileType::Null:
         return {};
+    case FileType::Device:
+        return kind == FileKind::Regular ? "it is not a regular file" : "it is a device";
+    case FileType::Missing:
+    case FileType::Link:
+    case FileType::Terminal:
+    case FileType::Other:
+        break;
     }
-    if (kind == FileKind::Regular) {
-        return "it is not a regular file";
-    }
-    const bool is_device = S_ISBLK(facts.st_mode) || S_ISCHR(facts.st_mode);
-    return is_device && ::isatty(descriptor) == 0 ? "it is a device" : "";
+    return kind == FileKind::Regular ? "it is not a regular file" : "";
 }
 
-Result<std::string> read_descriptor(int descriptor,
-                                    std::uint64_t expected,
-                                    const ReadLimit& limit,
-                                    const std::atomic<bool>* cancelled) {
+Result<std::string> read_open_file(const platform::File& file,
+                                   std::uint64_t expected,
+                                   const ReadLimit& limit,
+                                   const std::atomic<bool>* cancelled) {
     const std::uint64_t max_bytes = std::min(limit.max_bytes, limit.memory);
     std::string bytes;
     bytes.reserve(expected + 1);
     while (true) {
         const std::size_t size = bytes.size();
-        // The capacity is one byte more than the expected size, so that read() finds the end of the
-        // file without a larger buffer.
+        // The capacity is one byte more than the expected size, so that reading finds the end of
+        // the file without a larger buffer.
         const std::size_t room = std::max<std::size_t>(bytes.capacity() - size, 1);
         bytes.resize(size + std::min(room, kReadBytes));
-        const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
-        const int reason = errno;
-        bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        const auto [count, reason] =
+            platform::read_some(file, bytes.data() + size, bytes.size() - size);
+        bytes.resize(size + count);
         if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) {
             return Error{"interrupted"};
         }
-        if (count < 0 && reason != EINTR) {
+        if (reason != 0 && reason != EINTR) {
             return Error{errno_text(reason)};
         }
         if (const Result<void> checked = check_size(bytes.size(), limit); !checked) {
             return checked.error();
         }
-        if (count == 0) {
+        if (count == 0 && reason == 0) {
             return bytes;
         }
         if (bytes.size() == bytes.capacity()) {
@@ -94,13 +94,7 @@ Result<std::string> read_descriptor(int descriptor,
 /// Six random letters or digits.
 std::string random_letters() {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
-    std::uint64_t bits = 0;
-    if (::getrandom(&bits, sizeof bits, GRND_NONBLOCK) != sizeof bits) {
-        // No random bytes are available. With O_EXCL the name need not be secret, only different
-        // for each attempt.
-        static std::atomic<std::uint64_t> count{0};
-        bits = (static_cast<std::uint64_t>(::getpid()) << 20) + ++count;
-    }
+    std::uint64_t bits = platform::random_bits();
     std::string letters;
     for (int i = 0; i < 6; ++i) {
         letters += kLetters[bits % kLetters.size()];
@@ -124,8 +118,8 @@ std::string errno_text(int reason) {
 
 std::string numbered_path(const std::string& path, std::uint32_t number) {
     std::filesystem::path name(path);
-    const std::string extension = name.extension().string();
-    return name.replace_extension(fmt::format(".{:04}{}", number, extension)).string();
+    const std::string extension = path_text(name.extension());
+    return path_text(name.replace_extension(fmt::format(".{:04}{}", number, extension)));
 }
 
 void report_complete_frames(const std::string& path,
@@ -163,22 +157,23 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // With O_NONBLOCK open() does not wait for the writer of a pipe; refusal_reason() refuses
-    // pipes.
-    const int mode = kind == FileKind::Regular ? O_NONBLOCK : 0;
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | mode));
-    struct stat facts {};
-    if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
-        return Error{errno_text(errno)};
+    // Without waiting for the writer of a pipe; refusal_reason() refuses pipes.
+    platform::File file;
+    FileFacts facts;
+    Reason reason = platform::open_to_read(path, kind == FileKind::Named, file);
+    if (reason == 0) {
+        reason = platform::facts_of(file, facts);
     }
-    if (const std::string_view reason = refusal_reason(facts, file.get(), kind); !reason.empty()) {
-        return Error{std::string(reason)};
+    if (reason != 0) {
+        return Error{errno_text(reason)};
     }
-    const auto expected = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
-    if (const Result<void> checked = check_size(expected, limit); !checked) {
+    if (const std::string_view refusal = refusal_reason(facts.type, kind); !refusal.empty()) {
+        return Error{std::string(refusal)};
+    }
+    if (const Result<void> checked = check_size(facts.size, limit); !checked) {
         return checked.error();
     }
-    return read_descriptor(file.get(), expected, limit, cancelled);
+    return read_open_file(file, facts.size, limit, cancelled);
 }
 
 Result<std::string>
@@ -200,15 +195,15 @@ Error Output::failure(int reason) const {
 Output::Output(Output&& other) noexcept
     : console_(other.console_), path_(std::move(other.path_)), target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, std::string())),
-      slot_(std::exchange(other.slot_, nullptr)), descriptor_(std::exchange(other.descriptor_, -1)),
+      slot_(std::exchange(other.slot_, nullptr)), file_(std::move(other.file_)),
       is_finished_(other.is_finished_), must_be_new_(other.must_be_new_), state_(other.state_) {}
 
 Output::~Output() {
-    if (descriptor_ >= 0) {
-        ::close(descriptor_);
+    if (file_.is_open()) {
+        static_cast<void>(file_.close()); // before its removal, as Windows demands
     }
     if (!temporary_.empty()) {
-        ::unlink(temporary_.c_str());
+        platform::remove_file(temporary_.c_str());
         clear_temporary();
     }
 }
@@ -220,27 +215,27 @@ void Output::clear_temporary() {
     }
 }
 
-/// Makes an empty file in the folder of target_. If the target exists, the file is made with mode
-/// 0600 and then gets `mode`; else its mode follows the umask.
-Result<void> Output::make_temporary(bool exists, unsigned mode) {
+/// Makes an empty file in the folder of target_. If the target exists, the file is private and then
+/// gets `permissions`; else they follow the umask.
+Result<void> Output::make_temporary(bool exists, unsigned permissions) {
     constexpr int kAttempts = 100;
-    const mode_t first_mode = exists ? 0600 : 0666;
-    for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
+    for (int attempt = 0; attempt < kAttempts && !file_.is_open(); ++attempt) {
         std::string name = target_ + '.' + random_letters();
-        descriptor_ =
-            ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, first_mode);
-        if (descriptor_ >= 0) {
+        const Reason reason = platform::create_file(name, exists, file_);
+        if (reason == 0) {
             slot_ = register_temporary(name);
             temporary_ = std::move(name);
-        } else if (errno != EEXIST) {
-            return failure(errno);
+        } else if (reason != EEXIST) {
+            return failure(reason);
         }
     }
-    if (descriptor_ < 0) {
+    if (!file_.is_open()) {
         return failure(EEXIST);
     }
-    if (exists && ::fchmod(descriptor_, mode) != 0) {
-        return failure(errno);
+    if (exists) {
+        if (const Reason reason = platform::set_permissions(file_, permissions); reason != 0) {
+            return failure(reason);
+        }
     }
     return {};
 }
@@ -250,31 +245,28 @@ Result<Output> Output::open(const std::string& path, const Console& console) {
     if (path == "-") {
         return output;
     }
-    struct stat facts {};
-    const bool exists = ::stat(path.c_str(), &facts) == 0;
-    if (exists && S_ISDIR(facts.st_mode)) {
+    const FileFacts facts = platform::facts_of(path);
+    const bool exists = facts.type != FileType::Missing;
+    if (facts.type == FileType::Directory) {
         return output.failure(EISDIR);
     }
-    if (exists && !S_ISREG(facts.st_mode)) { // a device or a pipe
-        output.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-        if (output.descriptor_ < 0) {
-            return output.failure(errno);
+    if (exists && facts.type != FileType::Regular) { // a device or a pipe
+        if (const Reason reason = platform::open_to_write(path, output.file_); reason != 0) {
+            return output.failure(reason);
         }
         return output;
     }
     output.target_ = path;
     if (exists) {
-        if (::access(path.c_str(), W_OK) != 0) {
-            return output.failure(errno);
+        Reason reason = platform::check_writable(path);
+        if (reason == 0) {
+            reason = platform::resolve_links(path, output.target_);
         }
-        const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
-                                                               &std::free);
-        if (real == nullptr) {
-            return output.failure(errno);
+        if (reason != 0) {
+            return output.failure(reason);
         }
-        output.target_ = real.get();
     }
-    if (Result<void> made = output.make_temporary(exists, facts.st_mode & 0777U); !made) {
+    if (Result<void> made = output.make_temporary(exists, facts.permissions); !made) {
         return made.error();
     }
     return output;
@@ -284,8 +276,7 @@ Result<Output> Output::create(const std::string& path, const Console& console) {
     Output output(console, path);
     output.must_be_new_ = true;
     output.target_ = path;
-    struct stat facts {};
-    if (::lstat(path.c_str(), &facts) == 0) {
+    if (platform::link_facts_of(path).type != FileType::Missing) {
         return output.failure(EEXIST);
     }
     if (Result<void> made = output.make_temporary(false, 0); !made) {
@@ -295,15 +286,15 @@ Result<Output> Output::create(const std::string& path, const Console& console) {
 }
 
 Result<void> Output::write(std::string_view text) {
-    if (descriptor_ < 0) {
+    if (!file_.is_open()) {
         return console_->write(text);
     }
     while (!text.empty()) {
-        const ssize_t count = ::write(descriptor_, text.data(), text.size());
-        if (count < 0 && errno != EINTR) {
-            return failure(errno);
+        const auto [count, reason] = platform::write_some(file_, text.data(), text.size());
+        if (reason != 0 && reason != EINTR) {
+            return failure(reason);
         }
-        text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        text.remove_prefix(count);
     }
     return {};
 }
@@ -312,12 +303,11 @@ Result<void> Output::finish() {
     if (std::exchange(is_finished_, true)) {
         return {};
     }
-    if (descriptor_ < 0) {
+    if (!file_.is_open()) {
         return console_->flush();
     }
-    // Some file systems report a full disk only here.
-    if (::close(std::exchange(descriptor_, -1)) != 0) {
-        return failure(errno);
+    if (const Reason reason = file_.close(); reason != 0) {
+        return failure(reason);
     }
     return {};
 }
@@ -329,13 +319,13 @@ Result<void> Output::commit() {
     if (temporary_.empty()) {
         return {};
     }
-    const unsigned flags = must_be_new_ ? RENAME_NOREPLACE : 0;
-    int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
-    if (failed != 0 && flags != 0 && (errno == EINVAL || errno == ENOSYS)) {
-        failed = ::rename(temporary_.c_str(), target_.c_str()); // create() has found no such file
+    Reason reason = must_be_new_ ? platform::rename_to_new(temporary_, target_)
+                                 : platform::rename_file(temporary_, target_);
+    if (must_be_new_ && (reason == EINVAL || reason == ENOSYS)) {
+        reason = platform::rename_file(temporary_, target_); // create() has found no such file
     }
-    if (failed != 0) {
-        return failure(errno);
+    if (reason != 0) {
+        return failure(reason);
     }
     clear_temporary();
     return {};
@@ -344,16 +334,14 @@ Result<void> Output::commit() {
 /// Gives the file its name. A file with that name gets the temporary name, from which unpublish()
 /// can restore it.
 Result<void> Output::publish() {
-    struct stat facts {};
-    const bool replaces = ::lstat(target_.c_str(), &facts) == 0;
-    if (temporary_.empty() || must_be_new_ || !replaces || !S_ISREG(facts.st_mode)) {
+    if (temporary_.empty() || must_be_new_ ||
+        platform::link_facts_of(target_).type != FileType::Regular) {
         const bool has_name = !temporary_.empty();
         Result<void> done = commit();
         state_ = done && has_name ? State::New : State::Unpublished;
         return done;
     }
-    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) ==
-        0) {
+    if (platform::exchange_files(temporary_, target_) == 0) {
         state_ = State::Exchanged;
         return {};
     }
@@ -364,9 +352,9 @@ Result<void> Output::publish() {
 
 void Output::unpublish() {
     if (state_ == State::New) {
-        ::unlink(target_.c_str());
+        platform::remove_file(target_.c_str());
     } else if (state_ == State::Exchanged) {
-        ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE);
+        static_cast<void>(platform::exchange_files(temporary_, target_));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "grammar/base/result.h"
 #include "runtime/pipeline/project.h"
+#include "runtime/platform/file.h"
 #include "runtime/program/console.h"
 #include "runtime/program/temporaries.h"
 
@@ -72,7 +73,7 @@ private:
 
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
-    [[nodiscard]] Result<void> make_temporary(bool exists, unsigned mode);
+    [[nodiscard]] Result<void> make_temporary(bool exists, unsigned permissions);
     void clear_temporary();
     [[nodiscard]] Result<void> publish();
     void unpublish();
@@ -82,7 +83,7 @@ private:
     std::string target_;            // path_ with symbolic links resolved
     std::string temporary_;         // in the folder of target_; empty for devices and pipes
     TemporaryName* slot_ = nullptr; // registration of temporary_
-    int descriptor_ = -1;           // -1: standard output, or finished
+    platform::File file_;           // not open: standard output, or finished
     bool is_finished_ = false;
     bool must_be_new_ = false;
     State state_ = State::Unpublished; // set by commit_all()

@@ -1,88 +1,15 @@
 #include "runtime/program/memory_size.h"
 
+#include "runtime/platform/cgroup.h"
+#include "runtime/platform/memory.h"
+
 #include <algorithm>
-#include <fstream>
-#include <limits>
-#include <string>
-#include <string_view>
-#include <unistd.h>
 
 namespace lsys {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-
-/// The number in a file; kNoLimit if the file is missing or contains "max".
-std::uint64_t limit_in(const fs::path& path) {
-    std::ifstream file(path);
-    std::uint64_t bytes = kNoLimit;
-    return file >> bytes ? bytes : kNoLimit;
-}
-
-/// The min limit of a cgroup and its parents. `base`: the folder of the topmost group that the
-/// process can see. In a cgroup namespace the folder of `group` may be missing; then only the limit
-/// of `base` counts.
-std::uint64_t min_limit(const fs::path& base, std::string_view group, const char* file) {
-    fs::path folder = base;
-    std::uint64_t min_bytes = limit_in(folder / file);
-    for (const fs::path& part : fs::path(group).relative_path()) {
-        folder /= part;
-        min_bytes = std::min(min_bytes, limit_in(folder / file));
-    }
-    return min_bytes;
-}
-
-/// Whether a list like `cpu,memory` contains `memory`.
-bool names_memory(std::string_view controllers) {
-    while (!controllers.empty()) {
-        const std::string_view name = controllers.substr(0, controllers.find(','));
-        if (name == "memory") {
-            return true;
-        }
-        controllers.remove_prefix(std::min(controllers.size(), name.size() + 1));
-    }
-    return false;
-}
-
-std::uint64_t physical_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES);
-    const long page_size = ::sysconf(_SC_PAGESIZE);
-    return pages <= 0 || page_size <= 0
-               ? kNoLimit
-               : static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size);
-}
-
-} // namespace
-
-std::uint64_t cgroup_memory(const fs::path& root) {
-    const fs::path groups = root / "sys/fs/cgroup";
-    std::ifstream own(root / "proc/self/cgroup");
-    std::uint64_t min_bytes = kNoLimit;
-    for (std::string line; std::getline(own, line);) { // `hierarchy:controllers:group`
-        const std::size_t first = line.find(':');
-        const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-        if (second == std::string::npos) {
-            continue;
-        }
-        const std::string_view controllers =
-            std::string_view(line).substr(first + 1, second - first - 1);
-        const std::string_view group = std::string_view(line).substr(second + 1);
-        if (controllers.empty()) {
-            min_bytes = std::min({min_bytes, min_limit(groups, group, "memory.max"),
-                                  min_limit(groups / "unified", group, "memory.max")});
-        } else if (names_memory(controllers)) {
-            min_bytes =
-                std::min(min_bytes, min_limit(groups / "memory", group, "memory.limit_in_bytes"));
-        }
-    }
-    return min_bytes;
-}
-
 std::uint64_t half_of_memory() {
-    static const std::uint64_t half = std::min(physical_memory(), cgroup_memory("/")) / 2;
+    static const std::uint64_t half =
+        std::min(platform::physical_memory(), platform::cgroup_memory("/")) / 2;
     return half;
 }
 

@@ -1,9 +1,10 @@
 #include "runtime/program/temporaries.h"
 
+#include "runtime/platform/file.h"
+
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <unistd.h>
 
 namespace lsys {
 
@@ -47,7 +48,7 @@ void unregister_temporary(TemporaryName* name) {
 void remove_temporaries() noexcept {
     for (TemporaryName* name = first_name; name != nullptr; name = name->next) {
         if (const char* const path = name->path.exchange(nullptr)) {
-            ::unlink(path);
+            platform::remove_file(path);
         }
     }
 }

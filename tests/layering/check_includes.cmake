@@ -1,5 +1,5 @@
 # Fails on includes that cmake/Layers.cmake does not allow, on OpenGL, GLFW and ImGui outside of the
-# viewer, and on libraries that print or end the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
+# viewer, on headers of one operating system outside of runtime/platform, and on libraries that print or end the process. Usage: cmake -D ROOT=<folder> -P check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")
 
@@ -43,9 +43,13 @@ foreach(path ${sources})
     if(line MATCHES "#include <imgui" AND NOT folder MATCHES "^viewer/(gl|app)$")
       list(APPEND failures "${path}: only viewer/gl and viewer/app know ImGui: ${line}")
     endif()
-    if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^(viewer/app|runtime/python)$"
+    if(line MATCHES "#include <(sys/|linux/|mach/|windows\\.h|unistd\\.h|fcntl\\.h|poll\\.h|termios\\.h|signal\\.h|csignal>|dirent\\.h|spawn\\.h|dlfcn\\.h|pthread\\.h|sched\\.h|io\\.h)"
+        AND NOT folder STREQUAL "runtime/platform")
+      list(APPEND failures "${path}: only runtime/platform knows the operating system: ${line}")
+    endif()
+    if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^(viewer/app|runtime/python|runtime/platform)$"
         AND NOT path MATCHES "^runtime/base/workers\\.cpp$")
-      list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp, viewer/app and runtime/python: ${line}")
+      list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp, runtime/platform, viewer/app and runtime/python: ${line}")
     endif()
     if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")

@@ -1,16 +1,18 @@
 #include "tests/reference/compare.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/cli/lsc.h"
+#include "runtime/platform/process.h"
 #include "tests/reference/print.h"
 #include "tests/reference/spelling.h"
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <system_error>
-#include <unistd.h>
 
 namespace lsys::reference {
 
@@ -280,10 +282,11 @@ Run run_lsc(const std::vector<std::string>& arguments) {
 }
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lsys-reference-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) {
-        path_ = name;
-    }
+    static std::atomic<int> number{0};
+    path_ = std::filesystem::temp_directory_path() /
+            ("lsys-reference-" + std::to_string(platform::process_id()) + "-" +
+             std::to_string(++number));
+    std::filesystem::create_directories(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {
@@ -298,7 +301,7 @@ std::string TemporaryFolder::write(const Grammar& grammar, std::uint64_t layout_
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << file.text;
     }
-    return (path_ / files[0].path).string();
+    return path_text(path_ / files[0].path);
 }
 
 std::vector<std::string> options_of(const Request& request) {

@@ -1,6 +1,8 @@
 #include "tests/support/lsc_run.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/cli/lsc.h"
+#include "runtime/platform/process.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +11,6 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace lsys::tests {
 
@@ -43,7 +44,7 @@ long stated(const std::string& stats, const std::string& row) {
 std::string read_text(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw std::runtime_error("cannot read " + path.string());
+        throw std::runtime_error("cannot read " + path_text(path));
     }
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -52,14 +53,14 @@ void write_text(const fs::path& path, std::string_view text) {
     std::ofstream file(path, std::ios::binary);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     if (!file) {
-        throw std::runtime_error("cannot write " + path.string());
+        throw std::runtime_error("cannot write " + path_text(path));
     }
 }
 
 ScratchFolder::ScratchFolder() {
     static std::atomic<int> number{0};
     path_ = fs::temp_directory_path() /
-            ("lsc-test-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
+            ("lsc-test-" + std::to_string(platform::process_id()) + "-" + std::to_string(++number));
     fs::remove_all(path_);
     fs::create_directories(path_);
 }
@@ -70,7 +71,7 @@ ScratchFolder::~ScratchFolder() {
 }
 
 std::string ScratchFolder::operator/(std::string_view name) const {
-    return (path_ / name).string();
+    return path_text(path_ / name);
 }
 
 std::size_t ScratchFolder::file_count() const {
@@ -80,7 +81,7 @@ std::size_t ScratchFolder::file_count() const {
 std::vector<Sample> all_samples() {
     std::vector<Sample> samples;
     for (const fs::directory_entry& entry : fs::directory_iterator(LSYS_SOURCE_DIR "/samples")) {
-        const std::string name = entry.path().filename().string();
+        const std::string name = path_text(entry.path().filename());
         Sample sample;
         sample.file = entry.path() / (name + ".lsys");
         if (!fs::exists(sample.file)) {
@@ -97,7 +98,7 @@ std::vector<Sample> all_samples() {
                 for (std::string word; words >> word;) {
                     run.push_back(word);
                 }
-                run.insert(run.begin() + (run.empty() ? 0 : 1), sample.file.string());
+                run.insert(run.begin() + (run.empty() ? 0 : 1), path_text(sample.file));
                 sample.runs.push_back(std::move(run));
             } else if (key == "counts:") {
                 for (std::string word; words >> word; ++sample.count_count) {

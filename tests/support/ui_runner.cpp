@@ -1,6 +1,8 @@
 #include "tests/support/ui_runner.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/cli/lsc.h"
+#include "runtime/platform/process.h"
 #include "tests/support/ui_case.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +13,6 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
-#include <unistd.h>
 
 namespace lsys::tests {
 
@@ -43,7 +44,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 class Scratch {
 public:
     Scratch() : before_(fs::current_path()) {
-        path_ = fs::temp_directory_path() / ("lsc-ui-" + std::to_string(::getpid()));
+        path_ = fs::temp_directory_path() / ("lsc-ui-" + std::to_string(platform::process_id()));
         fs::remove_all(path_);
         fs::create_directories(path_);
     }
@@ -83,7 +84,7 @@ class CaseRun {
 public:
     CaseRun(const UiCase& the_case, const UiOptions& options, UiOutcome& outcome)
         : case_(the_case), options_(options), outcome_(outcome),
-          name_(the_case.file.filename().string()) {}
+          name_(path_text(the_case.file.filename())) {}
 
     void run() {
         for (const std::string& mistake : case_.mistakes) {
@@ -95,7 +96,7 @@ public:
         std::string err;
         std::vector<UiDiagnostic> diagnostics;
         for (const UiRun& run : case_.runs) {
-            const Printed printed = run_once(run, scratch.path().string());
+            const Printed printed = run_once(run, path_text(scratch.path()));
             if (case_.runs.size() > 1) {
                 const std::string heading = "$ lsc " + line_of(run) + "\n";
                 out += printed.out.empty() ? "" : heading;
@@ -120,20 +121,20 @@ public:
         const fs::path folder = scratch.path() / "case"; // the run may write files
         fs::create_directories(folder);
         for (const fs::directory_entry& entry : fs::directory_iterator(case_.file.parent_path())) {
-            if (entry.path().filename().string().starts_with(prefix)) {
+            if (path_text(entry.path().filename()).starts_with(prefix)) {
                 fs::copy(entry.path(), folder);
             }
         }
         fs::current_path(folder);
         ignores_status_ = true;
-        const Printed printed = run_once(case_.runs.front(), scratch.path().string());
+        const Printed printed = run_once(case_.runs.front(), path_text(scratch.path()));
         compare(".stderr", printed.err);
         compare(".fixed", fix(scratch.path()));
     }
 
 private:
     void fail(const std::string& what) {
-        outcome_.failures.push_back(case_.file.lexically_relative(options_.root).string() + ": " +
+        outcome_.failures.push_back(path_text(case_.file.lexically_relative(options_.root)) + ": " +
                                     what);
     }
 
@@ -251,10 +252,10 @@ private:
             } else {
                 write_file(golden, actual);
             }
-            outcome_.blessed.push_back(golden.lexically_relative(options_.root).string());
+            outcome_.blessed.push_back(path_text(golden.lexically_relative(options_.root)));
             return;
         }
-        fail("differs from " + golden.filename().string() + "\n--- expected\n" + expected +
+        fail("differs from " + path_text(golden.filename()) + "\n--- expected\n" + expected +
              "--- actual\n" + actual + "---");
     }
 
@@ -268,7 +269,7 @@ private:
 /// Reports expected files without a case.
 void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& outcome) {
     for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
-        const std::string extension = entry.path().extension().string();
+        const std::string extension = path_text(entry.path().extension());
         if (std::find(std::begin(kGoldens), std::end(kGoldens), extension) == std::end(kGoldens)) {
             continue;
         }
@@ -278,7 +279,7 @@ void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& 
             return fs::exists(owner);
         };
         if (std::none_of(std::begin(kCases), std::end(kCases), owned_by)) {
-            outcome.failures.push_back(entry.path().lexically_relative(options.root).string() +
+            outcome.failures.push_back(path_text(entry.path().lexically_relative(options.root)) +
                                        ": no case owns this file");
         }
     }
@@ -317,9 +318,9 @@ UiOutcome run_ui_cases(const UiOptions& options) {
     for (const fs::path& feature : features) {
         std::vector<fs::path> files;
         for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
-            const std::string name = entry.path().lexically_relative(options.root).string();
+            const std::string name = path_text(entry.path().lexically_relative(options.root));
             const bool is_case = std::find(std::begin(kCases), std::end(kCases),
-                                           entry.path().extension().string()) != std::end(kCases);
+                                           path_text(entry.path().extension())) != std::end(kCases);
             if (is_case && passes(name, options.filters)) {
                 files.push_back(entry.path());
             }
@@ -327,7 +328,7 @@ UiOutcome run_ui_cases(const UiOptions& options) {
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files) {
             if (options.verbose) {
-                std::printf("%s\n", file.lexically_relative(options.root).c_str());
+                std::printf("%s\n", path_text(file.lexically_relative(options.root)).c_str());
                 std::fflush(stdout);
             }
             const UiCase the_case = parse_ui_case(file, read_file(file));

@@ -1,25 +1,13 @@
 #include "viewer/app/file_watch.h"
 
-#include "runtime/program/descriptor.h"
+#include "runtime/platform/file.h"
+#include "runtime/platform/folder_events.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <climits>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <sys/inotify.h>
-#include <sys/stat.h>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 namespace lsys::view {
@@ -28,26 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using platform::stamp_of;
+
 constexpr int kMaxDelay = 10; // max delay of a report, as a multiple of Options::quiet
-
-/// Attributes of a file that change with its contents.
-struct Stamp {
-    bool exists = false;
-    std::int64_t seconds = 0;
-    std::int64_t nanoseconds = 0;
-    std::int64_t size = 0;
-    std::uint64_t node = 0;
-
-    friend bool operator==(const Stamp&, const Stamp&) = default;
-};
-
-Stamp stamp_of(const std::string& path) {
-    struct stat facts {};
-    if (::stat(path.c_str(), &facts) != 0) {
-        return {};
-    }
-    return {true, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_size, facts.st_ino};
-}
+/// Max interval of polls where the system has no events.
+constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 
 /// Names whose events are changes of `path`: its own name and that of its link target.
 std::vector<fs::path> names_of(const std::string& path) {
@@ -67,7 +40,7 @@ std::vector<fs::path> names_of(const std::string& path) {
 struct Watched {
     std::string path;
     std::vector<fs::path> names;
-    Stamp stamp;
+    platform::FileStamp stamp;
     /// First unreported change.
     std::optional<FileWatch::Clock::time_point> changed;
 };
@@ -77,23 +50,19 @@ struct Watched {
 struct FileWatch::State {
     Options options;
     Changed changed;
-    Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-    Descriptor inotify;
+    platform::FolderEvents events;
     std::mutex mutex; // guards the next two
     std::optional<std::vector<std::string>> requested;
     bool stops = false;
     // Used by the thread only.
     std::vector<Watched> files;
-    std::map<int, fs::path> folders; // by watch descriptor
     std::thread thread;
 
     State(const Options& wanted, Changed report)
-        : options(wanted), changed(std::move(report)),
-          inotify(wanted.use_inotify ? ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK) : -1) {}
-
-    void notify() const {
-        const std::uint64_t one = 1;
-        static_cast<void>(::write(wake.get(), &one, sizeof one));
+        : options(wanted), changed(std::move(report)), events(wanted.use_events) {
+        if (wanted.use_events && !events.receives()) {
+            options.poll = std::min(options.poll, kPollWithoutEvents);
+        }
     }
 
     /// Watches the requested files; returns false to stop the thread.
@@ -132,28 +101,13 @@ struct FileWatch::State {
     }
 
     void watch_folders() {
-        if (inotify.get() < 0) {
-            return;
-        }
-        std::map<int, fs::path> wanted;
+        std::vector<fs::path> folders;
         for (const Watched& file : files) {
             for (const fs::path& name : file.names) {
-                const fs::path folder = name.parent_path();
-                const int number =
-                    ::inotify_add_watch(inotify.get(), folder.c_str(),
-                                        IN_CLOSE_WRITE | IN_MODIFY | IN_MOVED_TO | IN_MOVED_FROM |
-                                            IN_CREATE | IN_DELETE | IN_ONLYDIR);
-                if (number >= 0) {
-                    wanted.emplace(number, folder);
-                }
+                folders.push_back(name.parent_path());
             }
         }
-        for (const auto& [number, folder] : folders) {
-            if (!wanted.contains(number)) {
-                ::inotify_rm_watch(inotify.get(), number);
-            }
-        }
-        folders = std::move(wanted);
+        events.watch(folders);
     }
 
     void mark(const fs::path& name, Clock::time_point now) {
@@ -161,30 +115,6 @@ struct FileWatch::State {
             if (std::find(file.names.begin(), file.names.end(), name) != file.names.end() &&
                 !file.changed) {
                 file.changed = now;
-            }
-        }
-    }
-
-    void read_events(Clock::time_point now) {
-        alignas(inotify_event) std::array<std::byte, 16 * (sizeof(inotify_event) + NAME_MAX + 1)>
-            buffer{};
-        while (true) {
-            const ssize_t count = ::read(inotify.get(), buffer.data(), buffer.size());
-            if (count <= 0) {
-                return;
-            }
-            const auto end = static_cast<std::size_t>(count);
-            for (std::size_t at = 0; at < end;) {
-                inotify_event event{};
-                std::memcpy(&event, buffer.data() + at, sizeof event);
-                const auto folder = folders.find(event.wd);
-                if (event.len != 0 && folder != folders.end()) {
-                    // The name is zero-terminated.
-                    mark(folder->second /
-                             reinterpret_cast<const char*>(buffer.data() + at + sizeof event),
-                         now);
-                }
-                at += sizeof event + event.len;
             }
         }
     }
@@ -242,19 +172,12 @@ struct FileWatch::State {
             const auto until_check =
                 std::max(std::chrono::duration_cast<std::chrono::milliseconds>(next_check - before),
                          std::chrono::milliseconds(1));
-            std::array<pollfd, 2> waiting = {{{wake.get(), POLLIN, 0}, {inotify.get(), POLLIN, 0}}};
             const bool in_change = first_change().has_value();
-            const int ready = ::poll(
-                waiting.data(), inotify.get() < 0 ? 1 : 2,
-                static_cast<int>(
-                    (in_change ? std::min(options.quiet, until_check) : until_check).count()));
+            const platform::FolderEvents::Waited waited =
+                events.wait(in_change ? std::min(options.quiet, until_check) : until_check);
             const Clock::time_point now = Clock::now();
-            if (waiting[0].revents != 0) {
-                std::uint64_t count = 0;
-                static_cast<void>(::read(wake.get(), &count, sizeof count));
-            }
-            if (inotify.get() >= 0 && waiting[1].revents != 0) {
-                read_events(now);
+            for (const fs::path& name : waited.changed) {
+                mark(name, now);
             }
             if (now >= next_check) {
                 next_check = now + options.poll;
@@ -263,7 +186,8 @@ struct FileWatch::State {
             // Report when no event came for `quiet`, or after kMaxDelay in folders with constant
             // writes.
             const auto first = first_change();
-            if (first && ((in_change && ready == 0) || now - *first > kMaxDelay * options.quiet)) {
+            if (first &&
+                ((in_change && waited.timed_out) || now - *first > kMaxDelay * options.quiet)) {
                 report(now);
             }
         }
@@ -280,7 +204,7 @@ FileWatch::~FileWatch() {
         const std::lock_guard lock(state_->mutex);
         state_->stops = true;
     }
-    state_->notify();
+    state_->events.wake();
     state_->thread.join();
 }
 
@@ -289,7 +213,7 @@ void FileWatch::watch(const std::vector<std::string>& files) {
         const std::lock_guard lock(state_->mutex);
         state_->requested = files;
     }
-    state_->notify();
+    state_->events.wake();
 }
 
 } // namespace lsys::view

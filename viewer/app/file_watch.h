@@ -1,5 +1,5 @@
-// FileWatch: reports changes of files. Watches folders by inotify, so that files replaced by
-// editors are seen, and polls times and sizes, for file systems without inotify.
+// FileWatch: reports changes of files. Watches folders by events of the system, so that files
+// replaced by editors are seen, and polls times and sizes, for file systems without events.
 #pragma once
 
 #include <chrono>
@@ -19,8 +19,9 @@ public:
         /// Max time that a file may be missing, for example while an editor replaces it, before its
         /// absence is reported.
         std::chrono::milliseconds missing{250};
+        /// At most 100 ms on systems without events.
         std::chrono::milliseconds poll{1000};
-        bool use_inotify = true;
+        bool use_events = true;
     };
     /// Called on the watch's thread with the changed files, by the names given, and the time of the
     /// first change.

@@ -1,6 +1,7 @@
 #include "viewer/app/forest_pictures.h"
 
 #include "runtime/pipeline/forest_growth.h"
+#include "runtime/platform/memory.h"
 #include "runtime/program/host.h"
 #include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
@@ -12,7 +13,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <sys/resource.h>
 #include <utility>
 
 namespace lsys::view {
@@ -24,12 +24,6 @@ nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     stats["draws"] = pass.draws;
     stats["triangles"] = pass.triangles;
     return stats;
-}
-
-std::uint64_t peak_bytes() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 std::string stats_text(const ViewOptions& options,
@@ -77,7 +71,7 @@ std::string stats_text(const ViewOptions& options,
     bytes["meshes"] = sizes.mesh_bytes;
     bytes["textures"] = sizes.texture_bytes;
     bytes["uploaded"] = renderer.uploaded_bytes();
-    bytes["peak_resident"] = peak_bytes();
+    bytes["peak_resident"] = platform::peak_memory();
     stats["live_objects"] = renderer.live_objects();
     stats["errors"] = renderer.errors();
     stats["digest"] = fmt::format("{:016x}", series.digest);

@@ -1,5 +1,7 @@
 #include "viewer/scene/camera.h"
 
+#include "grammar/base/number_chars.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -8,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -33,7 +34,7 @@ std::string_view take_word(std::string_view& text) {
 }
 
 bool parse_float(std::string_view text, float& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 

@@ -2,6 +2,7 @@
 
 #include "compiler/resolve/impl/definitions.h"
 #include "grammar/base/counted_text.h"
+#include "grammar/base/paths.h"
 
 #include <fmt/format.h>
 
@@ -257,10 +258,9 @@ std::string MaterialResolver::path_of(const SetValue& file) const {
     const std::string name(resolution_.text(file.word));
     const FileId root = resolution_.ast.files[0].file;
     const auto folder_of = [&](FileId id) {
-        const std::string& path = resolution_.sources.file(id).path();
-        return path.substr(0, path.rfind('/') + 1);
+        return std::string(folder_of_path(resolution_.sources.file(id).path()));
     };
-    if (name.starts_with('/') || file.span.file == root) {
+    if (is_absolute_path(name) || file.span.file == root) {
         return name;
     }
     const std::string folder = folder_of(file.span.file);

@@ -1,11 +1,11 @@
 #include "grammar/dialects/cpfg/curves.h"
 
 #include "grammar/ast/number.h"
+#include "grammar/base/number_chars.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -37,7 +37,7 @@ std::optional<std::string_view> value_of(std::string_view line, std::string_view
 
 bool read_number(std::string_view& text, double& value) {
     text = trimmed(text, kBlanks);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return error == std::errc() && std::isfinite(value);
 }
@@ -157,9 +157,8 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     std::array<char, 32> buffer{};
-    const auto [end, error] =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded == 0.0 ? 0.0 : rounded,
-                      std::chars_format::fixed);
+    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
+                                                    rounded == 0.0 ? 0.0 : rounded);
     return error == std::errc() ? std::string(buffer.data(), end) : "0";
 }
 

@@ -1,6 +1,7 @@
 // Names of modules and the statements before the axiom.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/paths.h"
 #include "grammar/dialects/cpfg/writer.h"
 #include "grammar/dialects/impl/letter_modules.h"
 
@@ -161,14 +162,14 @@ void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stag
 void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
-    if (dot == path.npos || path.find('/', dot) != path.npos) {
+    if (dot == path.npos || dot < folder_of_path(path).size()) {
         return;
     }
     const Result<std::string> text = context_.load(std::string(path.substr(0, dot)) + ".v");
     if (!text) {
         return;
     }
-    const std::string folder(path.substr(0, path.rfind('/') + 1));
+    const std::string folder(folder_of_path(path));
     view_ = read_view(text.value(), [&](std::string_view name) -> std::optional<std::string> {
         Result<std::string> file = context_.load(folder + std::string(name));
         return file ? std::optional(std::move(file).value()) : std::nullopt;

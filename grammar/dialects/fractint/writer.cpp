@@ -2,6 +2,7 @@
 
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/number_chars.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/syntax_message.h"
@@ -288,7 +289,7 @@ std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view 
         return at;
     }
     double value = 0.0;
-    std::from_chars(digits.data(), digits.data() + length, value);
+    number_from_chars(digits.data(), digits.data() + length, value);
     value = root ? std::sqrt(value) : value;
     value = inverse && value > 0.0 ? 1.0 / value : value;
     translation_.put("(" + text_of(static_cast<float>(value)) + ")", place);

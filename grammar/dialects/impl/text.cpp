@@ -1,10 +1,10 @@
 #include "grammar/dialects/impl/text.h"
 
 #include "grammar/ast/number.h"
+#include "grammar/base/number_chars.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace lsys {
 
@@ -37,7 +37,7 @@ std::string lowered(std::string_view text) {
 
 std::string text_of(float value) {
     std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = number_to_chars(digits.data(), digits.data() + digits.size(), value);
     return {digits.data(), end};
 }
 

@@ -1,10 +1,11 @@
 #include "runtime/export/impl/half_digits.h"
 
+#include "grammar/base/number_chars.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -44,7 +45,7 @@ HalfDigits::HalfDigits() : texts_(std::size_t{kOne} + 1) {
         for (int digits = 1; digits <= kMaxDigits && (read < 0.0F || half_bits(read) != bits);
              ++digits) {
             text = fmt::format("{:.{}g}", exact, digits);
-            std::from_chars(text.data(), text.data() + text.size(), read);
+            number_from_chars(text.data(), text.data() + text.size(), read);
         }
         Text& kept = texts_[bits];
         kept.count = static_cast<std::uint8_t>(text.copy(kept.digits.data(), kept.digits.size()));

@@ -1,5 +1,6 @@
 #include "runtime/pipeline/impl/mesh_files.h"
 
+#include "grammar/base/paths.h"
 #include "grammar/base/source.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/meshing/user_mesh.h"
@@ -23,7 +24,7 @@ namespace {
 constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
 
 std::string beside(const std::string& path, const std::string& name) {
-    return (std::filesystem::path(path).parent_path() / name).string();
+    return path_text(std::filesystem::path(path).parent_path() / name);
 }
 
 /// A material file (.mtl) that has been read.
@@ -52,7 +53,7 @@ read_picture_file(const std::string& path, std::uint64_t max_bytes, const Projec
 }
 
 bool is_picture(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension().string();
+    const std::string extension = path_text(std::filesystem::path(path).extension());
     return extension.size() == 4 && (extension == ".png" || extension == ".PNG");
 }
 
@@ -328,7 +329,7 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
         if (name.path.empty() || stop) {
             return nullptr;
         }
-        const std::string path = (folder / name.path).string();
+        const std::string path = path_text(folder / name.path);
         std::shared_ptr<const Texture>& picture = budget.pictures[path];
         if (picture == nullptr) {
             Result<Texture> read = read_picture_file(path, budget.left, step.project());
@@ -395,7 +396,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (symbol.turtle != TurtleOperation::MeshFile && !is_of_polygons) {
             continue;
         }
-        const std::string path = (folder / symbol.mesh_file).string();
+        const std::string path = path_text(folder / symbol.mesh_file);
         if (is_of_polygons || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {

@@ -1,8 +1,9 @@
 #include "runtime/pipeline/impl/wanted_module.h"
 
+#include "grammar/base/number_chars.h"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace lsys {
@@ -52,7 +53,7 @@ Result<WantedModule> parse_wanted_module(std::string_view text, bool has_values)
         const std::string_view number = without_blanks(rest.substr(0, comma));
         float value = 0.0F;
         const auto [end, error] =
-            std::from_chars(number.data(), number.data() + number.size(), value);
+            number_from_chars(number.data(), number.data() + number.size(), value);
         if (number.empty() || error != std::errc() || end != number.data() + number.size() ||
             !std::isfinite(value)) {
             return Error{fmt::format("`{}` in `{}` is no number", number, text)};

@@ -1,4 +1,5 @@
 #include "grammar/base/names.h"
+#include "grammar/base/paths.h"
 #include "runtime/scene/impl/table_reader.h"
 #include "runtime/scene/impl/tables.h"
 
@@ -27,7 +28,7 @@ constexpr std::array<std::string_view, 2> kStarts{"first", "random"};
 
 /// The stem of a path: `pine` of `trees/pine.lsys`.
 std::string stem_of(std::string_view path) {
-    path.remove_prefix(path.find_last_of('/') + 1); // npos + 1 is 0
+    path = name_of_path(path);
     const std::size_t dot = path.find_last_of('.');
     return std::string(path.substr(0, dot == 0 ? std::string_view::npos : dot));
 }

@@ -2,9 +2,9 @@
 // `)`. So a command is executed when the next module, or this `)`, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
+#include "grammar/base/number_chars.h"
 #include "runtime/turtle/impl/state.h"
 
-#include <charconv>
 #include <string_view>
 
 namespace lsys {
@@ -18,7 +18,7 @@ float leading_number(std::string_view text) {
     float value = 0.0F;
     const std::size_t digit = text.starts_with('-') && !plus ? 1 : 0;
     if (text.size() > digit && (text[digit] == '.' || (text[digit] >= '0' && text[digit] <= '9'))) {
-        std::from_chars(text.data(), text.data() + text.size(), value); // 0 if there is no number
+        number_from_chars(text.data(), text.data() + text.size(), value); // 0 if there is no number
     }
     return value;
 }

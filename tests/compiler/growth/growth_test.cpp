@@ -98,7 +98,7 @@ TEST_CASE("deterministic systems are counted exactly") {
                              1'594'318, 4'782'964, 14'348'902});
 }
 
-TEST_CASE("conditions over known parameters are probabilities_known") {
+TEST_CASE("conditions over known parameters are decided") {
     check_counts(ageing("A(12)"), {1, 10, 37, 118, 361, 1'090, 3'277, 9'838, 29'521, 88'570,
                                    265'717, 797'158, 2'391'481, 2'391'481});
 }

@@ -1,3 +1,4 @@
+#include "runtime/platform/cgroup.h"
 #include "runtime/program/memory_size.h"
 #include "tests/support/lsc_run.h"
 
@@ -8,6 +9,7 @@
 #include <string>
 
 using namespace lsys;
+using lsys::platform::cgroup_memory;
 using lsys::tests::ScratchFolder;
 using lsys::tests::write_text;
 

@@ -57,16 +57,16 @@ struct Watching {
     FileWatch watch;
 };
 
-FileWatch::Options with_inotify() {
+FileWatch::Options with_events() {
     FileWatch::Options options;
-    options.poll = 1h; // so long that only inotify can report in time
+    options.poll = 1h; // so long that only events can report in time
     options.missing = 20ms;
     return options;
 }
 
-FileWatch::Options without_inotify() {
+FileWatch::Options without_events() {
     FileWatch::Options options;
-    options.use_inotify = false;
+    options.use_events = false;
     options.poll = 5ms;
     options.missing = 20ms;
     return options;
@@ -84,7 +84,7 @@ TEST_CASE("a file that is written, replaced, removed or created is reported") {
     const std::string file = folder / "plant.lsys";
     const std::string other = folder / "leaf.obj";
     write_text(file, "one");
-    Watching watching(GENERATE(with_inotify(), without_inotify()));
+    Watching watching(GENERATE(with_events(), without_events()));
     watching.watch.watch({file, other});
     settle();
     write_text(file, "written");
@@ -109,7 +109,7 @@ TEST_CASE("the target of a link is watched") {
     const std::string link = folder / "plant.lsys";
     write_text(real, "one");
     std::filesystem::create_symlink(real, link);
-    Watching watching(with_inotify());
+    Watching watching(with_events());
     watching.watch.watch({link});
     settle();
     write_text(real, "two");
@@ -120,7 +120,7 @@ TEST_CASE("changes in quick succession are one change, and other files are not r
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "one");
-    FileWatch::Options options = with_inotify();
+    FileWatch::Options options = with_events();
     options.quiet = 200ms;
     Watching watching(options);
     watching.watch.watch({file});
@@ -137,7 +137,7 @@ TEST_CASE("a change is reported in time while other files in the folder are writ
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
     write_text(file, "one");
-    Watching watching(with_inotify());
+    Watching watching(with_events());
     watching.watch.watch({file});
     settle();
     std::atomic<bool> ends{false};

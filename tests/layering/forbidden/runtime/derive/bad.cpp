@@ -3,3 +3,4 @@
 #include "compiler/compile.h"
 #include "runtime/turtle/turtle.h"
 #include "compiler/growth/impl/known_values.h"
+#include <unistd.h>

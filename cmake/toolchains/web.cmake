@@ -1,0 +1,15 @@
+# WebAssembly by Emscripten of Debian (emscripten): programs for Node.js, with the files of the machine. Packages come
+# from scripts/cross-packages web.
+set(LSYS_EMSCRIPTEN /usr/share/emscripten)
+include("${LSYS_EMSCRIPTEN}/cmake/Modules/Platform/Emscripten.cmake")
+get_filename_component(LSYS_CROSS "${CMAKE_CURRENT_LIST_DIR}/../../build/cross/web" ABSOLUTE)
+list(PREPEND CMAKE_FIND_ROOT_PATH "${LSYS_CROSS}")
+set(CMAKE_PREFIX_PATH "${LSYS_CROSS}")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+# Missing memory is an exception, which libraries catch (runtime/README.md, Memory).
+set(CMAKE_CXX_FLAGS_INIT "-fexceptions")
+set(CMAKE_EXE_LINKER_FLAGS_INIT
+  "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sENVIRONMENT=node")

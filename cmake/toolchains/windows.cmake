@@ -1,0 +1,22 @@
+# Windows on x86-64 by MinGW-w64 of Debian (g++-mingw-w64-x86-64-posix). The programs need no library but those of
+# Windows. Packages come from scripts/cross-packages windows; Wine runs tests.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
+set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
+set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
+get_filename_component(LSYS_CROSS "${CMAKE_CURRENT_LIST_DIR}/../../build/cross/windows" ABSOLUTE)
+set(CMAKE_FIND_ROOT_PATH "${LSYS_CROSS}" /usr/x86_64-w64-mingw32)
+set(CMAKE_PREFIX_PATH "${LSYS_CROSS}")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+# Windows 10: the names of long paths, the escape codes of consoles.
+set(CMAKE_CXX_FLAGS_INIT "-D_WIN32_WINNT=0x0A00 -DUNICODE -D_UNICODE -DWIN32_LEAN_AND_MEAN -DNOMINMAX")
+# Deep tests have the stack that they have on Linux.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--stack,8388608")
+find_program(LSYS_WINE NAMES wine64 wine PATHS /usr/lib/wine)
+if(LSYS_WINE)
+  set(CMAKE_CROSSCOMPILING_EMULATOR "${LSYS_WINE}")
+endif()

@@ -1,0 +1,107 @@
+// Files of the system: opening, facts, renaming. Names are UTF-8. Functions that may fail return a
+// Reason or a value with one; no text, so that callers choose their own words.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace lsys::platform {
+
+/// 0 for success, else a value of errno (<cerrno>).
+using Reason = int;
+
+/// An open file, closed by the destructor. Move only.
+class File {
+public:
+    File() = default;
+    explicit File(int descriptor) : descriptor_(descriptor) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    File(File&& other) noexcept;
+    File& operator=(File&& other) noexcept;
+    ~File();
+
+    [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+    /// Some file systems report a full disk only here. Precondition: is_open().
+    [[nodiscard]] Reason close();
+
+private:
+    int descriptor_ = -1;
+};
+
+enum class FileType : std::uint8_t {
+    Missing,
+    Regular,
+    Directory,
+    Link,
+    Null,
+    Terminal,
+    Device,
+    Other
+};
+
+struct FileFacts {
+    FileType type = FileType::Missing;
+    std::uint64_t size = 0;
+    unsigned permissions = 0; // of owner, group and others, 0 to 0777
+};
+
+/// Opens a file for reading. Without `may_wait` a pipe opens at once, whether or not it has a
+/// writer.
+[[nodiscard]] Reason open_to_read(const std::string& path, bool may_wait, File& file);
+/// Opens a device or a pipe for writing.
+[[nodiscard]] Reason open_to_write(const std::string& path, File& file);
+/// Makes a file; EEXIST if the name exists, even as a dangling link. A private file can be opened by
+/// its owner only; the permissions of others follow the umask.
+[[nodiscard]] Reason create_file(const std::string& path, bool is_private, File& file);
+
+[[nodiscard]] Reason facts_of(const File& file, FileFacts& facts);
+/// Facts of a name, of the target for a link; the type Missing if there are none. Types are exact
+/// for Regular and Directory only.
+[[nodiscard]] FileFacts facts_of(const std::string& path);
+/// Facts of a name, of the link itself for a link.
+[[nodiscard]] FileFacts link_facts_of(const std::string& path);
+/// Returns 0 if the file may be written.
+[[nodiscard]] Reason check_writable(const std::string& path);
+/// Sets `real` to the absolute path without links.
+[[nodiscard]] Reason resolve_links(const std::string& path, std::string& real);
+[[nodiscard]] Reason set_permissions(const File& file, unsigned permissions);
+
+/// A number of bytes, or the reason that there are none. EINTR: a signal came first.
+struct ByteCount {
+    std::size_t count = 0;
+    Reason reason = 0;
+};
+/// Reads up to `size` bytes; none at the end of the file.
+[[nodiscard]] ByteCount read_some(const File& file, char* bytes, std::size_t size);
+/// Writes up to `size` bytes.
+[[nodiscard]] ByteCount write_some(const File& file, const char* bytes, std::size_t size);
+
+/// Removes a file, if it exists. Callable in signal handlers.
+void remove_file(const char* path) noexcept;
+/// Renames a file; replaces a file of that name.
+[[nodiscard]] Reason rename_file(const std::string& from, const std::string& to);
+/// Renames a file; EEXIST if the name exists. EINVAL or ENOSYS where a file system cannot do this.
+[[nodiscard]] Reason rename_to_new(const std::string& from, const std::string& to);
+/// Exchanges the names of two files. EINVAL or ENOSYS where a file system cannot do this.
+[[nodiscard]] Reason exchange_files(const std::string& one, const std::string& other);
+
+/// Random bits for names of temporary files; different on each call.
+[[nodiscard]] std::uint64_t random_bits();
+
+/// Attributes of a file that change with its contents.
+struct FileStamp {
+    bool exists = false;
+    std::int64_t seconds = 0;
+    std::int64_t nanoseconds = 0;
+    std::int64_t size = 0;
+    std::uint64_t node = 0; // number of the file in its file system; 0 if it has none
+
+    friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+/// The stamp of a name, of the target for a link.
+[[nodiscard]] FileStamp stamp_of(const std::string& path);
+
+} // namespace lsys::platform

@@ -1,0 +1,17 @@
+#include "runtime/platform/memory.h"
+
+#include <sys/resource.h>
+
+namespace lsys::platform {
+
+void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
+    // The system chooses the sizes of pages alone.
+}
+
+std::uint64_t peak_memory() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss); // in bytes, unlike on Linux
+}
+
+} // namespace lsys::platform

@@ -1,0 +1,101 @@
+// Links, permissions and devices, which Windows does not have or has differently.
+#include "runtime/program/files.h"
+#include "tests/support/lsc_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <fcntl.h>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace lsys;
+using lsys::tests::read_text;
+using lsys::tests::ScratchFolder;
+using lsys::tests::write_text;
+
+namespace {
+
+struct PosixFixture {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    ScratchFolder folder;
+    Console console{{in, out, err}, {}};
+};
+
+} // namespace
+
+TEST_CASE("devices are read as far as they end and fit") {
+    PosixFixture f;
+    const Result<std::string> device = read_file("/dev/null", {1000}, f.console);
+    REQUIRE(device.ok());
+    CHECK(device.value().empty());
+    // A device without an end and without a size.
+    CHECK(!read_file("/dev/zero", {3'000'000}, f.console).ok());
+}
+
+TEST_CASE("devices are written in place") {
+    PosixFixture f;
+    CHECK(write_file("/dev/full", "text", f.console).error().message ==
+          "cannot write `/dev/full`: no space left on device");
+    CHECK(write_file("/dev/null", "text", f.console).ok());
+}
+
+TEST_CASE("a file that must be new replaces no dangling link") {
+    PosixFixture f;
+    REQUIRE(::symlink("nowhere", (f.folder / "link").c_str()) == 0);
+    CHECK(Output::create(f.folder / "link", f.console).error().message ==
+          "cannot write `" + f.folder / "link" + "`: file exists");
+}
+
+TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
+    PosixFixture f;
+    write_text(f.folder / "x", "first");
+    REQUIRE(::chmod((f.folder / "x").c_str(), 0640) == 0);
+    REQUIRE(::symlink("x", (f.folder / "link").c_str()) == 0);
+    CHECK(write_file(f.folder / "link", "second", f.console).ok());
+    CHECK(read_text(f.folder / "x") == "second");
+    CHECK(std::filesystem::is_symlink(f.folder / "link"));
+    struct stat facts {};
+    REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 0777U) == 0640);
+    // Setuid: writing other bytes must drop it.
+    REQUIRE(::chmod((f.folder / "x").c_str(), 04755) == 0);
+    CHECK(write_file(f.folder / "x", "third", f.console).ok());
+    REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 07777U) == 0755);
+    const mode_t mask = ::umask(022);
+    CHECK(write_file(f.folder / "new", "", f.console).ok());
+    ::umask(mask);
+    REQUIRE(::stat((f.folder / "new").c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 0777U) == 0644);
+}
+
+TEST_CASE("writing never changes the umask of other threads") {
+    PosixFixture f;
+    const mode_t mask = ::umask(022);
+    std::atomic<bool> ends{false};
+    std::atomic<int> wrong{0};
+    std::thread other([&] {
+        const std::string name = f.folder / "other";
+        while (!ends) {
+            const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+            struct stat facts {};
+            wrong += ::fstat(descriptor, &facts) == 0 && (facts.st_mode & 0777U) == 0644 ? 0 : 1;
+            ::close(descriptor);
+            ::unlink(name.c_str());
+        }
+    });
+    for (int i = 0; i < 5000; ++i) {
+        REQUIRE(write_file(f.folder / "x", "", f.console).ok());
+    }
+    ends = true;
+    other.join();
+    ::umask(mask);
+    CHECK(wrong == 0);
+}
