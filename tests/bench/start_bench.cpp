@@ -51,9 +51,11 @@ void run(const Program& program) {
 int main(int argc, char** argv) {
     constexpr int kRuns = 200;
     const int runs = argc > 1 ? std::atoi(argv[1]) : kRuns;
-    std::array<Program, 3> programs{{{"a program that prints one line", {LSYS_ONE_LINE}, {}},
-                                     {"lsc --version", {LSYS_LSC, "--version"}, {}},
-                                     {"lsc check a sample", {LSYS_LSC, "check", LSYS_SAMPLE}, {}}}};
+    std::array<Program, 4> programs{
+        {{"a program that prints one line", {LSYS_ONE_LINE}, {}},
+         {"the same, with the C++ library alone", {LSYS_ONE_LINE_ALONE}, {}},
+         {"lsc --version", {LSYS_LSC, "--version"}, {}},
+         {"lsc check of a sample", {LSYS_LSC, "check", LSYS_SAMPLE}, {}}}};
     for (int i = -1; i < runs; ++i) {
         for (Program& program : programs) {
             const double spent = lsys::bench::seconds([&] { run(program); });
