@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -18,7 +19,9 @@ namespace lsys {
 
 template <typename T>
 class ChunkedVector {
-    static_assert(std::is_trivially_copyable_v<T>);
+    // Blocks are bytes that become elements when they are set.
+    static_assert(std::is_trivially_copyable_v<T> &&
+                  alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 
     template <typename Vector, typename Value>
     class Cursor {
@@ -55,18 +58,18 @@ public:
 
     void push_back(const T& value) {
         if (size_ % kBlock == 0 && size_ / kBlock == blocks_.size()) {
-            blocks_.push_back(std::make_unique<T[]>(kBlock));
+            add_block();
         }
-        blocks_[size_ / kBlock][size_ % kBlock] = value;
+        new (element(size_)) T(value);
         ++size_;
     }
     [[nodiscard]] const T& operator[](std::size_t index) const {
         LSYS_DCHECK(index < size_, index, size_);
-        return blocks_[index / kBlock][index % kBlock];
+        return *element(index);
     }
     [[nodiscard]] T& operator[](std::size_t index) {
         LSYS_DCHECK(index < size_, index, size_);
-        return blocks_[index / kBlock][index % kBlock];
+        return *element(index);
     }
     [[nodiscard]] T& back() { return (*this)[size_ - 1]; }
     [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
@@ -80,8 +83,7 @@ public:
     /// Precondition: index < size() and count is not 0.
     [[nodiscard]] std::span<const T> row(std::size_t index, std::size_t count) const {
         LSYS_CHECK(index < size_, index, size_);
-        const std::size_t at = index % kBlock;
-        return {blocks_[index / kBlock].get() + at, std::min({count, size_ - index, kBlock - at})};
+        return {element(index), std::min({count, size_ - index, kBlock - index % kBlock})};
     }
     /// The first index for which `holds(element)` is false. Precondition: it is true for the
     /// elements before that index and false for all others.
@@ -101,11 +103,10 @@ public:
     /// Appends up to `count` elements that lie in one block; the caller sets the returned elements.
     [[nodiscard]] std::span<T> extend(std::size_t count) {
         if (size_ / kBlock == blocks_.size()) {
-            blocks_.push_back(std::make_unique<T[]>(kBlock));
+            add_block();
         }
-        const std::size_t at = size_ % kBlock;
-        const std::size_t appended = std::min(count, kBlock - at);
-        T* const first = blocks_[size_ / kBlock].get() + at;
+        const std::size_t appended = std::min(count, kBlock - size_ % kBlock);
+        T* const first = element(size_);
         size_ += appended;
         return {first, appended};
     }
@@ -125,7 +126,16 @@ private:
     /// Elements per block: a power of two, at most 128 KiB; so a small Ast takes little memory.
     static constexpr std::size_t kBlock =
         std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
-    std::vector<std::unique_ptr<T[]>> blocks_;
+    /// Adds a block without writing to it: the system gives no memory for pages that no element
+    /// needs.
+    void add_block() {
+        blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(kBlock * sizeof(T)));
+    }
+    [[nodiscard]] T* element(std::size_t index) const {
+        return reinterpret_cast<T*>(blocks_[index / kBlock].get()) + index % kBlock;
+    }
+
+    std::vector<std::unique_ptr<std::byte[]>> blocks_;
     std::size_t size_ = 0;
     std::size_t released_ = 0; // blocks
 };

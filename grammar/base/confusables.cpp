@@ -215,6 +215,13 @@ static_assert(std::is_sorted(std::begin(kTable),
                                  return a.character < b.character;
                              }));
 
+/// A character of confusables.def. Without pointers, because the system would have to set them in
+/// each of the many rows at the start of the program.
+struct Listed {
+    char32_t character = 0;
+    char ascii = '\0';
+};
+
 /// The characters of confusables.def, ascending.
 constexpr auto kListed = [] {
 #define LSYS_CONFUSABLES(ascii, ...) +std::size(std::initializer_list<char32_t>{__VA_ARGS__})
@@ -222,57 +229,59 @@ constexpr auto kListed = [] {
 #include "grammar/base/confusables.def"
         ;
 #undef LSYS_CONFUSABLES
-    std::array<Confusable, kCount> listed{};
+    std::array<Listed, kCount> listed{};
     std::size_t count = 0;
-    const auto add = [&](std::string_view ascii, std::initializer_list<char32_t> characters) {
+    const auto add = [&](const char(&ascii)[2], std::initializer_list<char32_t> characters) {
         for (const char32_t character : characters) {
-            listed[count++] = {character, ascii, {}};
+            listed[count++] = {character, ascii[0]};
         }
     };
 #define LSYS_CONFUSABLES(ascii, ...) add(ascii, {__VA_ARGS__});
 #include "grammar/base/confusables.def"
 #undef LSYS_CONFUSABLES
     std::sort(listed.begin(), listed.end(),
-              [](const Confusable& a, const Confusable& b) { return a.character < b.character; });
+              [](const Listed& a, const Listed& b) { return a.character < b.character; });
     return listed;
 }();
 
 /// The row of a character in an ascending table; null if there is none.
 template <typename Table>
-const Confusable* find_row(const Table& table, char32_t character) {
-    const auto found = std::lower_bound(
-        std::begin(table), std::end(table), character,
-        [](const Confusable& row, char32_t wanted) { return row.character < wanted; });
+auto find_row(const Table& table, char32_t character) {
+    const auto found =
+        std::lower_bound(std::begin(table), std::end(table), character,
+                         [](const auto& row, char32_t wanted) { return row.character < wanted; });
     return found != std::end(table) && found->character == character ? &*found : nullptr;
 }
 
 constexpr char32_t kFirstFullWidth = 0xFF01; // `!`
 constexpr char32_t kLastFullWidth = 0xFF5E;  // `~`
 
-constexpr std::array<char, kLastFullWidth - kFirstFullWidth + 1> kPlain = [] {
-    std::array<char, kLastFullWidth - kFirstFullWidth + 1> plain{};
-    for (std::size_t i = 0; i < plain.size(); ++i) {
-        plain[i] = static_cast<char>('!' + i);
+/// The ASCII characters, for views of single ones.
+constexpr auto kAscii = [] {
+    std::array<char, 128> ascii{};
+    for (std::size_t i = 0; i < ascii.size(); ++i) {
+        ascii[i] = static_cast<char>(i);
     }
-    return plain;
+    return ascii;
 }();
-constexpr std::array<Confusable, kPlain.size()> kFullWidth = [] {
-    std::array<Confusable, kPlain.size()> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        table[i] = {
-            static_cast<char32_t>(kFirstFullWidth + i), {&kPlain[i], 1}, "full-width character"};
-    }
-    return table;
-}();
+
+std::string_view text_of(char ascii) {
+    return {&kAscii[static_cast<std::size_t>(ascii)], 1};
+}
 
 } // namespace
 
-const Confusable* find_confusable(char32_t character) {
+std::optional<Confusable> find_confusable(char32_t character) {
     if (character >= kFirstFullWidth && character <= kLastFullWidth) {
-        return &kFullWidth[character - kFirstFullWidth];
+        const char ascii = static_cast<char>('!' + (character - kFirstFullWidth));
+        return Confusable{character, text_of(ascii), "full-width character"};
     }
-    const Confusable* const named = find_row(kTable, character);
-    return named != nullptr ? named : find_row(kListed, character);
+    if (const Confusable* const named = find_row(kTable, character); named != nullptr) {
+        return *named;
+    }
+    const Listed* const listed = find_row(kListed, character);
+    return listed == nullptr ? std::nullopt
+                             : std::optional(Confusable{character, text_of(listed->ascii), {}});
 }
 
 bool is_letter_beyond_ascii(char32_t character) {

@@ -2,6 +2,7 @@
 // in text copied from PDF files and word processors.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,8 +14,8 @@ struct Confusable {
     std::string_view name;  // for messages: "minus sign"
 };
 
-/// Null if `character` is not a confusable. Covers all full-width forms of ASCII.
-[[nodiscard]] const Confusable* find_confusable(char32_t character);
+/// Nullopt if `character` is not a confusable. Covers all full-width forms of ASCII.
+[[nodiscard]] std::optional<Confusable> find_confusable(char32_t character);
 
 /// Whether `character` is likely to be a letter.
 [[nodiscard]] bool is_letter_beyond_ascii(char32_t character);

@@ -107,18 +107,19 @@ std::vector<Workload> workloads() {
                    "let y = if(x > 0, x - 1, 0), a = 30 : F(1)[+(a)A(y)][-(a)A(y)]A(y);"
                    "#q : A(x) : if(x > 0, 0, 1) : F(1);",
                    13, 2'391'481, all[4].limit});
+    constexpr int kDoublings = 21;
+    constexpr std::size_t kFirst = 5; // modules of the axiom
+    const std::string random_axiom = "#n = 21; #w : A(1)A(1)A(1)A(1)A(1); #p : A(x) : * : ";
     const auto random = [](bool shared) {
         return [=](Pages a, Pages b, Pages c, Pages d) {
-            return derive_w7(20, shared, a.as<std::uint8_t>(), b.as<std::uint8_t>(), c.as<float>(),
-                             d.as<float>());
+            return derive_w7(kDoublings, kFirst, shared, a.as<std::uint8_t>(), b.as<std::uint8_t>(),
+                             c.as<float>(), d.as<float>());
         };
     };
-    all.push_back({"W7-let/n=20",
-                   "#n = 20; #w : A(1); #p : A(x) : * : let r = {0.5, 1} : A(x * r) A(x * r);", 20,
-                   std::size_t{1} << 20, random(true)});
-    all.push_back({"W7/n=20",
-                   "#n = 20; #w : A(1); #p : A(x) : * : A(x * {0.5, 1}) A(x * {0.5, 1});", 20,
-                   std::size_t{1} << 20, random(false)});
+    all.push_back({"W7-let/n=21", random_axiom + "let r = {0.5, 1} : A(x * r) A(x * r);",
+                   kDoublings, kFirst << kDoublings, random(true)});
+    all.push_back({"W7/n=21", random_axiom + "A(x * {0.5, 1}) A(x * {0.5, 1});", kDoublings,
+                   kFirst << kDoublings, random(false)});
     return all;
 }
 

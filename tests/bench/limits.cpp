@@ -1,5 +1,6 @@
 #include "tests/bench/limits.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -182,14 +183,14 @@ std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b) {
 }
 
 std::size_t derive_w7(int generations,
+                      std::size_t count,
                       bool shared,
                       std::uint8_t* a,
                       std::uint8_t* b,
                       float* parameters_a,
                       float* parameters_b) {
-    a[0] = 'A';
-    parameters_a[0] = 1.0F;
-    std::size_t count = 1;
+    std::fill_n(a, count, std::uint8_t{'A'});
+    std::fill_n(parameters_a, count, 1.0F);
     for (int generation = 0; generation < generations; ++generation) {
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint64_t hash = hash_of(generation, i);

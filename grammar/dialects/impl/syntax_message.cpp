@@ -35,9 +35,9 @@ bool report_foreign_look_alike(SourceSpan place, const ParseContext& context) {
         return false;
     }
     const CodePoint point = decode_utf8(text.substr(place.begin));
-    const Confusable* const confusable =
-        point.value < 0x80 ? nullptr : find_confusable(point.value);
-    if (confusable == nullptr) {
+    const std::optional<Confusable> confusable =
+        point.value < 0x80 ? std::nullopt : find_confusable(point.value);
+    if (!confusable) {
         return false;
     }
     const SourceSpan character{place.file, place.begin, place.begin + point.length};

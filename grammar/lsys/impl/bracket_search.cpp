@@ -1,5 +1,7 @@
 #include "grammar/lsys/impl/bracket_search.h"
 
+#include "grammar/lsys/impl/lookahead.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -17,8 +19,7 @@ void for_each_significant(std::string_view text, std::size_t at, Visit&& visit) 
             const std::size_t close = text.find_first_of("`\n", at + 1);
             at = close == std::string_view::npos ? end : close + 1;
         } else if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? end : close + 2;
+            at = comment_end(text, at);
         } else {
             if (!visit(static_cast<std::uint32_t>(at), text[at])) {
                 return;

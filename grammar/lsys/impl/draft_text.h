@@ -16,6 +16,13 @@
 
 namespace lsys::lsys_grammar {
 
+/// A line that does not begin inside a statement or a comment.
+struct FreeLine {
+    std::size_t begin = 0;
+    std::size_t end = 0;   // without the line end
+    std::string_view text; // without blanks at its ends
+};
+
 /// A copy of the text of a file that is being repaired.
 struct DraftText {
     FileId file = kNoFile;
@@ -25,6 +32,8 @@ struct DraftText {
     std::string masked;
     bool is_changed = false;
     bool is_incomplete = false; // a statement is left out
+    std::vector<FreeLine> lines;
+    bool has_free_lines = false; // `lines` are those of `text`
 
     [[nodiscard]] SourceSpan span(std::size_t begin, std::size_t end) const {
         return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
@@ -36,6 +45,7 @@ struct DraftText {
         text[at] = c;
         masked[at] = c;
         is_changed = true;
+        has_free_lines = false;
     }
     /// Updates `masked` from `text`.
     void mask();
@@ -43,6 +53,9 @@ struct DraftText {
     void blank(std::size_t begin, std::size_t end);
     /// Writes `replacement` and blanks over [begin, end) if it fits; returns whether it does.
     bool replace(std::size_t begin, std::size_t end, std::string_view replacement);
+    /// The lines between statements, in order. They stay valid, and those of the text before a
+    /// change, until the next call.
+    [[nodiscard]] const std::vector<FreeLine>& free_lines();
 };
 
 /// The text of a statement, from its `#` to its `;` or, without one, to the next statement.
@@ -53,12 +66,14 @@ struct StatementText {
 
 /// Whether blanks, a `#` and a word follow `at`.
 [[nodiscard]] bool is_statement_start(std::string_view text, std::size_t at);
-/// The first offset at or after `at` outside of blanks and comments.
-[[nodiscard]] std::size_t skip_gaps(std::string_view text, std::size_t at);
 /// The statement whose `#` is at `at`.
 [[nodiscard]] StatementText statement_at(std::string_view text, std::size_t at);
 /// `text` without blanks at its ends.
 [[nodiscard]] std::string_view without_blanks(std::string_view text);
+/// The offset of the line end at or after `at`; the size of the text in the last line.
+[[nodiscard]] std::size_t end_of_line(std::string_view text, std::size_t at);
+/// The offset of the first character of the line of `at`.
+[[nodiscard]] std::size_t start_of_line(std::string_view text, std::size_t at);
 
 /// Repairs pasted text: markers of a merge conflict, a diff, a Markdown fence, line numbers, HTML,
 /// line ends of old Macs, and lines in the notation of books and other programs.

@@ -970,7 +970,9 @@ void repair_hexadecimal_colour(DraftText& draft, std::size_t at) {
 } // namespace
 
 void repair_foreign_forms(DraftText& draft) {
-    draft.mask();
+    if (draft.is_changed) {
+        draft.mask();
+    }
     for (std::size_t at = draft.masked.find('#'); at != std::string::npos;
          at = draft.masked.find('#', at + 1)) {
         repair_hexadecimal_colour(draft, at);

@@ -29,26 +29,35 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// The end of the comment that begins at `at`; the end of the text if it is not closed.
+} // namespace
+
 std::size_t comment_end(std::string_view text, std::size_t at) {
     const std::size_t close = text.find("*/", at + 2);
     return close == std::string_view::npos ? text.size() : close + 2;
 }
 
-std::size_t next_significant(std::string_view text, std::size_t at) {
+std::size_t skip_gaps(std::string_view text, std::size_t at) {
     while (at < text.size()) {
         if (is_blank(text[at])) {
             ++at;
-        } else if (text.substr(at, 2) == "/*") {
+        } else if (text[at] == '/' && text.substr(at, 2) == "/*") {
             at = comment_end(text, at);
         } else {
             break;
         }
     }
-    return at;
+    return std::min(at, text.size());
 }
 
-} // namespace
+std::size_t skip_gaps_between_statements(std::string_view text, std::size_t at) {
+    while (true) {
+        at = skip_gaps(text, at);
+        if (text.substr(at, 2) != "//") {
+            return at;
+        }
+        at = std::min(text.find('\n', at), text.size());
+    }
+}
 
 std::string_view leading_word(std::string_view text) {
     std::size_t end = 0;
@@ -61,7 +70,7 @@ std::string_view leading_word(std::string_view text) {
 }
 
 char next_character(std::string_view text, std::uint32_t at) {
-    const std::size_t next = next_significant(text, at);
+    const std::size_t next = skip_gaps(text, at);
     return next < text.size() ? text[next] : '\0';
 }
 

@@ -5,6 +5,7 @@
 #include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/scan_state.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,13 @@ namespace lsys {
 
 /// The identifier at the begin of `text`; may be empty.
 [[nodiscard]] std::string_view leading_word(std::string_view text);
+/// The end of the comment `/*` at `at`; the end of the text if it is not closed.
+[[nodiscard]] std::size_t comment_end(std::string_view text, std::size_t at);
+/// The first offset at or after `at` outside of blanks, line ends and comments of a statement, which
+/// are `/* */`.
+[[nodiscard]] std::size_t skip_gaps(std::string_view text, std::size_t at);
+/// skip_gaps() between statements, where `//` begins a comment too.
+[[nodiscard]] std::size_t skip_gaps_between_statements(std::string_view text, std::size_t at);
 /// The first character at or after `at` outside of blanks and comments; NUL at the end.
 [[nodiscard]] char next_character(std::string_view text, std::uint32_t at);
 /// Whether only blanks stand before `at` on its line.

@@ -15,8 +15,11 @@ namespace lsys {
 namespace {
 
 bool is_ascii(std::string_view text) {
-    return std::none_of(text.begin(), text.end(),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0x80u) != 0; });
+    unsigned char bits = 0;
+    for (const char c : text) { // without an end in between, so that it becomes vector instructions
+        bits |= static_cast<unsigned char>(c);
+    }
+    return (bits & 0x80u) == 0;
 }
 
 struct Validity {
@@ -323,8 +326,9 @@ void normalize_after_word(ParseSession& session) {
         (static_cast<unsigned char>(text[at]) & 0x80u) == 0) {
         return;
     }
-    const Confusable* const confusable = find_confusable(decode_utf8(text.substr(at)).value);
-    if (confusable != nullptr && !confusable->ascii.empty() && is_letter(confusable->ascii[0])) {
+    const std::optional<Confusable> confusable =
+        find_confusable(decode_utf8(text.substr(at)).value);
+    if (confusable && !confusable->ascii.empty() && is_letter(confusable->ascii[0])) {
         record_stray(session, at, false);
     }
 }
@@ -336,12 +340,12 @@ void normalize_quoted(ParseSession& session, std::string_view text) {
     }
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text.substr(at));
-        const Confusable* const confusable = find_confusable(point.value);
+        const std::optional<Confusable> confusable = find_confusable(point.value);
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
-        if (confusable != nullptr && !is_translation) {
+        if (confusable && !is_translation) {
             record_stray(session, begin, true);
             // U+00A0 and the characters below are blanks or controls, not names.
-        } else if (confusable != nullptr && point.value > 0xA0) {
+        } else if (confusable && point.value > 0xA0) {
             report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
                                       point.value, *confusable);
         }

@@ -40,14 +40,15 @@ bool ends_with_superscript(std::string_view text) {
     if (at == 0 || at == text.size()) {
         return false;
     }
-    const Confusable* const confusable = find_confusable(decode_utf8(text.substr(at - 1)).value);
-    return confusable != nullptr && confusable->name == kSuperscript;
+    const std::optional<Confusable> confusable =
+        find_confusable(decode_utf8(text.substr(at - 1)).value);
+    return confusable && confusable->name == kSuperscript;
 }
 
 } // namespace
 
 std::string normalized_form(char32_t point) {
-    if (const Confusable* const confusable = find_confusable(point); confusable != nullptr) {
+    if (const std::optional<Confusable> confusable = find_confusable(point)) {
         return std::string(confusable->ascii);
     }
     return is_letter_beyond_ascii(point) ? "_" + code_point_name(point).substr(2) : " ";
@@ -58,11 +59,11 @@ void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
-        const Confusable* const confusable = find_confusable(point.value);
-        if (confusable != nullptr && confusable->name == kSuperscript && !stray.in_value) {
+        const std::optional<Confusable> confusable = find_confusable(point.value);
+        if (confusable && confusable->name == kSuperscript && !stray.in_value) {
             report_power(stray.begin, point);
             map_.replace(stray.begin, stray.begin + point.length, " ");
-        } else if (confusable != nullptr) {
+        } else if (confusable) {
             const bool continues = confusable->name == kSuperscript &&
                                    ends_with_superscript(text_.substr(0, stray.begin));
             const bool is_mixed = confusable->ascii.starts_with('(') && stray.begin > 0 &&

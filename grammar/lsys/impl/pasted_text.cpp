@@ -10,176 +10,7 @@
 
 namespace lsys::lsys_grammar {
 
-void DraftText::blank(std::size_t begin, std::size_t end) {
-    for (std::size_t at = begin; at < end; ++at) {
-        if (text[at] != '\n' && text[at] != '\r') {
-            put(at, ' ');
-        }
-    }
-    is_changed = true;
-}
-
-void DraftText::mask() {
-    masked = text;
-    bool in_statement = false;
-    const auto hide = [&](std::size_t begin, std::size_t end, char c) {
-        for (std::size_t at = begin; at < end; ++at) {
-            masked[at] = text[at] == '\n' || text[at] == '\r' ? text[at] : c;
-        }
-    };
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        std::size_t end = at;
-        const bool is_slash = text[at] == '/';
-        if (is_slash && text.compare(at, 2, "/*") == 0) {
-            end = text.find("*/", at + 2);
-            end = end == std::string::npos ? text.size() : end + 2;
-            hide(at, end, ' ');
-        } else if (is_slash && !in_statement && text.compare(at, 2, "//") == 0) {
-            end = std::min(text.find('\n', at), text.size());
-            hide(at, end, ' ');
-        } else if (in_statement && text[at] == '`') {
-            end = text.find_first_of("`\n", at + 1);
-            end = end == std::string::npos || text[end] != '`' ? at : end + 1;
-            hide(at, end, 'Q');
-        } else if (text[at] == '#' && at + 1 < text.size()) {
-            in_statement = in_statement || is_statement_start(text, at);
-        } else if (text[at] == ';') {
-            in_statement = false;
-        }
-        at = end > at ? end - 1 : at;
-    }
-}
-
-bool DraftText::replace(std::size_t begin, std::size_t end, std::string_view replacement) {
-    if (replacement.size() > end - begin) {
-        return false;
-    }
-    blank(begin, end);
-    for (std::size_t i = 0; i < replacement.size(); ++i) {
-        put(begin + i, replacement[i]);
-    }
-    return true;
-}
-
-bool is_statement_start(std::string_view text, std::size_t at) {
-    at = text.find_first_not_of(" \t", at);
-    return at != std::string_view::npos && text[at] == '#' && at + 1 < text.size() &&
-           is_letter(text[at + 1]);
-}
-
-std::size_t skip_gaps(std::string_view text, std::size_t at) {
-    at = std::min(at, text.size());
-    while (at < text.size()) {
-        if (std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos) {
-            ++at;
-        } else if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? text.size() : close + 2;
-        } else {
-            break;
-        }
-    }
-    return at;
-}
-
-StatementText statement_at(std::string_view text, std::size_t at) {
-    StatementText statement{at, text.size()};
-    // Only names of files stand in quotes; among modules a `"` is a module.
-    const std::size_t first = std::min(text.find_first_not_of(" \t", at + 1), text.size());
-    const std::string_view word = leading_word(text.substr(first));
-    const bool has_files = (word == "object" || word == "include") &&
-                           text.substr(skip_gaps(text, first + word.size()), 1) != ":";
-    bool is_line_start = false;
-    for (++at; at < text.size(); ++at) {
-        const char c = text[at];
-        if (c == ';') {
-            statement.end = at;
-            break;
-        }
-        if (c == '`' || (c == '"' && has_files)) {
-            const char ends[] = {c, '\n', '\0'};
-            const std::size_t close = text.find_first_of(ends, at + 1);
-            if (close != std::string_view::npos && text[close] == c) {
-                at = close;
-            }
-        } else if (c == '/' && text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? text.size() - 1 : close + 1;
-        } else if (is_line_start && c == '#' && is_statement_start(text, at)) {
-            statement.end = at;
-            break;
-        }
-        is_line_start = c == '\n' || (is_line_start && (c == ' ' || c == '\t' || c == '\r'));
-    }
-    return statement;
-}
-
-std::string_view without_blanks(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos) {
-        return {};
-    }
-    return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
-}
-
 namespace {
-
-/// A line that does not begin inside a statement or a comment.
-struct FreeLine {
-    std::size_t begin = 0;
-    std::size_t end = 0;   // without the line end
-    std::string_view text; // without blanks at its ends
-};
-
-std::size_t end_of_line(std::string_view text, std::size_t at) {
-    return std::min(text.find('\n', at), text.size());
-}
-
-std::size_t start_of_line(std::string_view text, std::size_t at) {
-    const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
-    return newline == std::string_view::npos ? 0 : newline + 1;
-}
-
-/// The end of the statements and comments that begin in the line from `at` to `end`.
-std::size_t end_of_content(std::string_view text, std::size_t at, std::size_t end) {
-    while (at < end) {
-        if (text.substr(at, 2) == "//") {
-            return end;
-        }
-        if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? text.size() : close + 2;
-        } else if (text[at] == '#') {
-            const StatementText statement = statement_at(text, at);
-            at = statement.end < text.size() && text[statement.end] == ';' ? statement.end + 1
-                                                                           : statement.end;
-        } else {
-            ++at;
-        }
-    }
-    return at;
-}
-
-/// The lines between statements, in order.
-std::vector<FreeLine> free_lines(std::string_view text) {
-    std::vector<FreeLine> lines;
-    for (std::size_t at = 0; at < text.size();) {
-        std::size_t end = end_of_line(text, at);
-        lines.push_back({at, end, without_blanks(text.substr(at, end - at))});
-        std::size_t next = end_of_content(text, at, end);
-        while (next > end && next < text.size()) {
-            const std::size_t begin = start_of_line(text, next);
-            if (without_blanks(text.substr(begin, next - begin)).empty()) {
-                end = begin - 1; // the next statement begins this line
-                break;
-            }
-            end = end_of_line(text, next); // further content of the line where the last one ends
-            next = end_of_content(text, next, end);
-        }
-        at = std::max(end, std::min(next, text.size()) == text.size() ? text.size() : end) + 1;
-    }
-    return lines;
-}
 
 bool is_comment(std::string_view line) {
     return line.starts_with("//") || line.starts_with("/*");
@@ -210,6 +41,7 @@ void repair_line_ends(DraftText& draft) {
     std::replace(draft.text.begin(), draft.text.end(), '\r', '\n');
     draft.mask();
     draft.is_changed = true;
+    draft.has_free_lines = false;
 }
 
 // --- marks of a merge
@@ -218,7 +50,7 @@ void repair_merge(DraftText& draft) {
     std::size_t begin = std::string::npos;
     std::size_t middle = std::string::npos;
     bool is_reported = false;
-    for (const FreeLine& line : free_lines(draft.text)) {
+    for (const FreeLine& line : draft.free_lines()) {
         if (line.text.starts_with("<<<<<<<")) {
             begin = line.begin;
             middle = std::string::npos;
@@ -246,7 +78,7 @@ void repair_merge(DraftText& draft) {
 // --- Markdown
 
 void repair_fences(DraftText& draft) {
-    const std::vector<FreeLine> lines = free_lines(draft.text);
+    const std::vector<FreeLine>& lines = draft.free_lines();
     std::vector<const FreeLine*> fences;
     for (const FreeLine& line : lines) {
         if (line.text.starts_with("```") && line.text.find('`', 3) == std::string_view::npos) {
@@ -316,7 +148,7 @@ std::size_t number_length(std::string_view line, std::uint32_t& number) {
 }
 
 void repair_line_numbers(DraftText& draft) {
-    const std::vector<FreeLine> lines = free_lines(draft.text);
+    const std::vector<FreeLine>& lines = draft.free_lines();
     std::size_t first = std::string::npos;
     std::uint32_t number = 0;
     for (const FreeLine& line : lines) {
@@ -362,7 +194,7 @@ void repair_line_numbers(DraftText& draft) {
 // --- differences between two versions
 
 void repair_diff(DraftText& draft) {
-    const std::vector<FreeLine> lines = free_lines(draft.text);
+    const std::vector<FreeLine>& lines = draft.free_lines();
     const auto begins_with = [](std::string_view line, std::string_view word) {
         return line.starts_with(word);
     };
@@ -512,7 +344,7 @@ void repair_second_copy(DraftText& draft) {
 // --- comments
 
 void repair_comment_ends(DraftText& draft) {
-    for (const FreeLine& line : free_lines(draft.text)) {
+    for (const FreeLine& line : draft.free_lines()) {
         if (!line.text.starts_with("*/")) {
             continue;
         }
@@ -842,7 +674,7 @@ void repair_foreign_lines(DraftText& draft) {
         draft.text.find("p1") != std::string::npos || draft.text.find("p2") != std::string::npos;
     RuleNames names{has_names ? "rule" : "p", 0};
     bool has_statement = false;
-    for (FreeLine& line : free_lines(draft.text)) {
+    for (FreeLine line : draft.free_lines()) {
         line.text = without_blanks(line.text.substr(0, comment_in(line.text)));
         if (!is_foreign(line.text)) {
             has_statement = has_statement || is_statement_start(line.text, 0);

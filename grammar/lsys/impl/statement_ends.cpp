@@ -89,8 +89,7 @@ likely_comments(std::string_view text, std::uint32_t begin, std::uint32_t end, b
             const std::size_t close = text.find_first_of("`\n", at + 1);
             at = static_cast<std::uint32_t>(std::min<std::size_t>(close, end - 1)) + 1;
         } else if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = static_cast<std::uint32_t>(std::min<std::size_t>(close, end - 2)) + 2;
+            at = static_cast<std::uint32_t>(std::min<std::size_t>(comment_end(text, at), end));
         } else if (text.substr(at, 2) == "//") {
             const bool after_blank = at == begin || is_blank(text[at - 1]) || text[at - 1] == '\n';
             const char next = at + 2 < text.size() ? text[at + 2] : '\n';
@@ -113,23 +112,6 @@ bool is_number_part(char c) {
     return is_digit(c) || c == '.';
 }
 
-/// The first offset at or after `at` outside of blanks, line ends and comments.
-std::size_t after_comments(std::string_view text, std::size_t at) {
-    while (at < text.size()) {
-        if (is_blank(text[at]) || text[at] == '\n') {
-            ++at;
-        } else if (text.substr(at, 2) == "//") {
-            at = line_end(text, at);
-        } else if (text.substr(at, 2) == "/*") {
-            const std::size_t close = text.find("*/", at + 2);
-            at = close == std::string_view::npos ? text.size() : close + 2;
-        } else {
-            break;
-        }
-    }
-    return at;
-}
-
 /// Whether the statement may end before the current `//`, and the next statement or the end of the
 /// file follows the comment.
 bool lacks_only_semicolon(const ParseSession& session) {
@@ -141,7 +123,7 @@ bool lacks_only_semicolon(const ParseSession& session) {
         return false;
     }
     const std::string_view text = session.scanned.text;
-    const std::size_t next = after_comments(text, scan.begin);
+    const std::size_t next = skip_gaps_between_statements(text, scan.begin);
     return next == text.size() ||
            (text[next] == '#' && begins_statement(text, static_cast<std::uint32_t>(next)));
 }

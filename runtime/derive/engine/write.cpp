@@ -291,14 +291,42 @@ private:
             const auto count = static_cast<std::size_t>(
                 std::min<std::uint64_t>(request_.end - begin, ActiveMask::kModules));
             mask.fill(word_.codes, word_.count, begin, count, bits.data());
-            for (std::size_t first = 0; first < count; first += kBlock) {
+            for (std::size_t first = 0; first < count;) {
+                std::size_t end = first; // of the blocks without active modules
+                while (end < count && bits[end / kBlock].active == 0) {
+                    end += kBlock;
+                }
+                end = std::min(end, count);
+                if (end > first + kBlock) {
+                    copy_inactive<kInputs>(mask, &bits[first / kBlock], end - first);
+                    first = end;
+                    continue;
+                }
                 const auto size = static_cast<unsigned>(std::min(count - first, kBlock));
                 if (!write_block<kInputs>(mask, bits[first / kBlock], size)) {
                     return false;
                 }
+                first += size;
             }
         }
         return true;
+    }
+
+    /// Copies the next `size` modules, which are several blocks without active modules.
+    template <TermInputs kInputs>
+    void copy_inactive(const ActiveMask& mask, const ActiveBits* bits, std::size_t size) {
+        constexpr std::size_t kBlock = ActiveMask::kBlock;
+        const C* const in = word_.codes + place_.index;
+        codes_ = std::copy_n(in, size, codes_);
+        place_.index += size;
+        if constexpr (kInputs != TermInputs::None) {
+            std::uint64_t stored = 0;
+            for (std::size_t at = 0; at < size; at += kBlock) {
+                stored += mask.stored(in + at, bits[at / kBlock].stores);
+            }
+            parameters_ = std::copy_n(word_.parameters + place_.parameter, stored, parameters_);
+            place_.parameter += stored;
+        }
     }
 
     /// Writes the next `size` modules: 64, or fewer at the end. A run between two active modules is
