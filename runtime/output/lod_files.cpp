@@ -1,4 +1,4 @@
-#include "runtime/cli/lod_files.h"
+#include "runtime/output/lod_files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace lsys::lsc {
+namespace lsys {
 
 namespace {
 
@@ -71,4 +71,4 @@ lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<L
     return object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-} // namespace lsys::lsc
+} // namespace lsys
