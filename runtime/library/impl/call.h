@@ -12,7 +12,6 @@
 #include <lsys/project.h>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace lsys::v0 {
@@ -25,6 +24,8 @@ public:
     Call& operator=(const Call&) = delete;
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
+    /// Becomes true when the call is to end.
+    [[nodiscard]] const std::atomic<bool>* cancelled() const { return cancelled_; }
 
     /// Makes an outcome for the caller. `work` returns one of the pipeline, and `make` a public
     /// value of its value. Throws what a function of the host has thrown.
@@ -51,7 +52,7 @@ public:
     /// `write` as a sink of an export, which keeps what it throws.
     template <typename Write>
     [[nodiscard]] auto guarded_sink(Write write) {
-        return [this, write = std::move(write)](std::string_view piece) {
+        return [this, write = std::move(write)](const auto& piece) {
             return guarded([&] { return write(piece); }, false);
         };
     }
