@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <lsys/export.h>
 #include <optional>
+#include <utility>
 
 namespace lsys::v0 {
 
@@ -173,6 +174,17 @@ const std::vector<std::string>& preset_names() {
         return all;
     }();
     return names;
+}
+
+std::vector<OptionHelp> describe_options(OptionSet set) {
+    const ::lsys::OptionSet inner = set == OptionSet::Plant    ? ::lsys::OptionSet::Plant
+                                    : set == OptionSet::Forest ? ::lsys::OptionSet::Forest
+                                                               : ::lsys::OptionSet::Scene;
+    std::vector<OptionHelp> all;
+    for (::lsys::OptionHelp& help : ::lsys::describe_options(inner)) {
+        all.push_back({std::move(help.name), std::move(help.value_name), std::move(help.text)});
+    }
+    return all;
 }
 
 Outcome<std::vector<std::string>> save_plant(const Plant& plant,

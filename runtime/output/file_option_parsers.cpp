@@ -306,38 +306,75 @@ Result<std::vector<std::string>> find_preset_arguments(std::string_view name,
     return std::vector<std::string>{};
 }
 
+namespace {
+
+void add_plant_files(CLI::App& app, PlantFileOptions& options) {
+    add_plant_form(app, options);
+    add_plant_mesh(app, options);
+    add_plant_motion(app, options);
+    add_height(app, options.height);
+}
+
+void add_forest_files(CLI::App& app, ForestFileOptions& options) {
+    add_preset(app, PresetCommand::Forest, options.preset);
+    add_forest_form(app, options);
+    add_forest_mesh(app, options);
+}
+
+void add_scene(CLI::App& app, SceneOverrides& overrides) {
+    add_scene_overrides(app, overrides, "--size");
+    add_tree_height(app, overrides.height);
+    add_seed(app, overrides.seed);
+}
+
+} // namespace
+
 Result<PlantFileOptions> parse_plant_files(const std::string& output,
                                            const std::vector<NamedOption>& options) {
-    return parse_named<PlantFileOptions>(PresetCommand::Export, output, options,
-                                         [](CLI::App& app, PlantFileOptions& parsed) {
-                                             add_plant_form(app, parsed);
-                                             add_plant_mesh(app, parsed);
-                                             add_plant_motion(app, parsed);
-                                             add_height(app, parsed.height);
-                                         });
+    return parse_named<PlantFileOptions>(PresetCommand::Export, output, options, add_plant_files);
 }
 
 Result<ForestFileOptions> parse_forest_files(const std::string& output,
                                              const std::vector<NamedOption>& options) {
-    return parse_named<ForestFileOptions>(PresetCommand::Forest, output, options,
-                                          [](CLI::App& app, ForestFileOptions& parsed) {
-                                              add_preset(app, PresetCommand::Forest, parsed.preset);
-                                              add_forest_form(app, parsed);
-                                              add_forest_mesh(app, parsed);
-                                          });
+    return parse_named<ForestFileOptions>(PresetCommand::Forest, output, options, add_forest_files);
 }
 
 Result<SceneOverrides> parse_scene_overrides(const std::vector<NamedOption>& options) {
     SceneOverrides overrides;
     CLI::App app;
     app.set_help_flag();
-    add_scene_overrides(app, overrides, "--size");
-    add_tree_height(app, overrides.height);
-    add_seed(app, overrides.seed);
+    add_scene(app, overrides);
     if (const Result<void> parsed = parse(app, arguments_of(options)); !parsed) {
         return parsed.error();
     }
     return overrides;
+}
+
+std::vector<OptionHelp> describe_options(OptionSet set) {
+    PlantFileOptions plant;
+    ForestFileOptions forest;
+    SceneOverrides scene;
+    CLI::App app;
+    app.set_help_flag();
+    switch (set) {
+    case OptionSet::Plant:
+        add_plant_files(app, plant);
+        break;
+    case OptionSet::Forest:
+        add_forest_files(app, forest);
+        break;
+    case OptionSet::Scene:
+        add_scene(app, scene);
+        break;
+    }
+    std::vector<OptionHelp> all;
+    for (const CLI::Option* option : app.get_options()) {
+        const bool is_flag = option->get_items_expected_max() == 0;
+        all.push_back({option->get_lnames().front(),
+                       is_flag ? std::string() : option->get_type_name(),
+                       option->get_description()});
+    }
+    return all;
 }
 
 } // namespace lsys

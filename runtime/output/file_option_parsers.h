@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -52,6 +53,15 @@ using NamedOption = std::pair<std::string, std::string>;
                                                          const std::vector<NamedOption>& options);
 [[nodiscard]] Result<ForestFileOptions> parse_forest_files(const std::string& output,
                                                            const std::vector<NamedOption>& options);
+
+/// An option that one of the functions below reads.
+struct OptionHelp {
+    std::string name;       // without dashes
+    std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
+    std::string text;
+};
+enum class OptionSet : std::uint8_t { Plant, Forest, Scene };
+[[nodiscard]] std::vector<OptionHelp> describe_options(OptionSet set);
 
 /// Options of `lsc forest` that replace values of a scene.
 [[nodiscard]] Result<SceneOverrides> parse_scene_overrides(const std::vector<NamedOption>& options);

@@ -68,6 +68,20 @@ void bind_plant(py::module_& module) {
     module.attr("OBJECT_KINDS") = py::cast(lsys::object_kinds());
     module.attr("PRESETS") = py::cast(lsys::preset_names());
     module.attr("FORMATS") = py::cast(lsys::export_formats());
+    module.def("options", [](const std::string& set) {
+        const std::map<std::string, lsys::OptionSet> sets{{"plant", lsys::OptionSet::Plant},
+                                                          {"forest", lsys::OptionSet::Forest},
+                                                          {"scene", lsys::OptionSet::Scene}};
+        const auto found = sets.find(set);
+        if (found == sets.end()) {
+            throw py::value_error("the sets of options are plant, forest, scene");
+        }
+        py::dict options;
+        for (const lsys::OptionHelp& help : lsys::describe_options(found->second)) {
+            options[py::str(help.name)] = py::make_tuple(help.value_name, help.text);
+        }
+        return options;
+    });
     module.def("format_of_path",
                [](const std::string& path) { return lsys::format_of_path(path); });
     py::class_<lsys::PlantSize>(module, "PlantSize",

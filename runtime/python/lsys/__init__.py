@@ -11,7 +11,7 @@ import os
 
 import numpy as np
 
-from . import _lsys, options as _options, picture as _picture
+from . import _lsys, arguments as _arguments, picture as _picture
 from ._lsys import (
     FORMATS,
     INSTANCE,
@@ -49,7 +49,7 @@ __all__ = [
     "Cancelled", "Constant", "Diagnostic", "Edit", "Fix", "Forest", "ForestCounts", "Grammar",
     "GrammarError", "GrammarWarning", "Instances", "Label", "LimitError", "LsysError", "Mesh",
     "ModuleKind", "Place", "Plant", "PlantSize", "PredictedSize", "Species", "Word", "compile",
-    "__version__",
+    "options", "__version__",
 ]
 
 
@@ -80,6 +80,12 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
     return _lsys.compile_file(os.fspath(path), **arguments, **options)
 
 
+def options(of):
+    """The options of save() of a "plant" or a "forest", or of Forest(), "scene": a dictionary of names
+    with dashes, each with the form of its value, empty for flags, and a text."""
+    return _lsys.options(of)
+
+
 def _unfinished_file(path, data):
     """Writes a file that appears when it is complete."""
     unfinished = f"{path}.{os.getpid()}.part"
@@ -104,7 +110,7 @@ def _save(plant, path, *, mesh=None, preset=None, **options):
     """
     path = os.fspath(path)
     if mesh is None:
-        calls, named = _options.split({"preset": preset, **options})
+        calls, named = _arguments.split({"preset": preset, **options})
         return plant._save(path, named, **calls)
     if preset is not None:
         raise TypeError("a preset makes meshes of its own: leave out either preset or mesh")
@@ -124,14 +130,14 @@ def _save_forest(forest, path, *, preset=None, **options):
     underscores, as in `instances="lods"`, and those of all calls. All files appear when they are
     complete, or none.
     """
-    calls, named = _options.split({"preset": preset, **options})
+    calls, named = _arguments.split({"preset": preset, **options})
     return forest._save(os.fspath(path), named, **calls)
 
 
 def _write(thing, name, receive, **options):
     """As save(), into `receive(name, bytes, is_last)`, which gets each file in pieces and ends the call
     by returning False. Returns the names."""
-    calls, named = _options.split(options)
+    calls, named = _arguments.split(options)
     return thing._write(name, receive, named, **calls)
 
 
@@ -236,7 +242,7 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
     """
     files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
         os.fspath(path) for path in scene]
-    calls, named = _options.split(options)
+    calls, named = _arguments.split(options)
     _make_forest(self, files, None, named, dict(defines or {}), dict(settings or {}), generations,
                  **calls)
 
@@ -262,7 +268,7 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     places["age"] = age
     files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
         os.fspath(path) for path in grammars]
-    calls, named = _options.split(options)
+    calls, named = _arguments.split(options)
     forest = Forest.__new__(Forest)
     _make_forest(forest, files, places, named, dict(defines or {}), dict(settings or {}),
                  generations, **calls)

@@ -50,6 +50,19 @@ export_plant(const Plant& plant,
 /// flags: {{"preset", "unreal"}, {"lods", "6"}, {"wind-data", ""}}. docs/commands.md lists them.
 using Options = std::vector<std::pair<std::string, std::string>>;
 
+/// An option of one of the sets below.
+struct OptionHelp {
+    std::string name;       // as in Options
+    std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
+    std::string text;
+};
+enum class OptionSet : std::uint8_t {
+    Plant,  // of save_plant()
+    Forest, // of save_forest()
+    Scene,  // of ForestOptions::scene
+};
+[[nodiscard]] LSYS_API std::vector<OptionHelp> describe_options(OptionSet set);
+
 /// A piece of a file. Pieces of a file follow each other; the last one is empty.
 struct FilePiece {
     std::string_view name;
