@@ -127,7 +127,7 @@ def split_arguments(arguments, command):
     left = list(arguments)
     while left:
         name, equals, value = left.pop(0).partition("=")
-        name = {"-n": "--generations", "-D": "--define", "-j": "--threads"}.get(name, name)
+        name = {"-n": "--generations", "-D": "--define", "-s": "--seed"}.get(name, name)
         if not name.startswith("--"):
             raise CompilerError(f"options: `{name}` is none")
         name = name[2:]
