@@ -41,8 +41,8 @@ py::dtype group_type() {
 
 /// The trees of an array of tree_type().
 std::span<const lsys::Tree> trees_of(const py::array& places) {
-    if (places.ndim() != 1 ||
-        !places.dtype().is(tree_type()) && !py::bool_(places.dtype().attr("__eq__")(tree_type()))) {
+    const bool has_type = py::bool_(places.dtype().attr("__eq__")(tree_type()));
+    if (places.ndim() != 1 || !has_type) {
         throw py::type_error("places is a one-dimensional array of the type lsys.TREE");
     }
     if ((places.flags() & py::array::c_style) == 0) {
