@@ -298,15 +298,14 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
         }
         if (status == ExitStatus::Ok) {
             status = files.add_text(lods_json_path(given.output), lods_json(origin, extent, list));
-        });
+        }
     }
-}
-if (status == ExitStatus::Ok) {
-    status = files.commit();
-}
-run.timing.bytes += files.byte_count();
-run.timing.write_seconds += seconds_since(start);
-return status;
+    if (status == ExitStatus::Ok) {
+        status = files.commit();
+    }
+    run.timing.bytes += files.byte_count();
+    run.timing.write_seconds += seconds_since(start);
+    return status;
 }
 
 } // namespace
