@@ -2,8 +2,9 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/dialects/dialect.h"
-#include "runtime/cli/presets.h"
 #include "runtime/meshing/detail_levels.h"
+#include "runtime/output/file_option_parsers.h"
+#include "runtime/output/presets.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
@@ -168,18 +169,6 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump --stage heroes --heroes 2 tree.lsys");
 }
 
-void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
-    std::vector<std::pair<std::string, std::string>> names;
-    for (const Preset& preset : presets()) {
-        if (command == PresetCommand::Export || !preset.forests.empty()) {
-            names.emplace_back(preset.name, preset.name);
-        }
-    }
-    add_choice<std::string>(app, "--preset", target, std::move(names),
-                            "Options for the program that the file is for, listed below; an option "
-                            "that is given too wins");
-}
-
 /// Parses `season=0,0.5`: a name and several numbers.
 Result<VariantValues> parse_variants(const std::string& text) {
     VariantValues variants;
@@ -275,42 +264,12 @@ void add_export(CLI::App& app, ExportCommand& command) {
     app.add_option("-o,--output", command.output, "Output file; `-` is standard output")
         ->required()
         ->type_name("FILE");
-    std::vector<std::pair<std::string, std::optional<ExportFormat>>> formats;
-    for (const ExportFormat format : export_formats()) {
-        formats.emplace_back(traits_of(format).name, format);
-    }
-    add_choice(app, "--format", command.format, std::move(formats),
-               "Format (default: by the extension of the output)");
-    add_preset(app, PresetCommand::Export, command.preset);
-    add_placement(app, command);
-    add_compression(app, command.compression);
-    add_choice<std::optional<BufferPlace>>(
-        app, "--buffers", command.buffers,
-        {{"embedded", BufferPlace::Embedded}, {"separate", BufferPlace::Separate}},
-        "gltf: the buffer in the file, or with the pictures beside it: tree.bin, tree.bark.png "
-        "(default embedded)");
-    add_surface(app, command.surface);
+    add_plant_form(app, command);
     app.add_flag("--stream", command.stream,
                  "Draw without storing the word (no contexts, parallel rewriting only)");
     app.add_flag("--stats", command.stats,
                  "Print counts, sizes and times; with --message-format json as one JSON object");
-    add_mesh(app, command.mesh);
-    describe_detail_levels(app);
-    add_parsed(
-        app, "--lods", command.lods, integer(1, kMaxDetailLevel + 1),
-        fmt::format(
-            "Write N levels of detail, from the finest to the coarsest; where the plant has more, "
-            "N "
-            "in equal steps: {} hold them in one file (glTF as MSFT_lod, USD as the variant set "
-            "LOD), other formats are files tree.LOD0.obj, tree.LOD1.obj, ... and tree.lods.json",
-            format_names("and", [](const FormatTraits& format) { return format.lods; }))
-            .c_str())
-        ->type_name("N")
-        ->group("Mesh");
-    app.add_flag("--lod-files", command.lod_files,
-                 "Write a file for each level in any format, and the list of distances "
-                 "tree.lods.json")
-        ->group("Mesh");
+    add_plant_mesh(app, command);
     add_parsed(
         app, "--variants", command.variants, parse_variants,
         fmt::format("Write a plant for each value of a #define or #param into one file, as "
@@ -319,50 +278,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
                     format_names("and", [](const FormatTraits& format) { return format.variants; }))
             .c_str())
         ->type_name("NAME=NUMBER,NUMBER,...");
-    const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
-    add_parsed(app, "--gravity", command.gravity, gravity,
-               "Bend the plant under its weight, in m/s2 (9.81 on Earth)")
-        ->type_name("G")
-        ->group("Physics");
-    add_parsed(app, "--wind", command.wind, parse_wind,
-               "Bend the plant in wind, in m/s; GUST is the fraction that varies")
-        ->type_name("X,Y,Z[,GUST]")
-        ->group("Physics");
-    app.add_flag("--settle", command.settle,
-                 "Start at rest; without --frames, export the plant at rest")
-        ->group("Physics");
-    constexpr std::uint64_t kMaxFrames = 1'000'000;
-    const std::string frames =
-        fmt::format("Number of frames: one animation in {}, else numbered files tree.0001.ply, "
-                    "tree.0002.ply, ...",
-                    format_names("and", [](const FormatTraits& format) { return format.motion; }));
-    add_parsed(app, "--frames", command.frames, integer(1, kMaxFrames), frames.c_str())
-        ->type_name("N")
-        ->group("Physics");
-    const auto bones = [](const std::string& text) -> Result<std::uint64_t> {
-        constexpr std::uint64_t kMinJoints = 2;
-        return text == "all" || text == "0" ? Result<std::uint64_t>(0)
-                                            : parse_integer(text, kMinJoints, kMaxJoints);
-    };
-    add_parsed(app, "--bones", command.bones, bones,
-               "Max number of joints of an animation's skin; all: one for each segment that moves "
-               "(default 128)")
-        ->type_name("N|all")
-        ->group("Physics");
-    app.add_flag("--wind-data", command.wind_data,
-                 "Pivot, distance, phase and stiffness in TEXCOORD_1 and TEXCOORD_2 of glTF, for "
-                 "the shaders in scripts/wind")
-        ->group("Physics");
-    app.add_flag("--loop", command.loop,
-                 "With gusts: the last frame equals the first, and the motion goes on through it")
-        ->group("Physics");
-    app.add_flag("--grow", command.grow,
-                 "The frames show the plant from its axiom to its last generation, with parts of "
-                 "generations between whole ones");
-    const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
-    add_parsed(app, "--fps", command.frames_per_second, rate, "Frames per second (default 24)")
-        ->type_name("F")
-        ->group("Physics");
+    add_plant_motion(app, command);
     add_grammar(app, command.grammar, command.run);
     add_base(app, command.run);
     add_seed(app, command.seed);
@@ -403,44 +319,10 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     app.add_flag("--check", command.check, "Check the scene and its grammars, write nothing");
     app.add_flag("--stats", command.stats,
                  "Print counts of trees, distinct trees, branches and cached instances");
-    add_compression(app, command.compression);
-    app.add_flag("--expand", command.expand,
-                 "glTF without EXT_mesh_gpu_instancing: one node per instance");
-    app.add_flag("--bake", command.bake, "Write all triangles as one mesh");
-    add_choice<ForestInstances>(
-        app, "--instances", command.instances,
-        {{"branches", ForestInstances::Branches},
-         {"trees", ForestInstances::Trees},
-         {"lods", ForestInstances::Lods}},
-        "branches: every tree is different; trees: whole heroes, few draw calls and as many "
-        "different trees as --heroes; lods: whole heroes, each with the level of detail for its "
-        "distance from --viewpoint (default branches)");
-    add_parsed(app, "--viewpoint", command.viewpoint, parse_place,
-               "Eye for --instances lods, in m (default: outside the edge of the forest)")
-        ->type_name("X,Y,Z");
-    add_unit(app, command.unit);
-    add_choice<ForestPivot>(
-        app, "--pivot", command.pivot,
-        {{"origin", ForestPivot::Origin}, {"base", ForestPivot::Base}},
-        "Place that becomes the origin of the file: the origin of the scene, or the ground in the "
-        "middle of its rectangle (default origin)");
-    add_collision(app, command.collision, command.collision_names);
-    add_surface(app, command.surface);
-    add_parsed(
-        app, "--cell", command.cell,
-        [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); },
-        "Side of the ground cells whose trees share one instance node; 0: one cell (default 100, "
-        "with --instances trees or lods 0)")
-        ->type_name("METRES");
+    add_forest_form(app, command);
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
-    constexpr std::uint64_t kMaxStages = 10'000;
-    add_parsed(app, "--frames", command.frames, integer(0, kMaxStages),
-               "Write N moments of a forest that grows, by domination or through its stages, as "
-               "numbered files")
-        ->type_name("N")
-        ->group("Placement");
-    add_mesh(app, command.mesh);
+    add_forest_mesh(app, command);
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
@@ -634,44 +516,6 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-/// The format of the output of a command; null if the name of the output has no known format.
-const FormatTraits* format_of(const ExportCommand& command) {
-    const std::optional<ExportFormat> format =
-        command.format ? command.format : format_of_path(command.output);
-    return format ? &traits_of(*format) : nullptr;
-}
-const FormatTraits* format_of(const ForestCommand& command) {
-    const std::optional<ExportFormat> format = format_of_path(command.output);
-    return format ? &traits_of(*format) : nullptr;
-}
-
-/// The options that the command's preset adds to the given ones. Error: the preset has no files of
-/// the format. Empty without a preset, or if the format is unknown, which the command will report.
-template <typename Command>
-Result<std::vector<std::string>> find_preset_arguments(const Command& command,
-                                                       const CLI::App& app) {
-    constexpr PresetCommand kCommand =
-        std::is_same_v<Command, ExportCommand> ? PresetCommand::Export : PresetCommand::Forest;
-    const FormatTraits* const format = format_of(command);
-    for (const Preset& preset : presets()) {
-        if (preset.name != command.preset || format == nullptr) {
-            continue;
-        }
-        if (!suits(preset, kCommand, *format)) {
-            return Error{unsuitable_text(preset, kCommand, format->name)};
-        }
-        return preset_arguments(preset, kCommand, *format, [&app](std::string_view word) {
-            const std::size_t end = std::min(word.find('='), word.size());
-            const std::vector<std::string> values =
-                app.get_option(std::string(word.substr(0, end)))->results();
-            return end == word.size() ? !values.empty()
-                                      : std::find(values.begin(), values.end(),
-                                                  word.substr(end + 1)) != values.end();
-        });
-    }
-    return std::vector<std::string>{};
-}
-
 /// Parses the arguments. Sets `implied` to the options that their preset adds.
 CommandLine parse_arguments(std::span<const std::string> arguments,
                             std::vector<std::string>& implied) {
@@ -736,7 +580,10 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     const Result<std::vector<std::string>> options = std::visit(
         [&]<typename Command>(const Command& given) -> Result<std::vector<std::string>> {
             if constexpr (requires { given.preset; }) {
-                return find_preset_arguments(given, *command);
+                constexpr PresetCommand kCommand = std::is_same_v<Command, ExportCommand>
+                                                       ? PresetCommand::Export
+                                                       : PresetCommand::Forest;
+                return find_preset_arguments(given.preset, kCommand, format_of(given), *command);
             } else {
                 return std::vector<std::string>{};
             }

@@ -2,20 +2,12 @@
 #pragma once
 
 #include "runtime/meshing/mesh.h"
+#include "runtime/output/plant_files.h"
 #include "runtime/pipeline/plant.h"
 
-#include <cstdint>
 #include <string>
 
 namespace lsys::lsc {
-
-/// Times and bytes of all files of an export.
-struct ExportTiming {
-    double physics_seconds = 0.0;
-    double mesh_seconds = 0.0;
-    double write_seconds = 0.0;
-    std::uint64_t bytes = 0;
-};
 
 /// The statistics as a table. `mesh`: the mesh of the last file.
 [[nodiscard]] std::string

@@ -1,34 +1,9 @@
-// The C interface, implemented by the C++ interface. It lets no exception through.
-#include <cstddef>
-#include <lsys.h>
+// The C interface, on top of the C++ one. No exception passes it.
+#include "runtime/library/impl/c_interface.h"
+
 #include <lsys/export.h>
-#include <lsys/grammar.h>
-#include <lsys/plant.h>
-#include <lsys/word.h>
-#include <new>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 
-namespace api = lsys::v0;
-
-struct lsys_grammar {
-    api::Grammar value;
-};
-struct lsys_word {
-    api::Word value;
-};
-struct lsys_plant {
-    api::Plant value;
-};
-struct lsys_mesh {
-    api::Mesh value;
-};
-struct lsys_messages {
-    api::Messages value;
-    std::string text;
-};
+using namespace lsys::v0::c;
 
 namespace {
 
@@ -39,104 +14,6 @@ static_assert(sizeof(lsys_segment) == sizeof(api::Segment));
 static_assert(offsetof(lsys_segment, frame) == offsetof(api::Segment, frame));
 static_assert(offsetof(lsys_segment, parent) == offsetof(api::Segment, parent));
 static_assert(offsetof(lsys_segment, flags) == offsetof(api::Segment, flags));
-
-lsys_status c_status(api::Status status) {
-    return static_cast<lsys_status>(status);
-}
-
-std::string text_or(const char* text, const char* otherwise) {
-    return text != nullptr ? text : otherwise;
-}
-
-api::Project project_of(const lsys_project* given) {
-    api::Project project;
-    if (given == nullptr) {
-        return project;
-    }
-    project.threads = given->threads;
-    if (given->max_modules != 0) {
-        project.limits.max_modules = given->max_modules;
-    }
-    project.limits.max_bytes = given->max_bytes;
-    const lsys_project host = *given;
-    if (host.read_file != nullptr) {
-        project.host.read_file = [host](const std::string& path) -> api::FileContents {
-            const char* bytes = nullptr;
-            std::size_t size = 0;
-            if (host.read_file(host.user, path.c_str(), &bytes, &size) != 0) {
-                return {false, {}, "no such file or directory"};
-            }
-            return {true, std::string(bytes, size), {}};
-        };
-    }
-    if (host.progress != nullptr) {
-        project.host.progress = [host](const api::Progress& progress) {
-            return host.progress(host.user, progress.generation, progress.generations,
-                                 progress.modules) == 0;
-        };
-    }
-    return project;
-}
-
-api::GrammarOptions options_of(const lsys_grammar_options* given) {
-    api::GrammarOptions options;
-    if (given == nullptr) {
-        return options;
-    }
-    options.dialect = text_or(given->dialect, "");
-    options.system = text_or(given->system, "");
-    for (std::size_t i = 0; i < given->definition_count; ++i) {
-        options.definitions.emplace_back(given->definitions[i].name, given->definitions[i].value);
-    }
-    for (std::size_t i = 0; i < given->setting_count; ++i) {
-        options.settings.emplace_back(given->settings[i].key, given->settings[i].values);
-    }
-    if (given->generations >= 0) {
-        options.generations = static_cast<std::uint32_t>(given->generations);
-    }
-    return options;
-}
-
-std::optional<std::uint32_t> generations_of(std::int64_t generations) {
-    return generations < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(generations));
-}
-
-std::optional<std::uint64_t> seed_of(const std::uint64_t* seed) {
-    return seed == nullptr ? std::nullopt : std::optional(*seed);
-}
-
-void hand_over(const api::Messages& messages, lsys_messages** to) {
-    if (to != nullptr) {
-        *to = new lsys_messages{messages, messages.text()};
-    }
-}
-
-/// Calls `work`; returns its value as a handle, and its messages. Every exception means a lack of
-/// memory: the library throws no other exceptions, and functions of C throw none.
-template <typename Handle, typename Work>
-lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noexcept {
-    *value = nullptr;
-    if (messages != nullptr) {
-        *messages = nullptr;
-    }
-    try {
-        auto outcome = work();
-        hand_over(outcome.messages(), messages);
-        if (outcome) {
-            *value = new Handle{std::move(*outcome)};
-        }
-        return c_status(outcome.status());
-    } catch (...) {
-        return LSYS_OUT_OF_MEMORY;
-    }
-}
-
-/// Wraps a C function that receives pieces as a C++ function.
-auto piece_writer(int (*write)(void* user, const char* piece, std::size_t size), void* user) {
-    return [write, user](std::string_view piece) {
-        return write(user, piece.data(), piece.size()) == 0;
-    };
-}
 
 } // namespace
 
@@ -360,17 +237,12 @@ lsys_status lsys_export(const lsys_plant* plant,
                         void* user,
                         const lsys_project* project,
                         lsys_messages** messages) {
-    if (messages != nullptr) {
-        *messages = nullptr;
-    }
-    try {
-        const auto outcome = api::export_plant(plant->value, mesh->value, format,
-                                               piece_writer(write, user), {}, project_of(project));
-        hand_over(outcome.messages(), messages);
-        return c_status(outcome.status());
-    } catch (...) {
-        return LSYS_OUT_OF_MEMORY;
-    }
+    return call_alone(
+        [&] {
+            return api::export_plant(plant->value, mesh->value, format, piece_writer(write, user),
+                                     {}, project_of(project));
+        },
+        messages);
 }
 
 void lsys_mesh_free(lsys_mesh* mesh) {

@@ -2,12 +2,18 @@
 
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
+#include "runtime/library/impl/file_call.h"
+#include "runtime/output/file_option_parsers.h"
+#include "runtime/output/plant_files.h"
+#include "runtime/output/presets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <lsys/export.h>
 #include <optional>
+#include <utility>
 
 namespace lsys::v0 {
 
@@ -43,6 +49,61 @@ ExportCompression inner_compression(Compression compression) {
         return ExportCompression::Meshopt;
     }
     return ExportCompression::None;
+}
+
+/// Writes the files of a plant. Precondition: the options have been parsed, and do not conflict.
+ExitStatus write_grown(const PlantFileOptions& options,
+                       ExportFormat format,
+                       const Plant::Data& plant,
+                       const OutputContext& context) {
+    PlantFileReport report;
+    PlantOptions again = plant.grown;
+    again.height = options.height ? options.height : again.height;
+    again.stream = again.stream || options.stream;
+    if (options.grow) {
+        ::lsys::Grammar grammar = copy_of(plant.grammar.data().grammar);
+        ::lsys::Plant last;
+        return write_growth_files(options, format, again, grammar, context, report, last);
+    }
+    if (!options.height) {
+        return write_plant_files(options, format, {again.file, plant.grammar.data().grammar},
+                                 plant.plant, context, report);
+    }
+    ::lsys::Grammar grammar = copy_of(plant.grammar.data().grammar);
+    ::lsys::Plant grown;
+    const ExitStatus status =
+        context.console.take(grow_plant(again, grammar, context.project), grown);
+    return status == ExitStatus::Ok
+               ? write_plant_files(options, format, {again.file, grammar}, grown, context, report)
+               : status;
+}
+
+Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
+                                                 const std::string& path,
+                                                 const FileReceiver* receive,
+                                                 const Options& options,
+                                                 const Project& project) {
+    Call call(project);
+    const auto write = [&](const OutputContext& context) {
+        const Result<PlantFileOptions> parsed = parse_plant_files(path, options);
+        if (!parsed) {
+            return report_error(parsed.error(), context.console);
+        }
+        const PlantFileOptions& given = parsed.value();
+        const std::optional<ExportFormat> format =
+            given.format ? given.format : ::lsys::format_of_path(path);
+        if (!format) {
+            return report_error(
+                Error{fmt::format("the name `{}` does not tell a format: {}", path,
+                                  format_names("or", [](const FormatTraits&) { return true; }))},
+                context.console);
+        }
+        const std::string conflict = find_conflict(given, *format, context);
+        return conflict.empty() ? write_grown(given, *format, plant.data(), context)
+                                : report_error(Error{conflict}, context.console);
+    };
+    return call.run<std::vector<std::string>>([&] { return write_files(call, receive, write); },
+                                              [](std::vector<std::string> paths) { return paths; });
 }
 
 } // namespace
@@ -82,7 +143,7 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
             return {Stop::Failed, std::move(messages)};
         }
         ExportInfo info;
-        info.grammar = plant.data().grammar;
+        info.grammar = std::filesystem::path(plant.data().grown.file).filename().string();
         info.name = options.name;
         info.seed = drawn.seed;
         info.generations = drawn.generations;
@@ -91,7 +152,7 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
         info.threads = project.threads;
         info.user_meshes = &drawn.user_meshes;
         info.up = options.up == UpAxis::Z ? ::lsys::UpAxis::Z : ::lsys::UpAxis::Y;
-        ::lsys::Outcome<void> written = export_mesh(mesh.data().mesh, drawn.skeleton, *found, info,
+        ::lsys::Outcome<void> written = export_mesh(*mesh.data().mesh, drawn.skeleton, *found, info,
                                                     call.guarded_sink([&](std::string_view piece) {
                                                         bytes += piece.size();
                                                         return write(piece);
@@ -102,6 +163,43 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
         return {bytes, std::move(written.messages())};
     };
     return call.run<std::uint64_t>(work, [](std::uint64_t count) { return count; });
+}
+
+const std::vector<std::string>& preset_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const Preset& preset : presets()) {
+            all.emplace_back(preset.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+std::vector<OptionHelp> describe_options(OptionSet set) {
+    const ::lsys::OptionSet inner = set == OptionSet::Plant    ? ::lsys::OptionSet::Plant
+                                    : set == OptionSet::Forest ? ::lsys::OptionSet::Forest
+                                                               : ::lsys::OptionSet::Scene;
+    std::vector<OptionHelp> all;
+    for (::lsys::OptionHelp& help : ::lsys::describe_options(inner)) {
+        all.push_back({std::move(help.name), std::move(help.value_name), std::move(help.text)});
+    }
+    return all;
+}
+
+Outcome<std::vector<std::string>> save_plant(const Plant& plant,
+                                             const std::string& path,
+                                             const Options& options,
+                                             const Project& project) {
+    return write_plant_to(plant, path, nullptr, options, project);
+}
+
+Outcome<std::vector<std::string>> write_plant(const Plant& plant,
+                                              const std::string& name,
+                                              const FileReceiver& receive,
+                                              const Options& options,
+                                              const Project& project) {
+    return write_plant_to(plant, name, &receive, options, project);
 }
 
 } // namespace lsys::v0

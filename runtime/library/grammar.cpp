@@ -12,21 +12,6 @@ namespace lsys::v0 {
 
 namespace {
 
-::lsys::GrammarOptions inner_options(const GrammarOptions& options) {
-    ::lsys::GrammarOptions out;
-    out.dialect = options.dialect;
-    out.system = options.system;
-    out.bug_compatible = options.bug_compatible;
-    for (const auto& [name, value] : options.definitions) {
-        out.definitions.push_back({name, value});
-    }
-    for (const auto& [key, values] : options.settings) {
-        out.settings.push_back({key, values});
-    }
-    out.generations = options.generations;
-    return out;
-}
-
 std::vector<Constant> constants_of(const ::lsys::Grammar& grammar) {
     std::vector<Constant> constants;
     if (!grammar.program) {
@@ -43,7 +28,7 @@ std::vector<Constant> constants_of(const ::lsys::Grammar& grammar) {
 
 Outcome<Grammar> compile(Call& call, const std::string& name, const GrammarOptions& options) {
     return call.run<Grammar>(
-        [&] { return load_grammar(name, inner_options(options), call.project()); },
+        [&] { return load_grammar(name, inner_grammar_options(options), call.project()); },
         [&](::lsys::Grammar grammar) {
             auto data = std::make_shared<Grammar::Data>();
             data->name = name;
@@ -65,8 +50,22 @@ double rounded(const Count& count) {
 
 } // namespace
 
-::lsys::Grammar copy_of(const Grammar& grammar) {
-    const ::lsys::Grammar& original = grammar.data().grammar;
+::lsys::GrammarOptions inner_grammar_options(const GrammarOptions& options) {
+    ::lsys::GrammarOptions out;
+    out.dialect = options.dialect;
+    out.system = options.system;
+    out.bug_compatible = options.bug_compatible;
+    for (const auto& [name, value] : options.definitions) {
+        out.definitions.push_back({name, value});
+    }
+    for (const auto& [key, values] : options.settings) {
+        out.settings.push_back({key, values});
+    }
+    out.generations = options.generations;
+    return out;
+}
+
+::lsys::Grammar copy_of(const ::lsys::Grammar& original) {
     ::lsys::Grammar copy;
     copy.sources = std::make_shared<SourceMap>(*original.sources);
     copy.bytecode = original.bytecode;

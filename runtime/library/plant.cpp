@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <type_traits>
 #include <utility>
 
@@ -67,18 +66,6 @@ Vector3 vector_of(const glm::vec3& vector) {
     return ::lsys::MeshMethod::Default;
 }
 
-::lsys::MeshOptions inner_options(const MeshOptions& options) {
-    ::lsys::MeshOptions out;
-    out.method = inner_method(options.method);
-    out.sides = options.sides;
-    out.deviation = options.deviation;
-    out.texture_coordinates = options.texture_coordinates;
-    out.tangents = options.tangents;
-    out.smooth_joints = options.smooth_joints;
-    out.min_width = options.min_width;
-    return out;
-}
-
 Material public_material(const ::lsys::Material& material) {
     Material out;
     out.name = material.name;
@@ -116,6 +103,18 @@ const std::vector<std::string>& object_kinds() {
         return all;
     }();
     return names;
+}
+
+::lsys::MeshOptions inner_mesh_options(const MeshOptions& options) {
+    ::lsys::MeshOptions out;
+    out.method = inner_method(options.method);
+    out.sides = options.sides;
+    out.deviation = options.deviation;
+    out.texture_coordinates = options.texture_coordinates;
+    out.tangents = options.tangents;
+    out.smooth_joints = options.smooth_joints;
+    out.min_width = options.min_width;
+    return out;
 }
 
 Plant::Plant(std::shared_ptr<const Data> data) noexcept : data_(std::move(data)) {}
@@ -166,53 +165,52 @@ PlantSize Plant::measure() const {
 
 Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Project& project) {
     Call call(project);
-    ::lsys::Grammar copy = copy_of(grammar);
+    ::lsys::Grammar copy = copy_of(grammar.data().grammar);
     PlantOptions inner;
     inner.file = grammar.name();
     inner.generations = options.generations;
     inner.seed = options.seed;
     inner.height = options.height;
     inner.stream = options.stream;
-    return call.run<Plant>(
-        [&] { return grow_plant(inner, copy, call.project()); },
-        [&](::lsys::Plant plant) {
-            return Plant(std::make_shared<const Plant::Data>(Plant::Data{
-                std::move(plant), path_text(std::filesystem::path(inner.file).filename())}));
-        });
+    return call.run<Plant>([&] { return grow_plant(inner, copy, call.project()); },
+                           [&](::lsys::Plant plant) {
+                               return Plant(std::make_shared<const Plant::Data>(
+                                   Plant::Data{std::move(plant), grammar, inner}));
+                           });
 }
 
 Mesh::Mesh(std::shared_ptr<const Data> data) noexcept : data_(std::move(data)) {}
 
 std::span<const Vector3> Mesh::positions() const {
-    return as<Vector3>(span_of(data_->mesh.positions));
+    return as<Vector3>(span_of(data_->mesh->positions));
 }
 
 std::span<const Vector3> Mesh::normals() const {
-    return as<Vector3>(span_of(data_->mesh.normals));
+    return as<Vector3>(span_of(data_->mesh->normals));
 }
 
 std::span<const Vector2> Mesh::texture_coordinates() const {
-    return as<Vector2>(span_of(data_->mesh.texture_coordinates));
+    return as<Vector2>(span_of(data_->mesh->texture_coordinates));
 }
 
 std::span<const Vector4> Mesh::tangents() const {
-    return as<Vector4>(span_of(data_->mesh.tangents));
+    return as<Vector4>(span_of(data_->mesh->tangents));
 }
 
 std::span<const Colour> Mesh::colours() const {
-    return span_of(data_->mesh.colours);
+    return span_of(data_->mesh->colours);
 }
 
 std::uint64_t Mesh::index_count() const {
-    return data_->mesh.indices.size();
+    return data_->mesh->indices.size();
 }
 
 void Mesh::read_indices(std::uint64_t first, std::uint64_t count, std::uint32_t* to) const {
-    data_->mesh.indices.read(first, {to, count});
+    data_->mesh->indices.read(first, {to, count});
 }
 
 void Mesh::read_vertices(const VertexTarget& target) const {
-    const ::lsys::Mesh& mesh = data_->mesh;
+    const ::lsys::Mesh& mesh = *data_->mesh;
     constexpr std::uint64_t kPiece = 65'536;
     const std::uint64_t count = mesh.positions.size();
     const auto write = [&](const auto& items, std::uint64_t first, std::uint64_t end, void* to) {
@@ -248,22 +246,29 @@ const std::vector<Material>& Mesh::materials() const {
     return data_->materials;
 }
 
+Mesh public_mesh(std::shared_ptr<const ::lsys::Mesh> mesh, std::uint32_t threads) {
+    auto data = std::make_shared<Mesh::Data>();
+    for (const ::lsys::MeshPart& part : mesh->parts) {
+        data->parts.push_back({part.material, part.first_index, part.index_count});
+    }
+    for (const ::lsys::Material& material : mesh->materials) {
+        data->materials.push_back(public_material(material));
+    }
+    data->mesh = std::move(mesh);
+    data->threads = threads;
+    return Mesh(std::move(data));
+}
+
 Outcome<Mesh> make_mesh(const Plant& plant, const MeshOptions& options, const Project& project) {
     Call call(project);
     const ::lsys::Plant& drawn = plant.data().plant;
     return call.run<Mesh>(
-        [&] { return mesh_plant(drawn, drawn.skeleton, inner_options(options), call.project()); },
+        [&] {
+            return mesh_plant(drawn, drawn.skeleton, inner_mesh_options(options), call.project());
+        },
         [&](::lsys::Mesh mesh) {
-            auto data = std::make_shared<Mesh::Data>();
-            for (const ::lsys::MeshPart& part : mesh.parts) {
-                data->parts.push_back({part.material, part.first_index, part.index_count});
-            }
-            for (const ::lsys::Material& material : mesh.materials) {
-                data->materials.push_back(public_material(material));
-            }
-            data->mesh = std::move(mesh);
-            data->threads = project.threads;
-            return Mesh(std::move(data));
+            return public_mesh(std::make_shared<const ::lsys::Mesh>(std::move(mesh)),
+                               project.threads);
         });
 }
 

@@ -96,7 +96,7 @@ std::string Word::text() const {
 
 Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
     Call call(project);
-    ::lsys::Grammar copy = copy_of(grammar);
+    ::lsys::Grammar copy = copy_of(grammar.data().grammar);
     PlantOptions inner;
     inner.generations = options.generations;
     inner.seed = options.seed;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <istream>
+#include <memory>
 #include <ostream>
 #include <sstream>
 
@@ -57,12 +58,16 @@ Result<void> output_result(std::ostream& out) {
 
 Console::Console(const Io& io, const MessageOptions& options) : io_(io), options_(options) {}
 
+Console::Console(const Io& io, const MessageOptions& options, Messages& collected)
+    : io_(io), options_(options), collected_(&collected) {}
+
 bool Console::interrupted() const {
     return io_.interrupted != nullptr && io_.interrupted->load(std::memory_order_relaxed);
 }
 
 bool Console::shows_progress() const {
-    return io_.err_is_terminal && !options_.quiet && options_.format != MessageFormat::Json;
+    return io_.err_is_terminal && !options_.quiet && options_.format != MessageFormat::Json &&
+           collected_ == nullptr;
 }
 
 void Console::print_message(std::string_view severity, std::string_view message) const {
@@ -78,17 +83,25 @@ void Console::print_message(std::string_view severity, std::string_view message)
 }
 
 void Console::error(std::string_view message) const {
+    if (collected_ != nullptr) {
+        collected_->add_error(std::string(message));
+        return;
+    }
     print_message("error", message);
 }
 
 void Console::help(std::string_view message) const {
-    if (options_.format != MessageFormat::Json) {
+    if (collected_ != nullptr) {
+        collected_->add_help(std::string(message));
+    } else if (options_.format != MessageFormat::Json) {
         print_message("help", message);
     }
 }
 
 void Console::info(std::string_view message) const {
-    if (!options_.quiet) {
+    if (collected_ != nullptr) {
+        collected_->add_info(std::string(message));
+    } else if (!options_.quiet) {
         if (options_.format == MessageFormat::Json) {
             print_message("note", message);
         } else {
@@ -98,7 +111,7 @@ void Console::info(std::string_view message) const {
 }
 
 void Console::line(std::string_view text) const {
-    if (options_.format == MessageFormat::Json) {
+    if (options_.format == MessageFormat::Json || collected_ != nullptr) {
         info(text);
     } else if (!options_.quiet) {
         io_.err << text << '\n';
@@ -106,7 +119,9 @@ void Console::line(std::string_view text) const {
 }
 
 void Console::records(std::string_view lines) const {
-    if (!options_.quiet) {
+    if (collected_ != nullptr) {
+        collected_->add_info(std::string(lines));
+    } else if (!options_.quiet) {
         io_.err << lines;
     }
 }
@@ -126,6 +141,10 @@ RenderOptions Console::render_options() const {
 }
 
 void Console::show(const Messages& messages) const {
+    if (collected_ != nullptr) {
+        collected_->append(messages);
+        return;
+    }
     for (const Message& message : messages.all()) {
         switch (message.kind) {
         case Message::Kind::Diagnostics:
@@ -186,7 +205,11 @@ void Console::print(const Diagnostics& diagnostics, const SourceMap& sources) co
 ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) const {
     apply_levels(options_.levels, sources, diagnostics);
     diagnostics.sort_by_place();
-    print(diagnostics, sources);
+    if (collected_ != nullptr) {
+        collected_->add(diagnostics, std::make_shared<const SourceMap>(sources));
+    } else {
+        print(diagnostics, sources);
+    }
     const auto is_limit = [](const Diagnostic& diagnostic) {
         return diagnostic.code == DiagnosticCode::LimitReached;
     };

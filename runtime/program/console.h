@@ -1,5 +1,5 @@
 // Console: the only output of programs. Results go to standard output, messages to standard error
-// in the format of the options.
+// in the format of the options. The public library collects messages instead.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -20,6 +20,8 @@ namespace lsys {
 class Console {
 public:
     Console(const Io& io, const MessageOptions& options);
+    /// Collects all messages in `collected`, which outlives the console, and prints none.
+    Console(const Io& io, const MessageOptions& options, Messages& collected);
 
     [[nodiscard]] const Io& io() const { return io_; }
     [[nodiscard]] const MessageOptions& options() const { return options_; }
@@ -79,6 +81,7 @@ private:
 
     Io io_;
     MessageOptions options_;
+    Messages* collected_ = nullptr; // null: messages are printed
 };
 
 /// The text that a Console of the program `program` prints for the messages, in colour with

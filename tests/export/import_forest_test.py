@@ -134,16 +134,16 @@ def check_compiler(compiler, folder):
             return
         raise AssertionError(f"no error with {texts}")
 
-    fails(lambda: compiler.find_lsc(os.path.join(folder, "none")), "none", "preferences")
+    fails(lambda: compiler.find_compiler(os.path.join(folder, "none")), "none", "preferences")
     program = os.path.join(folder, "fails")
     with open(program, "w") as file:
         file.write("#!/bin/sh\ncase $1 in\n  loud) echo 'a:1:1: error: no' >&2; exit 1;;\n"
                    "  silent) exit 3;;\n  slow) exec sleep 20;;\nesac\n")
     os.chmod(program, 0o755)
-    fails(lambda: compiler.run_lsc(program, ["loud"], 10.0), "a:1:1: error: no")
-    fails(lambda: compiler.run_lsc(program, ["silent"], 10.0), "status 3")
-    fails(lambda: compiler.run_lsc(program, ["slow"], 0.2), "0.2 s", "limit")
-    fails(lambda: compiler.TemporaryGlb(program, ["other"], 10.0).__enter__(), "series")
+    fails(lambda: compiler.Program(program).run(["loud"], 10.0), "a:1:1: error: no")
+    fails(lambda: compiler.Program(program).run(["silent"], 10.0), "status 3")
+    fails(lambda: compiler.Program(program).run(["slow"], 0.2), "0.2 s", "limit")
+    fails(lambda: compiler.TemporaryGlb(compiler.Program(program), ["other"], 10.0).__enter__(), "series")
     fails(lambda: compiler.split_options("--sides '"), "options")
     assert compiler.split_options("--set tropism='0 -1 0 0.2'") == ["--set", "tropism=0 -1 0 0.2"]
 

@@ -12,7 +12,6 @@
 #include <lsys/project.h>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace lsys::v0 {
@@ -25,6 +24,8 @@ public:
     Call& operator=(const Call&) = delete;
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
+    /// Becomes true when the call is to end.
+    [[nodiscard]] const std::atomic<bool>* cancelled() const { return cancelled_; }
 
     /// Makes a public outcome. `work` returns an outcome of the pipeline, and `make` converts its
     /// value to a public value. Rethrows an exception that a function of the host has thrown.
@@ -51,7 +52,7 @@ public:
     /// A sink for an export that calls `write`, with exceptions handled by guarded().
     template <typename Write>
     [[nodiscard]] auto guarded_sink(Write write) {
-        return [this, write = std::move(write)](std::string_view piece) {
+        return [this, write = std::move(write)](const auto& piece) {
             return guarded([&] { return write(piece); }, false);
         };
     }

@@ -24,7 +24,7 @@ struct Grammar::Data {
 
 /// A copy for a call, which may fold its bytecode and add files to its sources; without names and
 /// program, which only compilation needs.
-[[nodiscard]] ::lsys::Grammar copy_of(const Grammar& grammar);
+[[nodiscard]] ::lsys::Grammar copy_of(const ::lsys::Grammar& grammar);
 
 struct Word::Data {
     Bytecode bytecode; // folded, with the codes of `derived`
@@ -34,14 +34,20 @@ struct Word::Data {
 
 struct Plant::Data {
     ::lsys::Plant plant;
-    std::string grammar; // file name of the grammar, for exported files
+    Grammar grammar;            // which bending and growth read
+    ::lsys::PlantOptions grown; // the plant is grown by them
 };
 
 struct Mesh::Data {
-    ::lsys::Mesh mesh;
+    std::shared_ptr<const ::lsys::Mesh> mesh; // never null
     std::vector<MeshPart> parts;
     std::vector<Material> materials;
     std::uint32_t threads = 0;
 };
+
+/// A mesh of the pipeline as a public one.
+[[nodiscard]] Mesh public_mesh(std::shared_ptr<const ::lsys::Mesh> mesh, std::uint32_t threads);
+[[nodiscard]] ::lsys::MeshOptions inner_mesh_options(const MeshOptions& options);
+[[nodiscard]] ::lsys::GrammarOptions inner_grammar_options(const GrammarOptions& options);
 
 } // namespace lsys::v0

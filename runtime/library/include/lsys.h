@@ -44,6 +44,8 @@ typedef struct lsys_grammar lsys_grammar;
 typedef struct lsys_word lsys_word;
 typedef struct lsys_plant lsys_plant;
 typedef struct lsys_mesh lsys_mesh;
+typedef struct lsys_forest lsys_forest;
+typedef struct lsys_instances lsys_instances;
 typedef struct lsys_messages lsys_messages;
 
 /* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as their
@@ -234,6 +236,127 @@ LSYS_C_API lsys_status lsys_export(const lsys_plant* plant,
                                    const lsys_project* project,
                                    lsys_messages** messages);
 LSYS_C_API void lsys_mesh_free(lsys_mesh* mesh); /* null is allowed */
+
+/* --- files ------------------------------------------------------------------------------------ */
+
+/* An option of `lsc export` or `lsc forest` by name without dashes, and its value; an empty value for
+ * a flag: {"preset", "unreal"}, {"wind-data", ""}. */
+typedef struct lsys_option {
+    const char* name;
+    const char* value;
+} lsys_option;
+
+/* Takes a piece of the file `name`. Files come one after the other; the last piece of each is empty,
+ * with `is_last` 1. Returns 0 to go on, another number to end the call with LSYS_CANCELLED. */
+typedef int (*lsys_receive)(
+    void* user, const char* name, const char* bytes, size_t size, int is_last);
+
+/* Writes `path` and the files beside it: pictures, levels of detail, frames. All appear, or none. */
+LSYS_C_API lsys_status lsys_save_plant(const lsys_plant* plant,
+                                       const char* path,
+                                       const lsys_option* options,
+                                       size_t option_count,
+                                       const lsys_project* project,
+                                       lsys_messages** messages);
+/* As lsys_save_plant(), into `receive`. */
+LSYS_C_API lsys_status lsys_write_plant(const lsys_plant* plant,
+                                        const char* name,
+                                        const lsys_option* options,
+                                        size_t option_count,
+                                        lsys_receive receive,
+                                        void* user,
+                                        const lsys_project* project,
+                                        lsys_messages** messages);
+
+/* --- forests ---------------------------------------------------------------------------------- */
+
+/* A tree of a forest. 28 bytes. */
+typedef struct lsys_tree {
+    float position[3]; /* m, of the start of the turtle */
+    float yaw;         /* radians about +Y */
+    float scale;
+    uint32_t number; /* draws the branches of the tree */
+    uint16_t species;
+    uint16_t age; /* years; 0: the last stage of its species */
+} lsys_tree;
+
+/* Grows the forest of a scene (.toml) or of grammars. `grammar_options` hold for all species;
+ * `options` replace values of the scene: {"count", "500"}, {"rho", "0"}. */
+LSYS_C_API lsys_status lsys_grow_forest(const char* const* files,
+                                        size_t file_count,
+                                        const lsys_grammar_options* grammar_options,
+                                        const lsys_option* options,
+                                        size_t option_count,
+                                        const lsys_project* project,
+                                        lsys_forest** forest,
+                                        lsys_messages** messages);
+/* Grows trees at places; their species are indices of `grammars`. */
+LSYS_C_API lsys_status lsys_forest_of_places(const char* const* grammars,
+                                             size_t grammar_count,
+                                             const lsys_tree* places,
+                                             size_t place_count,
+                                             const lsys_grammar_options* grammar_options,
+                                             const lsys_option* options,
+                                             size_t option_count,
+                                             const lsys_project* project,
+                                             lsys_forest** forest,
+                                             lsys_messages** messages);
+LSYS_C_API const lsys_tree* lsys_forest_trees(const lsys_forest* forest);
+LSYS_C_API size_t lsys_forest_tree_count(const lsys_forest* forest);
+/* As lsys_save_plant() and lsys_write_plant(), with options of `lsc forest`. */
+LSYS_C_API lsys_status lsys_save_forest(const lsys_forest* forest,
+                                        const char* path,
+                                        const lsys_option* options,
+                                        size_t option_count,
+                                        const lsys_project* project,
+                                        lsys_messages** messages);
+LSYS_C_API lsys_status lsys_write_forest(const lsys_forest* forest,
+                                         const char* name,
+                                         const lsys_option* options,
+                                         size_t option_count,
+                                         lsys_receive receive,
+                                         void* user,
+                                         const lsys_project* project,
+                                         lsys_messages** messages);
+LSYS_C_API void lsys_forest_free(lsys_forest* forest); /* null is allowed */
+
+/* An instance: its mesh is scaled, then turned by a unit quaternion x, y, z, w, then moved. 40
+ * bytes. */
+typedef struct lsys_instance {
+    float position[3];
+    float scale;
+    float rotation[4];
+    uint32_t tree;  /* in lsys_forest_trees() */
+    uint32_t group; /* in the groups of the instances */
+} lsys_instance;
+/* A draw: instances of some parts of a mesh. */
+typedef struct lsys_instance_group {
+    uint32_t mesh;       /* below lsys_instances_mesh_count() */
+    uint32_t first_part; /* of the mesh */
+    uint32_t part_count;
+    uint64_t first_instance;
+    uint64_t instance_count;
+} lsys_instance_group;
+
+/* Expands all trees and meshes their branches. `sides` of cross-sections; 0: those of the grammar. */
+LSYS_C_API lsys_status lsys_make_instances(const lsys_forest* forest,
+                                           uint32_t sides,
+                                           const lsys_project* project,
+                                           lsys_instances** instances,
+                                           lsys_messages** messages);
+LSYS_C_API const lsys_instance* lsys_instances_all(const lsys_instances* instances);
+LSYS_C_API uint64_t lsys_instances_count(const lsys_instances* instances);
+LSYS_C_API const lsys_instance_group* lsys_instances_groups(const lsys_instances* instances);
+LSYS_C_API size_t lsys_instances_group_count(const lsys_instances* instances);
+LSYS_C_API size_t lsys_instances_mesh_count(const lsys_instances* instances);
+/* A handle of its own, to be freed; null without memory. Precondition: index <
+ * lsys_instances_mesh_count(). */
+LSYS_C_API lsys_mesh* lsys_instances_mesh(const lsys_instances* instances, size_t index);
+/* Writes `count` instances from `first` on as matrices of 16 floats, column by column, `stride` bytes
+ * apart; 0: 64. Precondition: first + count <= lsys_instances_count(). */
+LSYS_C_API void lsys_instances_read_matrices(
+    const lsys_instances* instances, uint64_t first, uint64_t count, void* to, size_t stride);
+LSYS_C_API void lsys_instances_free(lsys_instances* instances); /* null is allowed */
 
 #ifdef __cplusplus
 }

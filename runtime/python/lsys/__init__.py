@@ -6,20 +6,30 @@
     'F[+F[+A]FA]FF[+A]FA'
 """
 
+import html
 import os
 
-from . import _lsys
+import numpy as np
+
+from . import _lsys, arguments as _arguments, picture as _picture
 from ._lsys import (
     FORMATS,
+    INSTANCE,
+    INSTANCE_GROUP,
     OBJECT,
     OBJECT_KINDS,
     POLYGON,
+    PRESETS,
     SEGMENT,
+    TREE,
     Constant,
     Diagnostic,
     Edit,
     Fix,
+    Forest,
+    ForestCounts,
     Grammar,
+    Instances,
     Label,
     Mesh,
     ModuleKind,
@@ -27,16 +37,19 @@ from ._lsys import (
     Plant,
     PlantSize,
     PredictedSize,
+    Species,
     Word,
     __version__,
 )
 from .errors import Cancelled, GrammarError, GrammarWarning, LimitError, LsysError
 
 __all__ = [
-    "FORMATS", "OBJECT", "OBJECT_KINDS", "POLYGON", "SEGMENT",
-    "Cancelled", "Constant", "Diagnostic", "Edit", "Fix", "Grammar", "GrammarError",
-    "GrammarWarning", "Label", "LimitError", "LsysError", "Mesh", "ModuleKind", "Place", "Plant",
-    "PlantSize", "PredictedSize", "Word", "compile", "__version__",
+    "FORMATS", "INSTANCE", "INSTANCE_GROUP", "OBJECT", "OBJECT_KINDS", "POLYGON", "PRESETS",
+    "SEGMENT", "TREE",
+    "Cancelled", "Constant", "Diagnostic", "Edit", "Fix", "Forest", "ForestCounts", "Grammar",
+    "GrammarError", "GrammarWarning", "Instances", "Label", "LimitError", "LsysError", "Mesh",
+    "ModuleKind", "Place", "Plant", "PlantSize", "PredictedSize", "Species", "Word", "compile",
+    "options", "__version__",
 ]
 
 
@@ -67,20 +80,14 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
     return _lsys.compile_file(os.fspath(path), **arguments, **options)
 
 
-def _save(plant, path, *, mesh=None, format=None, compress="none", up="y", **options):
-    """Writes the plant to a file. `format` or else the extension of the file sets the format.
+def options(of):
+    """The options of save() of a "plant" or a "forest", or of Forest(), "scene": a dictionary of names
+    with dashes, each with the form of its value, empty for flags, and a text."""
+    return _lsys.options(of)
 
-    mesh: of plant.mesh(); None: made with its defaults. compress: "none", "quantize" or "meshopt",
-    for glb and gltf. up: "y" or "z". Pictures are in the file or, as in OBJ, left out. The file
-    appears when it is complete.
-    """
-    path = os.fspath(path)
-    kind = format or _lsys.format_of_path(path)
-    if not kind:
-        raise LsysError(f"the name `{path}` does not tell a format: {', '.join(FORMATS)}")
-    stem = os.path.splitext(os.path.basename(path))[0]
-    data = plant.export(mesh if mesh is not None else plant.mesh(), kind, name=stem,
-                        compress=compress, up=up, **options)
+
+def _unfinished_file(path, data):
+    """Writes a file that appears when it is complete."""
     unfinished = f"{path}.{os.getpid()}.part"
     try:
         with open(unfinished, "xb") as file:
@@ -92,9 +99,98 @@ def _save(plant, path, *, mesh=None, format=None, compress="none", up="y", **opt
         raise
 
 
+def _save(plant, path, *, mesh=None, preset=None, **options):
+    """Writes the plant to a file, whose name tells the format unless `format` does, and the files
+    beside it. Returns their paths.
+
+    preset: "web", "unreal", "unity", "godot", "blender" or "print". options: those of `lsc export` with
+    underscores, as in `lods=6`, `wind=(8, 0, 0, 0.5)`, `wind_data=True`, and those of all calls. All
+    files appear when they are complete, or none.
+    mesh: written as it is, to one file; options are then format, compress and up.
+    """
+    path = os.fspath(path)
+    if mesh is None:
+        calls, named = _arguments.split({"preset": preset, **options})
+        return plant._save(path, named, **calls)
+    if preset is not None:
+        raise TypeError("a preset makes meshes of its own: leave out either preset or mesh")
+    kind = options.pop("format", None) or _lsys.format_of_path(path)
+    if not kind:
+        raise LsysError(f"the name `{path}` does not tell a format: {', '.join(FORMATS)}")
+    stem = os.path.splitext(os.path.basename(path))[0]
+    _unfinished_file(path, plant.export(mesh, kind, name=stem, **options))
+    return [path]
+
+
+def _save_forest(forest, path, *, preset=None, **options):
+    """Writes the forest to a file, whose name tells the format, and the pictures beside it. Returns
+    their paths.
+
+    preset: "web", "unreal", "unity", "godot" or "blender". options: those of `lsc forest` for files with
+    underscores, as in `instances="lods"`, and those of all calls. All files appear when they are
+    complete, or none.
+    """
+    calls, named = _arguments.split({"preset": preset, **options})
+    return forest._save(os.fspath(path), named, **calls)
+
+
+def _write(thing, name, receive, **options):
+    """As save(), into `receive(name, bytes, is_last)`, which gets each file in pieces and ends the call
+    by returning False. Returns the names."""
+    calls, named = _arguments.split(options)
+    return thing._write(name, receive, named, **calls)
+
+
+def _files(thing, name, **options):
+    """As save(), as a dictionary of names and bytes."""
+    files = {}
+
+    def receive(part, piece, _):
+        files.setdefault(part, bytearray()).extend(piece)
+
+    _write(thing, name, receive, **options)
+    return {part: bytes(data) for part, data in files.items()}
+
+
 def _svg(plant):
     """The plant as a drawing in SVG, seen from the front."""
     return plant.export(plant.mesh(), "svg").decode()
+
+
+def _png(plant, width=320, height=400):
+    """The plant as a picture in PNG, seen from the front."""
+    mesh = plant.mesh(tangents=False, texture_coordinates=False)
+    return _picture.png(_picture.draw(mesh, width, height))
+
+
+def _html(text, picture):
+    caption = html.escape(text.strip("<>"))
+    return f"<figure>{picture}<figcaption>{caption}</figcaption></figure>"
+
+
+def _plant_html(plant):
+    """The plant as a drawing with its measures."""
+    svg = plant._repr_svg_()
+    return _html(repr(plant), svg[svg.index("<svg"):])
+
+
+def _forest_svg(forest):
+    """The trees seen from above, a colour for each species."""
+    trees = forest.trees
+    size = 400
+    if len(trees) == 0:
+        return f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}"></svg>'
+    at = trees["position"][:, [0, 2]].astype(np.float64)
+    low, high = at.min(axis=0), at.max(axis=0)
+    extent = max((high - low).max(), 1e-9)
+    places = 10 + (at - low) / extent * (size - 20)
+    shown = np.linspace(0, len(trees) - 1, min(len(trees), 5000)).astype(np.int64)
+    colours = ("#2f6d32", "#8a5a2b", "#3c78a8", "#b08d2e", "#6b4a8a", "#a04b4b")
+    dots = "".join(
+        f'<circle cx="{places[i, 0]:.1f}" cy="{places[i, 1]:.1f}" r="2" '
+        f'fill="{colours[trees["species"][i] % len(colours)]}"/>' for i in shown)
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}" '
+            f'viewBox="0 0 {size} {size}">{dots}</svg>')
 
 
 def _plant_repr(plant):
@@ -115,10 +211,98 @@ def _mesh_repr(mesh):
             f"triangles>")
 
 
+def _forest_repr(forest):
+    names = ", ".join(species.name for species in forest.species)
+    return f"<Forest of {len(forest.trees):,} trees: {names}>"
+
+
+def _instances_repr(instances):
+    return (f"<Instances: {len(instances):,} in {len(instances.groups):,} groups of "
+            f"{len(instances.meshes)} meshes>")
+
+
+def _matrices(instances):
+    """The transforms as an array of (instances, 4, 4) float32: `m[i] @ (x, y, z, 1)` is a vertex of
+    instance i."""
+    matrices = np.empty((len(instances), 16), np.float32)
+    instances.read_matrices(matrices)
+    return matrices.reshape(-1, 4, 4).transpose(0, 2, 1)
+
+
+_make_forest = Forest.__init__
+
+
+def _forest_init(self, scene, *, defines=None, settings=None, generations=None, **options):
+    """Grows the forest of a scene file (.toml), or of one grammar or several, each of which is a
+    species.
+
+    defines, settings, generations: of all grammars, as for compile(). options: those of `lsc forest`
+    with underscores that replace values of the scene, as in `count=500`, `placement="poisson"`,
+    `rho=0`, and those of all calls.
+    """
+    files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
+        os.fspath(path) for path in scene]
+    calls, named = _arguments.split(options)
+    _make_forest(self, files, None, named, dict(defines or {}), dict(settings or {}), generations,
+                 **calls)
+
+
+def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, species=0, age=0,
+                 defines=None, settings=None, generations=None, **options):
+    """Grows trees at places. Each argument of places is an array with an item for each tree, or a
+    single value.
+
+    grammars: one path or several. positions: (trees, 3), m. rotation: radians about +Y. key: a number
+    that draws the branches of a tree; None: its index. species: index in `grammars`. age: years; 0: the
+    last stage. The others as for Forest().
+    """
+    positions = np.asarray(positions, np.float32)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise ValueError("positions is an array of (trees, 3)")
+    places = np.zeros(len(positions), TREE)
+    places["position"] = positions
+    places["yaw"] = rotation
+    places["scale"] = scale
+    places["number"] = np.arange(len(positions)) if key is None else key
+    places["species"] = species
+    places["age"] = age
+    files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
+        os.fspath(path) for path in grammars]
+    calls, named = _arguments.split(options)
+    forest = Forest.__new__(Forest)
+    _make_forest(forest, files, places, named, dict(defines or {}), dict(settings or {}),
+                 generations, **calls)
+    return forest
+
+
+def _instances(forest):
+    """The branches of all trees, made when first asked for; make_instances() has options."""
+    made = forest.__dict__.get("_instances")
+    if made is None:
+        made = forest.__dict__["_instances"] = forest.make_instances()
+    return made
+
+
 Plant.save = _save
+Plant.write = _write
+Plant.files_of = _files
 Plant.svg = _svg
+Plant.png = _png
 Plant._repr_svg_ = _svg
+Plant._repr_png_ = _png
+Plant._repr_html_ = _plant_html
 Plant.__repr__ = _plant_repr
 Word.__repr__ = _word_repr
 Grammar.__repr__ = _grammar_repr
 Mesh.__repr__ = _mesh_repr
+Forest.__init__ = _forest_init
+Forest.from_places = staticmethod(_from_places)
+Forest.instances = property(_instances)
+Forest.save = _save_forest
+Forest.write = _write
+Forest.files_of = _files
+Forest._repr_svg_ = _forest_svg
+Forest._repr_html_ = lambda self: _html(repr(self), _forest_svg(self))
+Forest.__repr__ = _forest_repr
+Instances.matrices = _matrices
+Instances.__repr__ = _instances_repr

@@ -1,42 +1,36 @@
-"""Runs lsc; needs no Blender."""
+"""Grows plants by the Python module lsys or, where there is none, by the program lsc; needs no Blender."""
 import json
 import os
 import shlex
 import shutil
 import subprocess
 import tempfile
+import time
+import warnings
+
+try:
+    import lsys
+except ImportError:
+    lsys = None
 
 
 class CompilerError(Exception):
-    """lsc is missing or failed; the text has the reason."""
+    """There is no compiler, or it failed; the text says why."""
 
 
-def find_lsc(named=""):
-    """Path of lsc: `named`, or else the first in PATH. CompilerError: there is none."""
+def find_compiler(named=""):
+    """The program at the path `named`; else the module lsys; else the program lsc of PATH."""
     if named:
         if os.path.isfile(named) and os.access(named, os.X_OK):
-            return named
+            return Program(named)
         raise CompilerError(f"{named} is no program: see the path of lsc in the preferences of the add-on")
+    if lsys is not None:
+        return Module()
     found = shutil.which("lsc")
     if found is None:
-        raise CompilerError("lsc is not in PATH: name its path in the preferences of the add-on")
-    return found
-
-
-def run_lsc(lsc, arguments, seconds):
-    """Standard output and the messages of a run. CompilerError: the run failed; the text has its messages."""
-    try:
-        done = subprocess.run([lsc, *arguments], capture_output=True, text=True, encoding="utf-8",
-                              errors="replace", stdin=subprocess.DEVNULL, timeout=seconds, check=False)
-    except subprocess.TimeoutExpired as error:
-        raise CompilerError(f"lsc was stopped after {seconds:g} s: the limit is in the preferences of the "
-                            "add-on") from error
-    except OSError as error:
-        raise CompilerError(f"{lsc}: {error.strerror}") from error
-    messages = done.stderr.strip()
-    if done.returncode != 0:
-        raise CompilerError(messages or f"lsc ended with status {done.returncode}")
-    return done.stdout, messages
+        raise CompilerError("there is no Python module lsys, and lsc is not in PATH: name its path in the "
+                            "preferences of the add-on")
+    return Program(found)
 
 
 def split_options(text):
@@ -46,31 +40,158 @@ def split_options(text):
         raise CompilerError(f"options: {error}") from error
 
 
-def read_parameters(lsc, file, seconds):
-    """The output of `lsc stats --parameters` for a grammar: generations, seed, parameters."""
+class Program:
+    """The program lsc."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def run(self, arguments, seconds):
+        """Standard output and the messages of a run. CompilerError: it failed, with its messages."""
+        try:
+            done = subprocess.run([self.path, *arguments], capture_output=True, text=True, encoding="utf-8",
+                                  errors="replace", stdin=subprocess.DEVNULL, timeout=seconds, check=False)
+        except subprocess.TimeoutExpired as error:
+            raise CompilerError(f"lsc was stopped after {seconds:g} s: the limit is in the preferences of the "
+                                "add-on") from error
+        except OSError as error:
+            raise CompilerError(f"{self.path}: {error.strerror}") from error
+        messages = done.stderr.strip()
+        if done.returncode != 0:
+            raise CompilerError(messages or f"lsc ended with status {done.returncode}")
+        return done.stdout, messages
+
+    def read_parameters(self, file, seconds):
+        """The output of `lsc stats --parameters` for a grammar: generations, seed, parameters."""
+        try:
+            output, _ = self.run(["stats", "--parameters", "--message-format", "json", "--quiet", "--", file], seconds)
+            return json.loads(output)
+        except CompilerError:
+            # The messages of the error are JSON; `lsc check` raises the same error with readable messages.
+            self.run(["check", "--color", "never", "--", file], seconds)
+            raise
+        except ValueError as error:
+            raise CompilerError(f"{self.path} is too old: it has no `stats --parameters`") from error
+
+    def write(self, arguments, path, seconds):
+        """Writes the file of `lsc export` or `lsc forest`. Returns the messages."""
+        return self.run([*arguments, "-o", path, "--color", "never"], seconds)[1]
+
+
+class Module:
+    """The Python module lsys."""
+
+    #: Options of compile(); those of grow() are `seed`, `height` and `stream`.
+    COMPILE = ("dialect", "system")
+
+    def attempt(self, work, seconds):
+        """The value of work(options of calls), and its warnings as text."""
+        end = time.monotonic() + seconds
+        calls = {"progress": lambda *_: time.monotonic() < end}
+        try:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                value = work(calls)
+        except lsys.Cancelled as error:
+            raise CompilerError(f"the plant was stopped after {seconds:g} s: the limit is in the preferences of "
+                                "the add-on") from error
+        except (lsys.LsysError, TypeError, ValueError) as error:
+            raise CompilerError(str(error)) from error
+        return value, "\n".join(str(each.message) for each in caught)
+
+    def read_parameters(self, file, seconds):
+        """As of the program."""
+        grammar, _ = self.attempt(lambda calls: lsys.compile(file, **calls), seconds)
+        parameters = []
+        for constant in grammar.constants:
+            one = {"name": constant.name}
+            if constant.value is not None:
+                one["value"] = constant.value
+            if constant.bounds is not None:
+                one["min"], one["max"] = constant.bounds
+            parameters.append(one)
+        return {"generations": grammar.generations or 0, "seed": grammar.seed, "parameters": parameters}
+
+    def write(self, arguments, path, seconds):
+        """As of the program, by the same arguments."""
+        command, file, *rest = arguments
+        of_grammar, options = split_arguments(rest, command)
+        return self.attempt(lambda calls: WRITERS[command](file, of_grammar, options, path, calls), seconds)[1]
+
+
+def split_arguments(arguments, command):
+    """Arguments of lsc as those of compile(), and the others as a dictionary of names and values."""
+    known = lsys.options("plant") if command == "export" else {**lsys.options("scene"), **lsys.options("forest")}
+    of_grammar = {"defines": {}, "settings": {}}
+    options = {}
+    left = list(arguments)
+    while left:
+        name, equals, value = left.pop(0).partition("=")
+        name = {"-n": "--generations", "-D": "--define", "-s": "--seed"}.get(name, name)
+        if not name.startswith("--"):
+            raise CompilerError(f"options: `{name}` is none")
+        name = name[2:]
+        is_flag = name == "bug-compatible" or known.get(name, ("VALUE",))[0] == ""
+        if not equals and not is_flag:
+            if not left:
+                raise CompilerError(f"options: --{name} has no value")
+            value = left.pop(0)
+        if name in ("define", "set"):
+            key, equals, value = value.partition("=")
+            if not equals:
+                raise CompilerError(f"options: `{key}` has no value")
+            of_grammar["defines" if name == "define" else "settings"][key] = (
+                number(value, float) if name == "define" else value)
+        elif name == "generations":
+            of_grammar["generations"] = number(value, int)
+        elif name == "threads":
+            options["threads"] = number(value, int)
+        elif name == "bug-compatible":
+            of_grammar["bug_compatible"] = True
+        elif name in Module.COMPILE:
+            of_grammar[name] = value
+        else:
+            options[name] = True if is_flag and not equals else value
+    return of_grammar, options
+
+
+def number(text, kind):
     try:
-        output, _ = run_lsc(lsc, ["stats", "--parameters", "--message-format", "json", "--quiet", "--", file], seconds)
-        return json.loads(output)
-    except CompilerError:
-        # The messages of the error are JSON; `lsc check` raises the same error with readable messages.
-        run_lsc(lsc, ["check", "--color", "never", "--", file], seconds)
-        raise
+        return kind(text)
     except ValueError as error:
-        raise CompilerError(f"{lsc} is too old: it has no `stats --parameters`") from error
+        raise CompilerError(f"options: `{text}` is no number") from error
+
+
+def write_plant(file, of_grammar, options, path, calls):
+    threads = {"threads": options.pop("threads")} if "threads" in options else {}
+    seed = number(options.pop("seed"), int) if "seed" in options else None
+    height = number(options.pop("height"), float) if "height" in options else None
+    plant = lsys.compile(file, **of_grammar, **calls, **threads).grow(seed=seed, height=height, **calls, **threads)
+    plant.save(path, **options, **calls, **threads)
+
+
+def write_forest(file, of_grammar, options, path, calls):
+    threads = {"threads": options.pop("threads")} if "threads" in options else {}
+    in_files = lsys.options("forest")
+    of_files = {name: options.pop(name) for name in list(options) if name in in_files}
+    lsys.Forest(file, **of_grammar, **options, **calls, **threads).save(path, **of_files, **calls, **threads)
+
+
+WRITERS = {"export": write_plant, "forest": write_forest}
 
 
 class TemporaryGlb:
-    """Context manager: runs lsc to write a GLB in a temporary folder, which is removed at the end of the `with`."""
+    """Context manager: writes a GLB in a temporary folder, which is removed at the end of the `with`."""
 
-    def __init__(self, lsc, arguments, seconds):
-        self.lsc, self.arguments, self.seconds = lsc, arguments, seconds
+    def __init__(self, compiler, arguments, seconds):
+        self.compiler, self.arguments, self.seconds = compiler, arguments, seconds
         self.folder = None
 
     def __enter__(self):
         self.folder = tempfile.TemporaryDirectory(prefix="lsys_plants_")
         path = os.path.join(self.folder.name, "plant.glb")
         try:
-            _, messages = run_lsc(self.lsc, [*self.arguments, "-o", path, "--color", "never"], self.seconds)
+            messages = self.compiler.write(self.arguments, path, self.seconds)
             if not os.path.isfile(path):
                 raise CompilerError("lsc wrote a series of files, not one: leave out --grow, and --frames of a forest")
         except BaseException:

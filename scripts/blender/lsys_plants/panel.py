@@ -27,7 +27,7 @@ MAX_LINES = 12
 class Preferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    lsc: StringProperty(name="lsc", subtype="FILE_PATH", description="Path of the program lsc; empty: the one in PATH")
+    lsc: StringProperty(name="lsc", subtype="FILE_PATH", description="Path of the program lsc; empty: the Python module lsys, or else lsc in PATH")
     seconds: FloatProperty(name="Time limit", default=120.0, min=1.0, soft_max=3600.0, subtype="TIME_ABSOLUTE",
                            description="Seconds after which a run of lsc is stopped")
 
@@ -37,11 +37,11 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 def preferences():
-    """Path of lsc and its time limit. CompilerError: there is no lsc."""
+    """The compiler and its time limit. CompilerError: there is none."""
     addon = bpy.context.preferences.addons.get(__package__)
-    if addon is None:  # a script registered the add-on instead of enabling it in the preferences
-        return compiler.find_lsc(), 120.0
-    return compiler.find_lsc(bpy.path.abspath(addon.preferences.lsc)), addon.preferences.seconds
+    if addon is None:  # registered by a script instead of being enabled in the preferences
+        return compiler.find_compiler(), 120.0
+    return compiler.find_compiler(bpy.path.abspath(addon.preferences.lsc)), addon.preferences.seconds
 
 
 pending = set()  # names of collections with changes that wait for the timer
@@ -159,12 +159,12 @@ def read_file(collection, keep):
     """Reads generations, seed and parameters of the grammar. With `keep`, values that the user changed stay."""
     settings = collection.lsys
     path = path_of(settings)
-    lsc, seconds = preferences()
+    found, seconds = preferences()
     if settings.is_scene:
         settings.parameters.clear()
         settings.has_key = keep and settings.has_key
         return
-    told = compiler.read_parameters(lsc, path, seconds)
+    told = found.read_parameters(path, seconds)
     values = {p.name: p.value for p in settings.parameters if p.value != p.default} if keep else {}
     with PausedUpdates():
         settings.parameters.clear()
@@ -215,11 +215,11 @@ def arguments_of(collection):
 
 
 def update(collection):
-    """Runs lsc, replaces the contents of the collection, returns the messages. Raises FAILURES and changes nothing."""
+    """Runs the compiler, replaces the contents of the collection, returns the messages. Raises FAILURES and changes nothing."""
     settings = collection.lsys
     try:
-        lsc, seconds = preferences()
-        with compiler.TemporaryGlb(lsc, arguments_of(collection), seconds) as (path, messages):
+        found, seconds = preferences()
+        with compiler.TemporaryGlb(found, arguments_of(collection), seconds) as (path, messages):
             extras = scene.fill(collection, path, settings.kind == "FOREST")
     except FAILURES as error:
         settings.message = str(error)

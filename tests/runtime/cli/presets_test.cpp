@@ -1,5 +1,5 @@
 #include "runtime/cli/command_line.h"
-#include "runtime/cli/presets.h"
+#include "runtime/output/presets.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

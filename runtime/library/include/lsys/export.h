@@ -1,4 +1,5 @@
-// Export: writes a plant and its mesh as a file for other programs.
+// Export: plants as files that other programs read: the bytes of one file, or all files of an export
+// with its preset, levels of detail, pictures, motion or growth.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <lsys/project.h>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys::LSYS_INTERFACE {
@@ -43,5 +45,50 @@ export_plant(const Plant& plant,
              const std::function<bool(std::string_view piece)>& write,
              const ExportOptions& options = {},
              const Project& project = {});
+
+/// Options of `lsc export` (or `lsc forest`) by name without dashes, and their values, empty for
+/// flags: {{"preset", "unreal"}, {"lods", "6"}, {"wind-data", ""}}. docs/commands.md lists them.
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+/// An option of one of the sets below.
+struct OptionHelp {
+    std::string name;       // as in Options
+    std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
+    std::string text;
+};
+enum class OptionSet : std::uint8_t {
+    Plant,  // of save_plant()
+    Forest, // of save_forest()
+    Scene,  // of ForestOptions::scene
+};
+[[nodiscard]] LSYS_API std::vector<OptionHelp> describe_options(OptionSet set);
+
+/// A piece of a file. Pieces of a file follow each other; the last one is empty.
+struct FilePiece {
+    std::string_view name;
+    std::string_view bytes;
+    bool is_last = false;
+};
+/// Takes files in place of a folder, one after the other; returns false to end the call with
+/// Status::Cancelled. An exception ends the call, which throws it on.
+using FileReceiver = std::function<bool(const FilePiece& piece)>;
+
+/// Presets: "web", "unreal" ...
+[[nodiscard]] LSYS_API const std::vector<std::string>& preset_names();
+
+/// Writes `path`, whose ending tells the format, and the files beside it: pictures, materials,
+/// buffers, levels, frames. All appear when they are complete, or none. Returns their paths.
+/// Options are those of `lsc export` from `format` to `fps`, and `height`, with which the plant is
+/// grown anew: form, mesh, levels of detail, bending, motion, growth.
+[[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_plant(const Plant& plant,
+                                                                    const std::string& path,
+                                                                    const Options& options = {},
+                                                                    const Project& project = {});
+/// As save_plant(), into `receive`.
+[[nodiscard]] LSYS_API Outcome<std::vector<std::string>> write_plant(const Plant& plant,
+                                                                     const std::string& name,
+                                                                     const FileReceiver& receive,
+                                                                     const Options& options = {},
+                                                                     const Project& project = {});
 
 } // namespace lsys::LSYS_INTERFACE

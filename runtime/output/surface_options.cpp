@@ -1,8 +1,8 @@
-#include "runtime/cli/surface_options.h"
+#include "runtime/output/surface_options.h"
 
 #include <fmt/format.h>
 
-namespace lsys::lsc {
+namespace lsys {
 
 std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat format) {
     const FormatTraits& traits = traits_of(format);
@@ -23,4 +23,4 @@ std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat fo
     return {};
 }
 
-} // namespace lsys::lsc
+} // namespace lsys

@@ -1,4 +1,4 @@
-#include "runtime/cli/lod_files.h"
+#include "runtime/output/lod_files.h"
 
 #include "grammar/base/paths.h"
 
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace lsys::lsc {
+namespace lsys {
 
 namespace {
 
@@ -73,4 +73,4 @@ lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<L
     return object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-} // namespace lsys::lsc
+} // namespace lsys

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys {
 
 enum class PresetCommand : std::uint8_t { Export, Forest };
 
@@ -59,4 +59,4 @@ preset_arguments(const Preset& preset,
 /// The presets of a command as a table for `--help`.
 [[nodiscard]] std::string preset_table(PresetCommand command);
 
-} // namespace lsys::lsc
+} // namespace lsys

@@ -1,11 +1,11 @@
-#include "runtime/cli/presets.h"
+#include "runtime/output/presets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-namespace lsys::lsc {
+namespace lsys {
 
 namespace {
 
@@ -22,7 +22,7 @@ bool cannot_say_up(const FormatTraits& format) {
 constexpr std::array kPresets{
 #define LSYS_PRESET(name, use, plants, forests) Preset{#name, use, plants, forests},
 #define LSYS_PRESET_OPTION(...)
-#include "runtime/cli/presets.def"
+#include "runtime/output/presets.def"
 #undef LSYS_PRESET
 #undef LSYS_PRESET_OPTION
 };
@@ -31,7 +31,7 @@ constexpr std::array kOptions{
 #define LSYS_PRESET(...)
 #define LSYS_PRESET_OPTION(preset, command, name, value, unless, takes)                            \
     PresetOption{#preset, PresetCommand::command, name, value, unless, takes},
-#include "runtime/cli/presets.def"
+#include "runtime/output/presets.def"
 #undef LSYS_PRESET
 #undef LSYS_PRESET_OPTION
 };
@@ -129,4 +129,4 @@ std::string preset_table(PresetCommand command) {
     return text;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys

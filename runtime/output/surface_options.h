@@ -1,13 +1,13 @@
 // Checks options of mesh files that only some formats accept.
 #pragma once
 
-#include "runtime/cli/options.h"
+#include "runtime/output/file_options.h"
 
 #include <string>
 
-namespace lsys::lsc {
+namespace lsys {
 
 /// A message about options that `format` does not accept; empty if it accepts all.
 [[nodiscard]] std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat format);
 
-} // namespace lsys::lsc
+} // namespace lsys

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys {
 
 /// Height in pixels of the screen for which the list gives distances and coverages.
 inline constexpr double kScreenLines = 1080.0;
@@ -44,4 +44,4 @@ struct LodFile {
 [[nodiscard]] std::string
 lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<LodFile>& files);
 
-} // namespace lsys::lsc
+} // namespace lsys

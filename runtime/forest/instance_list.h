@@ -1,0 +1,56 @@
+// InstanceList: all branch instances of a forest as one array, those with the same mesh together, as
+// renderers draw them. Made by make_instance_list(); used by the public library.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/base/large_vector.h"
+#include "runtime/forest/forest.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lsys {
+
+/// An instance: its mesh, in the coordinates of the heroes, is scaled, then turned, then moved.
+struct ForestInstance {
+    glm::vec3 position{}; // m
+    float scale = 1.0F;
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    std::uint32_t tree = 0;  // index in Forest::trees
+    std::uint32_t group = 0; // index in InstanceList::groups
+};
+static_assert(sizeof(ForestInstance) == 40);
+
+/// The instances of one branch of one cache, a range of InstanceList::instances.
+struct InstanceGroup {
+    std::uint32_t species = 0;
+    std::uint32_t stage = 0;
+    std::uint32_t instance = 0; // in InstanceCache::instances
+    std::uint64_t first = 0;
+    std::uint64_t count = 0; // above 0
+};
+
+struct InstanceList {
+    std::vector<InstanceGroup> groups; // by rising species, stage and instance
+    /// By group, then in the order of trees and of TreeExpander::expand().
+    LargeVector<ForestInstance> instances;
+};
+
+struct InstanceListOptions {
+    std::uint32_t threads = 0;                    // 0: as many as the machine has
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // of the instances
+    const std::atomic<bool>* cancelled = nullptr; // may be null
+};
+
+/// Expands every tree, twice: to count and to write. The list is the same for any number of
+/// threads. Returns Limit for more than `max_bytes`, checked before memory is allocated; OutOfMemory;
+/// Cancelled.
+[[nodiscard]] std::optional<Stop>
+make_instance_list(const Forest& forest, const InstanceListOptions& options, InstanceList& list);
+
+} // namespace lsys

@@ -1,0 +1,58 @@
+#include "runtime/library/impl/file_call.h"
+
+#include "runtime/library/impl/call.h"
+
+#include <fmt/format.h>
+
+#include <lsys/api.h>
+#include <sstream>
+#include <utility>
+
+namespace lsys::v0 {
+
+namespace {
+
+Stop stop_of(ExitStatus status) {
+    switch (status) {
+    case ExitStatus::AuthorErrors:
+        return Stop::Diagnosed;
+    case ExitStatus::Limit:
+        return Stop::Limit;
+    case ExitStatus::Interrupted:
+        return Stop::Cancelled;
+    case ExitStatus::Ok:
+    case ExitStatus::Failure:
+        break;
+    }
+    return Stop::Failed;
+}
+
+} // namespace
+
+::lsys::Outcome<std::vector<std::string>>
+write_files(Call& call,
+            const FileReceiver* receive,
+            const std::function<ExitStatus(const OutputContext& context)>& write) {
+    std::istringstream in; // a console of a library reads and prints nothing
+    std::ostringstream out;
+    ::lsys::Messages messages;
+    MessageOptions options;
+    options.levels = call.project().levels;
+    const Console console({in, out, out, false, call.cancelled(), "lsys"}, options, messages);
+    std::vector<std::string> paths;
+    ::lsys::FileReceiver receiver;
+    if (receive != nullptr) {
+        receiver = call.guarded_sink([receive](const ::lsys::FilePiece& piece) {
+            return (*receive)({piece.name, piece.bytes, piece.is_last});
+        });
+    }
+    const OutputContext context{console, call.project(), fmt::format("liblsys {}", version()),
+                                receive != nullptr ? &receiver : nullptr, &paths};
+    const ExitStatus status = write(context);
+    if (status != ExitStatus::Ok) {
+        return {stop_of(status), std::move(messages)};
+    }
+    return {std::move(paths), std::move(messages)};
+}
+
+} // namespace lsys::v0

@@ -1,0 +1,26 @@
+// A public call that writes files: a console that collects its messages, and the files on disk or
+// into a receiver.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/output/output_set.h"
+#include "runtime/program/console.h"
+
+#include <atomic>
+#include <functional>
+#include <lsys/export.h>
+#include <string>
+#include <vector>
+
+namespace lsys::v0 {
+
+class Call;
+
+/// Runs `write` with a context of the call. `receive` null: files on disk. Returns the paths of the
+/// files.
+[[nodiscard]] ::lsys::Outcome<std::vector<std::string>>
+write_files(Call& call,
+            const FileReceiver* receive,
+            const std::function<ExitStatus(const OutputContext& context)>& write);
+
+} // namespace lsys::v0

@@ -1,0 +1,41 @@
+// The data behind Forest and Instances of the public headers.
+#pragma once
+
+#include "runtime/forest/instance_list.h"
+#include "runtime/library/impl/data.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/scene_overrides.h"
+
+#include <lsys/forest.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::v0 {
+
+/// The way to a forest, for files that need it grown anew.
+struct ForestSource {
+    std::vector<std::string> files;
+    SceneOverrides overrides;
+    std::optional<std::vector<Tree>> places; // unset: those of the scene
+};
+
+struct LoadedForest {
+    LoadedScene loaded;
+    GrownForest grown;
+};
+
+struct Forest::Data {
+    ForestSource source;
+    LoadedForest forest;
+    std::vector<Species> species;
+};
+
+struct Instances::Data {
+    InstanceList list;
+    std::vector<Mesh> meshes;
+    std::vector<InstanceGroup> groups;
+    std::uint32_t threads = 0;
+};
+
+} // namespace lsys::v0

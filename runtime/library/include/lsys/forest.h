@@ -1,0 +1,147 @@
+// Forest: trees of some species on a ground, of a scene file, of grammars or of places; its instances
+// as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are spans into the
+// forest or the instances, which are not copied: they are valid as long as one copy of it is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <lsys/api.h>
+#include <lsys/export.h>
+#include <lsys/grammar.h>
+#include <lsys/outcome.h>
+#include <lsys/plant.h>
+#include <lsys/project.h>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lsys::LSYS_INTERFACE {
+
+/// A tree. Its shape depends on the forest's key, its species and its number alone. 28 bytes.
+struct Tree {
+    Vector3 position; // of the start of the turtle
+    float yaw = 0.0F; // radians about +Y
+    float scale = 1.0F;
+    std::uint32_t number = 0; // draws the branches of the tree
+    std::uint16_t species = 0;
+    std::uint16_t age = 0; // years; 0: the last stage of its species
+};
+
+struct Species {
+    std::string name;
+    std::vector<std::uint32_t> generations; // of each stage, rising
+    std::uint32_t heroes = 0;               // plants derived in full, of each stage
+    float height = 0.0F;                    // of `#set height`; 0: not set
+};
+
+struct ForestOptions {
+    GrammarOptions grammar; // of all species
+    /// Options of `lsc forest` that replace values of the scene: {"count", "500"}, {"rho", "0"},
+    /// {"placement", "poisson"}. With rho 0 every tree is a whole hero.
+    Options scene;
+};
+
+/// Sums over all trees. A branch is an instance; a tree has at least one.
+struct ForestCounts {
+    std::uint64_t trees = 0;
+    std::uint64_t branches = 0;
+    std::uint64_t segments = 0;
+    std::uint64_t objects = 0;
+    std::uint64_t polygons = 0;
+    std::uint32_t max_branches = 0; // of one tree
+};
+
+/// Cheap to copy, immutable, safe to use from several threads at once.
+class LSYS_API Forest {
+public:
+    [[nodiscard]] std::uint64_t key() const;
+    [[nodiscard]] const std::vector<Species>& species() const;
+    [[nodiscard]] std::span<const Tree> trees() const;
+    /// Expands all trees.
+    [[nodiscard]] ForestCounts count() const;
+
+    struct Data;
+    explicit Forest(std::shared_ptr<const Data> data) noexcept;
+    [[nodiscard]] const Data& data() const { return *data_; }
+
+private:
+    std::shared_ptr<const Data> data_; // never null
+};
+
+/// Grows the forest of a scene (.toml), or of grammars, each of which is a species, as `lsc forest`
+/// does.
+[[nodiscard]] LSYS_API Outcome<Forest> grow_forest(const std::vector<std::string>& files,
+                                                   const ForestOptions& options = {},
+                                                   const Project& project = {});
+/// Grows trees at places. Tree::species: index in `grammars`. Options of placement have no effect.
+/// Status::Failed: a species that does not exist, a number that is not finite, a scale that is not
+/// above 0.
+[[nodiscard]] LSYS_API Outcome<Forest> forest_of_places(const std::vector<std::string>& grammars,
+                                                        std::span<const Tree> places,
+                                                        const ForestOptions& options = {},
+                                                        const Project& project = {});
+
+/// An instance: its mesh is scaled, then turned, then moved. 40 bytes.
+struct Instance {
+    Vector3 position;
+    float scale = 1.0F;
+    Quaternion rotation;
+    std::uint32_t tree = 0;  // in Forest::trees()
+    std::uint32_t group = 0; // in Instances::groups()
+};
+
+/// A draw: the instances `first_instance` to `first_instance + instance_count` of the parts
+/// `first_part` to `first_part + part_count` of a mesh.
+struct InstanceGroup {
+    std::uint32_t mesh = 0;       // in Instances::meshes()
+    std::uint32_t first_part = 0; // in Mesh::parts()
+    std::uint32_t part_count = 0;
+    std::uint64_t first_instance = 0;
+    std::uint64_t instance_count = 0;
+};
+
+/// Cheap to copy, immutable, safe to use from several threads at once.
+class LSYS_API Instances {
+public:
+    /// One for each species and stage: the heroes, of which a group draws some parts.
+    [[nodiscard]] const std::vector<Mesh>& meshes() const;
+    [[nodiscard]] const std::vector<InstanceGroup>& groups() const;
+    [[nodiscard]] std::span<const Instance> all() const; // by group
+    /// Writes the instances `first` to `first + count` as matrices of 16 floats, column by column,
+    /// on several threads. `stride`: bytes from one to the next; 0: 64. Precondition: first + count
+    /// <= all().size().
+    void
+    read_matrices(std::uint64_t first, std::uint64_t count, void* to, std::size_t stride = 0) const;
+
+    struct Data;
+    explicit Instances(std::shared_ptr<const Data> data) noexcept;
+    [[nodiscard]] const Data& data() const { return *data_; }
+
+private:
+    std::shared_ptr<const Data> data_; // never null
+};
+
+/// Expands all trees and meshes their branches. `mesh.method`: not Solid.
+[[nodiscard]] LSYS_API Outcome<Instances>
+make_instances(const Forest& forest, const MeshOptions& mesh = {}, const Project& project = {});
+/// The ground below the trees.
+[[nodiscard]] LSYS_API Outcome<Mesh> make_ground(const Forest& forest, const Project& project = {});
+
+/// Writes `path`, whose ending tells the format (json: statistics), and the pictures beside it. All
+/// files appear when they are complete, or none. Returns their paths. Options are those of `lsc
+/// forest` for files: preset, compress, expand, bake, instances, viewpoint, unit, pivot, collision,
+/// up, cell, frames and those of meshes. With `instances` `trees` or `lods` and with `frames` the
+/// forest is grown anew.
+[[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_forest(const Forest& forest,
+                                                                     const std::string& path,
+                                                                     const Options& options = {},
+                                                                     const Project& project = {});
+/// As save_forest(), into `receive`.
+[[nodiscard]] LSYS_API Outcome<std::vector<std::string>> write_forest(const Forest& forest,
+                                                                      const std::string& name,
+                                                                      const FileReceiver& receive,
+                                                                      const Options& options = {},
+                                                                      const Project& project = {});
+
+} // namespace lsys::LSYS_INTERFACE

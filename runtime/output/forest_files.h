@@ -1,0 +1,57 @@
+// Writes a forest as files: instances, one mesh of all trees, or statistics; with pictures beside
+// it, at one moment or in frames of its growth. Used by `lsc forest` and the public library.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/forest/instance_meshes.h"
+#include "runtime/output/file_options.h"
+#include "runtime/output/output_set.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+enum class ForestOutputKind : std::uint8_t { None, Instances, Mesh, Statistics };
+
+/// The kind and format of the output, which its extension decides.
+struct ForestTarget {
+    ForestOutputKind kind = ForestOutputKind::None;
+    ExportFormat format = ExportFormat::Glb;
+};
+/// Error: a name that tells no format of forests.
+[[nodiscard]] Result<ForestTarget> target_of(const ForestFileOptions& options);
+
+/// A message about options that conflict; empty if none do. `rho`: of the overrides of the scene.
+[[nodiscard]] std::string find_conflict(const ForestFileOptions& options,
+                                        const ForestTarget& target,
+                                        std::optional<float> rho);
+
+/// A forest to write. References outlive the calls below.
+struct ForestOutput {
+    const ForestFileOptions& options;
+    const ForestTarget& target;
+    const OutputContext& context;
+    const Scene& scene;
+    /// By species and stage; with ForestInstances::Lods they may be empty.
+    const std::vector<std::vector<InstanceMeshes>>& meshes;
+    const Mesh* ground = nullptr; // null: none
+};
+
+/// Makes the mesh of the ground for a file of the target.
+[[nodiscard]] ExitStatus make_ground(const ForestTarget& target,
+                                     const GrownForest& grown,
+                                     const OutputContext& context,
+                                     std::optional<Mesh>& ground);
+/// Writes the forest with its trees as they are. Precondition: no conflict.
+[[nodiscard]] ExitStatus write_forest(const ForestOutput& output, const GrownForest& grown);
+/// Writes `options.frames` moments of a forest that grows as numbered files. Changes the trees of
+/// `grown`. Precondition: no conflict; the scene grows by domination, or its trees have stages and
+/// are placed.
+[[nodiscard]] ExitStatus write_forest_frames(const ForestOutput& output, GrownForest& grown);
+
+} // namespace lsys

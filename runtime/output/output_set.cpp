@@ -1,0 +1,77 @@
+#include "runtime/output/output_set.h"
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace lsys {
+
+bool OutputContext::is_regular(const std::string& path) const {
+    if (receiver != nullptr) {
+        return true;
+    }
+    std::error_code ignored;
+    const auto kind = std::filesystem::status(path, ignored).type();
+    return path != "-" && (kind == std::filesystem::file_type::not_found ||
+                           kind == std::filesystem::file_type::regular);
+}
+
+ExitStatus OutputSet::add(const std::string& path,
+                          const std::function<Outcome<void>(const ByteSink&)>& write) {
+    if (context_.paths != nullptr) {
+        context_.paths->push_back(path);
+    }
+    if (context_.receiver != nullptr) {
+        return hand_over(path, write);
+    }
+    const Console& console = context_.console;
+    Result<Output> output = Output::open(path, console);
+    if (!output) {
+        return report_error(output.error(), console);
+    }
+    std::optional<Error> failure;
+    const Outcome<void> written = write([&](std::string_view bytes) {
+        if (console.interrupted()) {
+            return false;
+        }
+        byte_count_ += bytes.size();
+        const Result<void> done = output.value().write(bytes);
+        if (!done) {
+            failure = done.error();
+        }
+        return !failure;
+    });
+    if (failure) {
+        return report_error(*failure, console);
+    }
+    if (const ExitStatus status = console.take(written); status != ExitStatus::Ok) {
+        return status;
+    }
+    if (const Result<void> finished = output.value().finish(); !finished) {
+        return report_error(finished.error(), console);
+    }
+    outputs_.push_back(std::move(output.value()));
+    return ExitStatus::Ok;
+}
+
+ExitStatus OutputSet::hand_over(const std::string& path,
+                                const std::function<Outcome<void>(const ByteSink&)>& write) {
+    const Outcome<void> written = write([&](std::string_view bytes) {
+        byte_count_ += bytes.size();
+        return !context_.console.interrupted() && (*context_.receiver)({path, bytes, false});
+    });
+    const ExitStatus status = context_.console.take(written);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    return (*context_.receiver)({path, {}, true}) ? ExitStatus::Ok : ExitStatus::Interrupted;
+}
+
+ExitStatus OutputSet::add_text(const std::string& path, std::string_view text) {
+    return add(path, [text](const ByteSink& sink) -> Outcome<void> {
+        return sink(text) ? Outcome<void>() : Outcome<void>(Stop::Cancelled, Messages{});
+    });
+}
+
+} // namespace lsys

@@ -1,0 +1,66 @@
+// The files that a command or call writes together: on disk all of them appear or none; a receiver
+// gets them one after the other.
+#pragma once
+
+#include "runtime/export/export.h"
+#include "runtime/program/console.h"
+#include "runtime/program/files.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// A piece of a file. Pieces of a file follow each other; the last one is empty.
+struct FilePiece {
+    std::string_view name;
+    std::string_view bytes;
+    bool is_last = false;
+};
+/// Takes files in place of a folder; returns false to stop the export.
+using FileReceiver = std::function<bool(const FilePiece& piece)>;
+
+/// Surroundings of writing. All parts outlive the call.
+struct OutputContext {
+    const Console& console;
+    const Project& project;
+    std::string generator;                     // the program and its version, for the files
+    const FileReceiver* receiver = nullptr;    // null: files on disk
+    std::vector<std::string>* paths = nullptr; // if not null, gets the paths of the files
+
+    /// Whether `path` is, or will be, a regular file or goes to a receiver: only then can other
+    /// files accompany it.
+    [[nodiscard]] bool is_regular(const std::string& path) const;
+};
+
+class OutputSet {
+public:
+    /// `context` must outlive the set.
+    explicit OutputSet(const OutputContext& context) : context_(context) {}
+
+    /// Writes a file that appears at commit(), and prints the messages of `write`. `write` passes
+    /// the bytes to the sink that it gets, which returns false after a failure or an interrupt.
+    [[nodiscard]] ExitStatus add(const std::string& path,
+                                 const std::function<Outcome<void>(const ByteSink&)>& write);
+    /// Adds a file with these bytes.
+    [[nodiscard]] ExitStatus add_text(const std::string& path, std::string_view text);
+    /// Makes all files visible.
+    [[nodiscard]] ExitStatus commit() {
+        return report_result(commit_all(outputs_), context_.console);
+    }
+    /// Total size of all files.
+    [[nodiscard]] std::uint64_t byte_count() const { return byte_count_; }
+
+private:
+    [[nodiscard]] ExitStatus hand_over(const std::string& path,
+                                       const std::function<Outcome<void>(const ByteSink&)>& write);
+
+    const OutputContext& context_;
+    std::vector<Output> outputs_;
+    std::uint64_t byte_count_ = 0;
+};
+
+} // namespace lsys

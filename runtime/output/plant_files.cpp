@@ -1,0 +1,384 @@
+#include "runtime/output/plant_files.h"
+
+#include "runtime/export/export.h"
+#include "runtime/export/placed_plant.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/output/impl/plant_run.h"
+#include "runtime/output/lod_files.h"
+#include "runtime/physics/animation.h"
+#include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+namespace {
+
+/// Adds the files that accompany the file `path`: pictures, the materials of an OBJ, the buffer of
+/// a glTF. Puts their names into `info`.
+ExitStatus add_side_files(PlantRun& run,
+                          const Skeleton& skeleton,
+                          const std::filesystem::path& path,
+                          ExportInfo& info,
+                          OutputSet& files) {
+    // Each level of detail has pictures of its own; all frames share theirs.
+    info.picture_prefix = run.options.lods != 0
+                              ? path.stem().string()
+                              : std::filesystem::path(run.options.output).stem().string();
+    const bool separate = run.options.buffers == BufferPlace::Separate;
+    const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
+    info.buffer_name = separate ? buffer.filename().string() : std::string();
+    std::vector<PictureFile> pictures;
+    ExitStatus status =
+        run.context.console.take(make_picture_files(run.mesh, run.format, info), pictures);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    for (const PictureFile& picture : pictures) {
+        if (!run.pictures.insert(picture.name).second) {
+            continue;
+        }
+        status = files.add(path.parent_path() / picture.name,
+                           [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+    }
+    if (separate) {
+        return files.add(buffer.string(), [&](const ByteSink& sink) {
+            return write_gltf_buffer(run.mesh, skeleton, info, sink);
+        });
+    }
+    if (!traits_of(run.format).has_mtl) {
+        return ExitStatus::Ok;
+    }
+    const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+    info.mtl_name = library.filename().string();
+    return files.add(library.string(),
+                     [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
+}
+
+/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures to what the
+/// format and the output allow.
+ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chain) {
+    const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
+                         skeleton.objects.size() == run.plant.skeleton.objects.size() &&
+                         skeleton.polygons.size() == run.plant.skeleton.polygons.size();
+    if (!run.levels.levels.empty() && is_pose) {
+        return ExitStatus::Ok;
+    }
+    MeshOptions finest = run.options.mesh;
+    finest.level = 0;
+    const ExportPictures pictures = traits_of(run.format).pictures;
+    chain.pictures =
+        pictures == ExportPictures::Inside ||
+        (pictures != ExportPictures::None && run.context.is_regular(run.options.output));
+    return run.context.console.take(plan_plant_levels(run.plant,
+                                                      is_pose ? run.plant.skeleton : skeleton,
+                                                      finest, chain, run.context.project),
+                                    run.levels);
+}
+
+/// Meshes the level of detail of `skeleton` that `--level` asks for, or the coarsest level.
+ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const MeshOptions& options) {
+    const std::uint32_t wanted = run.options.mesh.level;
+    if (wanted == 0) {
+        return run.context.console.take(
+            mesh_plant(run.plant, skeleton, options, run.context.project), run.mesh);
+    }
+    const ExitStatus status = plan_levels(run, skeleton, {.last = wanted, .first_fitted = wanted});
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t number = std::min<std::size_t>(wanted, run.levels.levels.size() - 1);
+    return run.context.console.take(
+        mesh_plant_level(run.plant, skeleton, run.levels, number, options, run.context.project),
+        run.mesh);
+}
+
+ExportInfo export_info(const PlantRun& run) {
+    const PlantFileOptions& given = run.options;
+    ExportInfo info;
+    info.grammar = std::filesystem::path(run.file).filename().string();
+    // Nodes are named after the output, else after the grammar; exporters have a default name.
+    const std::string& named = given.output == "-" ? run.file : given.output;
+    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
+    info.seed = run.plant.seed;
+    info.generations = run.plant.generations;
+    info.generator = run.context.generator;
+    info.user_meshes = &run.plant.user_meshes;
+    info.threads = run.context.project.threads;
+    info.wind_data = given.wind_data;
+    info.compression = given.compression.value_or(ExportCompression::None);
+    info.up = given.surface.up;
+    info.both_sides = given.surface.both_sides;
+    info.unit = given.unit;
+    info.collision = given.collision;
+    info.collision_names = given.collision_names;
+    return info;
+}
+
+} // namespace
+
+PlantPlacement placement_of(const PlantRun& run, const Skeleton& skeleton) {
+    if (run.is_placed) {
+        return {};
+    }
+    const Skeleton& rest = run.plant.skeleton.segments.empty() ? skeleton : run.plant.skeleton;
+    return {run.pivot.value_or(pivot_of(rest, run.options.pivot)),
+            units_per_metre(run.options.unit)};
+}
+
+ExitStatus mesh_frame(PlantRun& run, const Skeleton& skeleton, bool segments) {
+    const SteadyClock::time_point start = SteadyClock::now();
+    MeshOptions options = run.options.mesh;
+    options.segments = segments;
+    run.mesh = {};
+    // Frames of a growth are different plants, so planned levels do not fit them: `--level` only
+    // reduces the number of sides.
+    const ExitStatus status =
+        run.options.grow
+            ? run.context.console.take(
+                  mesh_plant(run.plant, skeleton, options, run.context.project), run.mesh)
+            : mesh_wanted_level(run, skeleton, options);
+    run.timing.mesh_seconds += seconds_since(start);
+    return status;
+}
+
+ExitStatus write_mesh(PlantRun& run,
+                      const Skeleton& skeleton,
+                      const std::string& path,
+                      const Movement& movement) {
+    const PlantFileOptions& given = run.options;
+    const SteadyClock::time_point start = SteadyClock::now();
+    ExportInfo info = export_info(run);
+    info.animation = movement.animation;
+    info.film = movement.film;
+    info.variants = run.variants;
+    constexpr std::uint32_t kDefaultJoints = 128;
+    info.max_joints = given.bones.value_or(kDefaultJoints);
+    const PlantPlacement placement = placement_of(run, skeleton);
+    const bool stays = placement == PlantPlacement{};
+    Skeleton placed;
+    PlantAnimation placed_animation;
+    if (!stays) {
+        placed = skeleton;
+        place(placement, run.mesh);
+        place(placement, placed);
+        if (movement.animation != nullptr) {
+            placed_animation = *movement.animation;
+            place(placement, placed_animation);
+            info.animation = &placed_animation;
+        }
+    }
+    const Skeleton& written = stays ? skeleton : placed;
+    OutputSet files(run.context);
+    ExitStatus status = ExitStatus::Ok;
+    if (run.context.is_regular(path)) {
+        status = add_side_files(run, written, path, info, files);
+    }
+    if (status == ExitStatus::Ok) {
+        status = files.add(path, [&](const ByteSink& sink) {
+            return export_mesh(run.mesh, written, run.format, info, sink);
+        });
+    }
+    if (status == ExitStatus::Ok) {
+        status = files.commit();
+    }
+    run.timing.bytes += files.byte_count();
+    run.timing.write_seconds += seconds_since(start);
+    return status;
+}
+
+ExitStatus write_plant(PlantRun& run,
+                       const Skeleton& skeleton,
+                       const std::string& path,
+                       const PlantAnimation* animation) {
+    if (traits_of(run.format).uses_mesh) {
+        const ExitStatus status =
+            mesh_frame(run, skeleton, animation != nullptr || run.options.wind_data);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+    }
+    return write_mesh(run, skeleton, path, {animation, nullptr});
+}
+
+namespace {
+
+/// Writes the levels of detail of `skeleton`: all into one file, or one file per level and a list.
+ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
+    const PlantFileOptions& given = run.options;
+    const bool one_file = traits_of(run.format).lods && !given.lod_files;
+    SteadyClock::time_point start = SteadyClock::now();
+    ExitStatus status = plan_levels(run, skeleton, {.count = given.lods});
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const std::size_t count = run.levels.levels.size();
+    if (count < given.lods) {
+        run.context.console.info(
+            fmt::format("the plant has {} {} of detail", count, count == 1 ? "level" : "levels"));
+    }
+    MeshOptions options = given.mesh;
+    options.segments = given.wind_data;
+    std::vector<CoarserMesh> meshes(count);
+    for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+        status = run.context.console.take(
+            mesh_plant_level(run.plant, skeleton, run.levels, i, options, run.context.project),
+            meshes[i].mesh);
+    }
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    const PlantExtent extent = extent_of(meshes.front().mesh);
+    for (std::size_t i = 0; i < count; ++i) {
+        meshes[i].coverage = screen_coverage(extent, run.levels.levels[i].pixels);
+    }
+    Skeleton placed = skeleton;
+    if (const PlantPlacement placement = placement_of(run, skeleton);
+        placement != PlantPlacement{}) {
+        place(placement, placed);
+        for (CoarserMesh& each : meshes) {
+            place(placement, each.mesh);
+        }
+    }
+    run.mesh = std::move(meshes.front().mesh);
+    run.timing.mesh_seconds += seconds_since(start);
+    start = SteadyClock::now();
+    const ExportInfo origin = export_info(run);
+    OutputSet files(run.context);
+    if (one_file) {
+        meshes.erase(meshes.begin());
+        ExportInfo info = origin;
+        info.coarser = &meshes;
+        if (run.context.is_regular(given.output)) {
+            status = add_side_files(run, placed, given.output, info, files);
+        }
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        status = files.add(given.output, [&](const ByteSink& sink) {
+            return export_mesh(run.mesh, placed, run.format, info, sink);
+        });
+    } else {
+        std::vector<LodFile> list;
+        Mesh finest; // kept for the statistics
+        for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
+            if (i == 1) {
+                finest = std::move(run.mesh);
+            }
+            if (i > 0) {
+                run.mesh = std::move(meshes[i].mesh);
+            }
+            const std::string path = lod_path(given.output, i);
+            ExportInfo info = origin;
+            info.collision = i == 0 ? origin.collision : CollisionKind::None;
+            status = add_side_files(run, placed, path, info, files);
+            if (status == ExitStatus::Ok) {
+                status = files.add(path, [&](const ByteSink& sink) {
+                    return export_mesh(run.mesh, placed, run.format, info, sink);
+                });
+            }
+            list.push_back({.name = std::filesystem::path(path).filename().string(),
+                            .triangles = run.mesh.indices.size() / 3,
+                            .pixels = run.levels.levels[i].pixels,
+                            .coverage = meshes[i].coverage});
+        }
+        if (count > 1) {
+            run.mesh = std::move(finest);
+        }
+        if (status == ExitStatus::Ok) {
+            status = files.add_text(lods_json_path(given.output), lods_json(origin, extent, list));
+        }
+    }
+    if (status == ExitStatus::Ok) {
+        status = files.commit();
+    }
+    run.timing.bytes += files.byte_count();
+    run.timing.write_seconds += seconds_since(start);
+    return status;
+}
+
+} // namespace
+
+ExitStatus write_still(PlantRun& run, const Skeleton& skeleton) {
+    if (run.collected != nullptr) {
+        const ExitStatus status = mesh_frame(run, skeleton, false);
+        if (status == ExitStatus::Ok) {
+            place(placement_of(run, skeleton), run.mesh);
+            run.collected->push_back(std::move(run.mesh));
+        }
+        return status;
+    }
+    return run.options.lods != 0 ? write_lods(run, skeleton)
+                                 : write_plant(run, skeleton, run.options.output, nullptr);
+}
+
+ExitStatus write_plant_files(const PlantFileOptions& options,
+                             ExportFormat format,
+                             const PlantSource& source,
+                             const Plant& plant,
+                             const OutputContext& context,
+                             PlantFileReport& report) {
+    PlantRun run{options, format, source.file, source.grammar, context, plant};
+    const SteadyClock::time_point start = SteadyClock::now();
+    const bool bends = options.gravity || options.wind;
+    const ExitStatus status = bends ? write_bent(run) : write_still(run, plant.skeleton);
+    report.timing = run.timing;
+    if (bends) { // the rest of the time is physics
+        report.timing.physics_seconds =
+            seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
+    }
+    report.mesh = std::move(run.mesh);
+    return status;
+}
+
+ExitStatus write_variant_files(const PlantFileOptions& options,
+                               ExportFormat format,
+                               const std::string& file,
+                               const VariantValues& values,
+                               const GrowVariant& grow,
+                               const OutputContext& context,
+                               PlantFileReport& report,
+                               Plant& first) {
+    PlantVariants variants{.set = values.name, .names = values.texts, .others = {}};
+    Grammar first_grammar;
+    for (std::size_t i = 0; i < values.values.size(); ++i) {
+        Grammar later_grammar;
+        Plant later;
+        Grammar& grammar = i == 0 ? first_grammar : later_grammar;
+        Plant& plant = i == 0 ? first : later;
+        ExitStatus status = grow(i, grammar, plant);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        PlantRun run{options, format, file, grammar, context, plant, report.timing};
+        run.collected = &variants.others;
+        status =
+            options.gravity || options.wind ? write_bent(run) : write_still(run, plant.skeleton);
+        if (status != ExitStatus::Ok) {
+            return status;
+        }
+        report.timing = run.timing;
+    }
+    PlantRun run{options, format, file, first_grammar, context, first, report.timing};
+    run.mesh = std::move(variants.others.front());
+    variants.others.erase(variants.others.begin());
+    run.is_placed = true;
+    run.variants = &variants;
+    const ExitStatus status = write_mesh(run, first.skeleton, options.output, {});
+    report.timing = run.timing;
+    report.mesh = std::move(run.mesh);
+    return status;
+}
+
+} // namespace lsys

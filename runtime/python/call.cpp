@@ -1,0 +1,177 @@
+#include "runtime/python/call.h"
+
+namespace lsys_python {
+
+namespace {
+
+/// Exceptions of the module, defined in lsys/__init__.py's errors.py.
+py::object error_class(lsys::Status status) {
+    const py::module_ errors = py::module_::import("lsys.errors");
+    switch (status) {
+    case lsys::Status::Diagnosed:
+        return errors.attr("GrammarError");
+    case lsys::Status::Limit:
+        return errors.attr("LimitError");
+    case lsys::Status::OutOfMemory:
+        return errors.attr("LimitError");
+    case lsys::Status::Cancelled:
+        return errors.attr("Cancelled");
+    case lsys::Status::Ok:
+    case lsys::Status::Failed:
+        break;
+    }
+    return errors.attr("LsysError");
+}
+
+/// The messages for an exception: with the lines of the source, or the words alone where they are
+/// about no source.
+std::string text_of(const lsys::Messages& messages) {
+    std::string text;
+    for (const lsys::Diagnostic& diagnostic : messages.all()) {
+        if (diagnostic.place) {
+            text = messages.text();
+            break;
+        }
+        text += diagnostic.message + '\n';
+        for (const std::string& help : diagnostic.help) {
+            text += "help: " + help + '\n';
+        }
+    }
+    text.resize(text.find_last_not_of('\n') + 1);
+    return text;
+}
+
+lsys::MeshMethod method_of(const std::string& name) {
+    const std::map<std::string, lsys::MeshMethod> methods{
+        {"default", lsys::MeshMethod::Default},
+        {"tubes", lsys::MeshMethod::Tubes},
+        {"cylinders", lsys::MeshMethod::Cylinders},
+        {"boxes", lsys::MeshMethod::Boxes},
+        {"solid", lsys::MeshMethod::Solid}};
+    const auto found = methods.find(name);
+    if (found == methods.end()) {
+        throw py::value_error("method is one of default, tubes, cylinders, boxes, solid");
+    }
+    return found->second;
+}
+
+} // namespace
+
+bool is_main_thread() {
+    const py::object threading = py::module_::import("threading");
+    return threading.attr("current_thread")().is(threading.attr("main_thread")());
+}
+
+lsys::FileContents read_by(const py::function& read, const std::string& path) {
+    const py::gil_scoped_acquire lock;
+    try {
+        const py::object result = read(path);
+        if (result.is_none()) {
+            return {false, {}, "no such file or directory"};
+        }
+        return {true, result.cast<std::string>(), {}};
+    } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_OSError)) {
+            throw;
+        }
+        const py::object reason = error.value().attr("strerror");
+        return {false, {}, reason.is_none() ? std::string() : reason.cast<std::string>()};
+    }
+}
+
+CallOptions options_of(const py::kwargs& arguments) {
+    CallOptions options;
+    for (const auto& [key, value] : arguments) {
+        const auto name = key.cast<std::string>();
+        if (name == "threads") {
+            options.threads = value.cast<std::uint32_t>();
+        } else if (name == "max_modules") {
+            options.max_modules = value.cast<std::uint64_t>();
+        } else if (name == "max_bytes") {
+            options.max_bytes = value.cast<std::uint64_t>();
+        } else if (name == "progress") {
+            options.progress = py::reinterpret_borrow<py::object>(value);
+        } else if (name == "read_file") {
+            options.read_file = py::reinterpret_borrow<py::object>(value);
+        } else {
+            throw py::type_error("unexpected keyword argument '" + name + "'");
+        }
+    }
+    return options;
+}
+
+lsys::GrammarOptions grammar_options(const std::map<std::string, float>& defines,
+                                     const py::dict& settings,
+                                     std::optional<std::uint32_t> generations,
+                                     const std::string& dialect,
+                                     const std::string& system,
+                                     bool bug_compatible) {
+    lsys::GrammarOptions options;
+    options.dialect = dialect;
+    options.system = system;
+    options.bug_compatible = bug_compatible;
+    options.generations = generations;
+    options.definitions.assign(defines.begin(), defines.end());
+    for (const auto& [key, value] : settings) {
+        std::string text;
+        if (py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value)) {
+            for (const py::handle part : py::reinterpret_borrow<py::sequence>(value)) {
+                text += (text.empty() ? "" : " ") + std::string(py::str(part));
+            }
+        } else {
+            text = py::str(value);
+        }
+        options.settings.emplace_back(py::str(key), text);
+    }
+    return options;
+}
+
+lsys::MeshOptions mesh_options(const std::string& method,
+                               std::uint32_t sides,
+                               float deviation,
+                               bool texture_coordinates,
+                               bool tangents,
+                               bool smooth_joints,
+                               float min_width) {
+    return {method_of(method), sides,         deviation, texture_coordinates,
+            tangents,          smooth_joints, min_width};
+}
+
+lsys::FileReceiver receiver_of(const py::function& receive) {
+    return [function = receive.ptr()](const lsys::FilePiece& piece) {
+        const py::gil_scoped_acquire lock;
+        const py::object go_on = py::reinterpret_borrow<py::function>(function)(
+            py::str(piece.name.data(), piece.name.size()),
+            py::bytes(piece.bytes.data(), piece.bytes.size()), piece.is_last);
+        return go_on.is_none() || py::bool_(go_on);
+    };
+}
+
+void raise(lsys::Status status, const lsys::Messages& messages) {
+    const py::object type = error_class(status);
+    std::string text = text_of(messages);
+    if (text.empty()) {
+        text = lsys::text_of(status);
+    }
+    const py::object error = type(text, py::cast(messages.all()));
+    PyErr_SetObject(type.ptr(), error.ptr());
+    throw py::error_already_set();
+}
+
+void warn(const lsys::Messages& messages) {
+    for (const lsys::Diagnostic& diagnostic : messages.all()) {
+        if (diagnostic.severity == lsys::Severity::Warning) {
+            const py::object type = py::module_::import("lsys.errors").attr("GrammarWarning");
+            std::string text = diagnostic.message;
+            if (diagnostic.place) {
+                text = diagnostic.place->file + ":" + std::to_string(diagnostic.place->line) + ":" +
+                       std::to_string(diagnostic.place->column) + ": " + text;
+            }
+            if (PyErr_WarnEx(type.ptr(), text.c_str(), 2) != 0) {
+                throw py::error_already_set();
+            }
+        }
+    }
+}
+
+} // namespace lsys_python

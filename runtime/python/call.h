@@ -1,0 +1,152 @@
+// A call of the library from Python: its options, the interpreter's lock, Ctrl-C, exceptions and
+// warnings.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <lsys/export.h>
+#include <lsys/grammar.h>
+#include <lsys/outcome.h>
+#include <lsys/plant.h>
+#include <lsys/project.h>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace lsys_python {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+/// Options that every call takes.
+struct CallOptions {
+    std::uint32_t threads = 0;
+    std::uint64_t max_modules = lsys::Limits{}.max_modules;
+    std::uint64_t max_bytes = 0;
+    py::object progress = py::none();  // callable(generation, generations, modules)
+    py::object read_file = py::none(); // callable(path) -> bytes
+};
+
+/// The options among the keyword arguments. Raises TypeError for others.
+[[nodiscard]] CallOptions options_of(const py::kwargs& arguments);
+[[nodiscard]] lsys::GrammarOptions grammar_options(const std::map<std::string, float>& defines,
+                                                   const py::dict& settings,
+                                                   std::optional<std::uint32_t> generations,
+                                                   const std::string& dialect,
+                                                   const std::string& system,
+                                                   bool bug_compatible);
+[[nodiscard]] lsys::MeshOptions mesh_options(const std::string& method,
+                                             std::uint32_t sides,
+                                             float deviation,
+                                             bool texture_coordinates,
+                                             bool tangents,
+                                             bool smooth_joints,
+                                             float min_width);
+
+/// Python's `threading.main_thread()` handles Ctrl-C.
+[[nodiscard]] bool is_main_thread();
+/// A value of Python as the contents of a file: bytes or text; an OSError says why there is none.
+[[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
+/// A function of Python that takes (name, bytes, is_last) as a receiver of files: it ends the call by
+/// returning False. `receive` outlives the receiver, which is called without the lock.
+[[nodiscard]] lsys::FileReceiver receiver_of(const py::function& receive);
+/// Raises the exception for a call that has failed.
+[[noreturn]] void raise(lsys::Status status, const lsys::Messages& messages);
+/// Makes warnings of Python of the warnings.
+void warn(const lsys::Messages& messages);
+
+/// Runs `work(project)` without the interpreter's lock. On Python's main thread the work is done by
+/// another one, while this one lets Ctrl-C end it.
+template <typename Work>
+auto run(const CallOptions& options, const Work& work) {
+    using Result = decltype(work(std::declval<const lsys::Project&>()));
+    std::atomic<bool> cancelled{false};
+    lsys::Project project;
+    project.threads = options.threads;
+    project.limits.max_modules = options.max_modules;
+    project.limits.max_bytes = options.max_bytes;
+    project.host.cancelled = &cancelled;
+    if (!options.read_file.is_none()) {
+        const auto read = options.read_file.cast<py::function>();
+        project.host.read_file = [read = read.ptr()](const std::string& path) {
+            return read_by(py::reinterpret_borrow<py::function>(read), path);
+        };
+    }
+    if (!options.progress.is_none()) {
+        project.host.progress = [report = options.progress.ptr()](const lsys::Progress& progress) {
+            const py::gil_scoped_acquire lock;
+            const py::object go_on = py::reinterpret_borrow<py::function>(report)(
+                progress.generation, progress.generations, progress.modules);
+            return go_on.is_none() || py::bool_(go_on);
+        };
+    }
+    if (!is_main_thread()) {
+        const py::gil_scoped_release unlocked;
+        return work(project);
+    }
+    std::optional<Result> result;
+    std::exception_ptr thrown;
+    std::exception_ptr interrupt; // KeyboardInterrupt
+    std::mutex mutex;
+    std::condition_variable ended;
+    bool is_done = false;
+    {
+        const py::gil_scoped_release unlocked;
+        std::thread worker([&] {
+            try {
+                result.emplace(work(project));
+            } catch (...) {
+                thrown = std::current_exception();
+            }
+            const std::lock_guard<std::mutex> lock(mutex);
+            is_done = true;
+            ended.notify_one();
+        });
+        std::unique_lock<std::mutex> lock(mutex);
+        while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return is_done; })) {
+            lock.unlock();
+            const py::gil_scoped_acquire locked;
+            if (!interrupt && PyErr_CheckSignals() != 0) {
+                cancelled.store(true);
+                interrupt = std::make_exception_ptr(py::error_already_set());
+            }
+            lock.lock();
+        }
+        lock.unlock();
+        worker.join();
+    }
+    if (interrupt) {
+        std::rethrow_exception(interrupt);
+    }
+    if (thrown) {
+        std::rethrow_exception(thrown);
+    }
+    return std::move(*result);
+}
+
+/// The value of an outcome; raises an exception with the messages if there is none. Warnings are
+/// warnings of Python.
+template <typename T>
+T value_of(lsys::Outcome<T> outcome) {
+    if (!outcome) {
+        raise(outcome.status(), outcome.messages());
+    }
+    warn(outcome.messages());
+    return std::move(*outcome);
+}
+
+void bind_messages(py::module_& module);
+void bind_grammar(py::module_& module);
+void bind_word(py::module_& module);
+void bind_plant(py::module_& module);
+void bind_forest(py::module_& module);
+
+} // namespace lsys_python

@@ -1,0 +1,34 @@
+"""Keyword arguments as options of `lsc export` and `lsc forest`."""
+
+import os
+
+CALL_OPTIONS = ("threads", "max_modules", "max_bytes", "progress", "read_file")
+
+
+def split(arguments):
+    """Options of calls, and the others as (name, text) pairs: `lod_files=True` is ("lod-files", "").
+
+    True is a flag, False takes back the flag of a preset, None is no option, and sequences are numbers
+    with commas between.
+    """
+    calls = {}
+    options = []
+    for name, value in arguments.items():
+        if name in CALL_OPTIONS:
+            calls[name] = value
+        elif value is not None:
+            options.append((name.replace("_", "-"), text_of(value)))
+    return calls, options
+
+
+def text_of(value):
+    """The text of a value on a command line."""
+    if value is True:
+        return ""
+    if value is False:
+        return "false"
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0):
+        return ",".join(text_of(part) for part in value)
+    return repr(value.item()) if hasattr(value, "item") else repr(value)
