@@ -94,14 +94,16 @@ bool is_capable_terminal(int descriptor) {
 int run_process(int argc,
                 char** argv,
                 const char* program,
+                const char* revision,
                 int (*run)(std::span<const std::string> arguments, const Io& io)) {
     fill_standard_streams();
     handle_signals();
     std::ios::sync_with_stdio(false);
     std::cin.tie(nullptr);
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    const int status = run(arguments, {std::cin, std::cout, std::cerr,
-                                       is_capable_terminal(STDERR_FILENO), &interrupted, program});
+    const int status =
+        run(arguments, {std::cin, std::cout, std::cerr, is_capable_terminal(STDERR_FILENO),
+                        &interrupted, program, revision});
     const bool was_ended = status == static_cast<int>(ExitStatus::Interrupted) && first_signal != 0;
     return was_ended ? kSignalStatus + first_signal : status;
 }
