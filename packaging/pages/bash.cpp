@@ -27,9 +27,8 @@ std::string completer(const OptionText& option, const std::string& prefix) {
 }
 
 /// A function that completes the arguments of one command.
-std::string command_function(const std::string& name,
-                             const CommandText& command,
-                             const std::string& prefix) {
+std::string
+command_function(const std::string& name, const CommandText& command, const std::string& prefix) {
     std::string text = fmt::format("{}() {{\n    case $option in\n", name);
     std::vector<std::string> names;
     for (const OptionText& option : command.options) {
@@ -113,10 +112,9 @@ std::string bash_completion(const ProgramText& program) {
         text += command_function(fmt::format("{}__{}", prefix, command.name), command, prefix);
     }
     const std::vector<std::string> optional = optional_names(program);
-    const std::string drop =
-        optional.empty()
-            ? ":"
-            : fmt::format("case $option in {}) option= ;; esac", joined(optional, "|"));
+    const std::string drop = optional.empty() ? ":"
+                                              : fmt::format("case $option in {}) option= ;; esac",
+                                                            joined(optional, "|"));
     std::string entry = fmt::format(kEntry, name, prefix, drop);
     if (program.commands.empty()) {
         entry += fmt::format("    {}__program\n}}\n", prefix);

@@ -75,7 +75,8 @@ CommandText describe(const CLI::App& app, const AddValues& add_values) {
     for (const CLI::Option* option : app.get_options()) {
         OptionText described = describe_option(*option);
         add_values(text.name, described);
-        (option->get_positional() ? text.positionals : text.options).push_back(std::move(described));
+        (option->get_positional() ? text.positionals : text.options)
+            .push_back(std::move(described));
     }
     return text;
 }

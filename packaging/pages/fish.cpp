@@ -46,9 +46,8 @@ bool takes_any_file(const OptionText& option) {
 }
 
 /// The lines of a command. `begin`: `complete -c lsc -n CONDITION`.
-std::string command_lines(const std::string& program,
-                          const CommandText& command,
-                          const std::string& begin) {
+std::string
+command_lines(const std::string& program, const CommandText& command, const std::string& begin) {
     std::string text;
     for (const OptionText& option : command.options) {
         text += begin;
@@ -90,8 +89,8 @@ std::string fish_completion(const ProgramText& program) {
     text += command_lines(name, program.program, none);
     for (const CommandText& command : program.commands) {
         text += command_lines(
-            name, command, fmt::format("complete -c {} -n '__fish_seen_subcommand_from {}'", name,
-                                 command.name));
+            name, command,
+            fmt::format("complete -c {} -n '__fish_seen_subcommand_from {}'", name, command.name));
     }
     return text;
 }

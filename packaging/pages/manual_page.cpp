@@ -49,8 +49,7 @@ std::string prose(std::string_view text) {
     std::string escaped;
     while (true) {
         const std::size_t begin = text.find('`');
-        const std::size_t end =
-            begin == std::string_view::npos ? begin : text.find('`', begin + 1);
+        const std::size_t end = begin == std::string_view::npos ? begin : text.find('`', begin + 1);
         if (end == std::string_view::npos) {
             return escaped + escape(text);
         }
@@ -84,8 +83,8 @@ void begin_page(std::string& page,
                 const std::string& program,
                 const std::string& description,
                 const PageInfo& info) {
-    page += fmt::format(".TH {} 1 {} \"{} {}\" \"User Commands\"\n", escape(upper(name)),
-                        info.date, program, info.version);
+    page += fmt::format(".TH {} 1 {} \"{} {}\" \"User Commands\"\n", escape(upper(name)), info.date,
+                        program, info.version);
     page += fmt::format(".SH NAME\n{} \\- {}\n", escape(name), prose(name_line(description)));
 }
 
@@ -164,13 +163,14 @@ Footer read_footer(const std::string& footer) {
     bool in_examples = false;
     bool in_status = false;
     for (std::string line; std::getline(lines, line);) {
-        const bool begins_examples = line.starts_with("Example: ") || line.starts_with("Examples: ");
+        const bool begins_examples =
+            line.starts_with("Example: ") || line.starts_with("Examples: ");
         if (begins_examples) {
             in_examples = true;
             line.erase(0, line.find(": ") + 2);
         }
-        in_status = !begins_examples && !line.empty() &&
-                    (in_status || line.starts_with("Exit status: "));
+        in_status =
+            !begins_examples && !line.empty() && (in_status || line.starts_with("Exit status: "));
         if (in_examples) {
             const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
             parts.examples += escape(line.substr(begin)) + '\n';

@@ -55,7 +55,8 @@ void add_common_values(OptionText& option) {
         option.kind = ValueKind::Words;
     } else if (name == "--stdin-name") {
         option.extensions = grammar_extensions();
-    } else if (name == "--density-map" || name == "--ground-picture" || name == "--ground-normals") {
+    } else if (name == "--density-map" || name == "--ground-picture" ||
+               name == "--ground-normals") {
         option.extensions = {"png"};
     }
 }

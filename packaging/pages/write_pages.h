@@ -8,8 +8,7 @@
 namespace lsys::pages {
 
 /// The main() of a writer. Arguments: the folder, the date, the version.
-[[nodiscard]] int
-write_pages(int argc, char** argv, const ProgramText& program, PageInfo info);
+[[nodiscard]] int write_pages(int argc, char** argv, const ProgramText& program, PageInfo info);
 
 /// Words and extensions of options that several programs have: codes of messages, files of
 /// grammars, pictures.

@@ -86,14 +86,15 @@ std::string zsh_completion(const ProgramText& program) {
     }
     text += fmt::format("_{0}() {{\n    local -a commands=(\n", name);
     for (const CommandText& command : program.commands) {
-        text += fmt::format("        '{}:{}'\n", command.name,
-                            quoted(short_text(command.description)));
+        text +=
+            fmt::format("        '{}:{}'\n", command.name, quoted(short_text(command.description)));
     }
     text += "    )\n    if ((CURRENT == 2)) && [[ ${words[2]} != -* ]]; then\n"
             "        _describe command commands\n        return\n    fi\n"
             "    local command=${words[2]}\n"
             "    if ((CURRENT > 2)) && ((${+functions[_" +
-            name + "__$command]})); then\n"
+            name +
+            "__$command]})); then\n"
             "        shift words\n        ((CURRENT--))\n        _" +
             name + "__$command\n        return\n    fi\n" + arguments(program.program) + "}\n";
     return text + fmt::format("_{} \"$@\"\n", name);

@@ -5,14 +5,14 @@
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
 #include <glm/detail/setup.hpp>
-#include <meshoptimizer.h>
 #include <nlohmann/json_fwd.hpp>
+
+#include <algorithm>
+#include <meshoptimizer.h>
 #include <png.h>
 #include <toml++/impl/version.h>
 #include <utf8proc.h>
 #include <zlib.h>
-
-#include <algorithm>
 
 #if defined(__GLIBC__)
 #include <gnu/libc-version.h>
@@ -72,14 +72,13 @@ std::vector<LibraryVersion> common_libraries() {
     return {
         {"CLI11", CLI11_VERSION},
         {"fmt", dotted(FMT_VERSION)},
-        {"GLM", fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
-                            GLM_VERSION_PATCH, GLM_VERSION_REVISION)},
+        {"GLM", fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH,
+                            GLM_VERSION_REVISION)},
         {"libpng", png_get_libpng_ver(nullptr)},
         {"meshoptimizer", fmt::format("{}.{}", MESHOPTIMIZER_VERSION / (kMajor * kMinor),
                                       MESHOPTIMIZER_VERSION / kMinor % kMajor)},
-        {"nlohmann-json",
-         fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                     NLOHMANN_JSON_VERSION_PATCH)},
+        {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
         {"stb_image", LSYS_STB_IMAGE_VERSION},
         {"stb_perlin", LSYS_STB_PERLIN_VERSION},
         {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},

@@ -1,7 +1,8 @@
 #include "viewer/gl/library_versions.h"
 
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
+
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 namespace lsys::view {
