@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Completes command lines with the scripts for bash, as bash calls them. Usage: complete.sh FOLDER, which has bash/lsc
+# Completes command lines with the scripts for bash, as bash calls them. Usage: complete.bash FOLDER, which has bash/lsc
 # and, if lsview is built, ../lsview/bash/lsview.
 set -euo pipefail
 folder=$1
