@@ -24,8 +24,8 @@ std::string value_options(const std::string& program, const OptionText& option) 
         return text + " -a '(__fish_complete_directories)'";
     }
     if (option.kind == ValueKind::File && !option.extensions.empty()) {
-        return text + fmt::format(" -a {}", quoted(fmt::format("(__{}_files \"{}\")", program,
-                                                               name_pattern(option.extensions))));
+        const std::string pattern = quoted(name_pattern(option.extensions));
+        return text + " -a " + quoted(fmt::format("(__{}_files {})", program, pattern));
     }
     return text;
 }

@@ -228,7 +228,8 @@ void end_page(std::string& page,
 void add_synopsis(std::string& page, const std::string& words, const CommandText& command) {
     page += fmt::format(".SH SYNOPSIS\n.B {}\n[\\fIOPTION\\fR]...", escape(words));
     for (const OptionText& option : command.positionals) {
-        page += fmt::format(option.required ? " {}" : " [{}]", value_text(option));
+        const std::string value = value_text(option);
+        page += option.required ? " " + value : " [" + value + "]";
         page += option.repeatable ? "..." : "";
     }
     for (const OptionText& option : command.options) {
