@@ -44,7 +44,11 @@ void add_common_values(OptionText& option) {
     const std::string& name = main_name(option);
     if (option.value == "CODE") {
         for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
-            option.words.emplace_back(info(static_cast<DiagnosticCode>(i)).name);
+            const DiagnosticInfo& row = info(static_cast<DiagnosticCode>(i));
+            // Errors stay errors, so only `lsc explain` takes their codes.
+            if (option.names.empty() || row.severity != Severity::Error) {
+                option.words.emplace_back(row.name);
+            }
         }
         if (name == "--allow" || name == "--deny") {
             option.words.emplace_back("warnings");
