@@ -516,22 +516,27 @@ UsageError usage_error(const CLI::ParseError& error,
     return usage;
 }
 
-/// Parses the arguments. Sets `implied` to the options that their preset adds.
-CommandLine parse_arguments(std::span<const std::string> arguments,
-                            std::vector<std::string>& implied) {
-    CLI::App app("Compiles, derives and exports L-systems, the grammars of plants and curves.",
-                 "lsc");
+/// The options before the command, and the argument of `lsc help`.
+struct ProgramOptions {
+    bool verbose = false;
+    std::string topic;
+};
+
+/// Adds the options of the program and all commands. Only the command `chosen` gets options,
+/// because `parsed` has room for the options of one command.
+void add_commands(CLI::App& app,
+                  const std::string& chosen,
+                  CommandLine& parsed,
+                  ProgramOptions& options) {
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
+    app.add_flag("-v,--verbose", options.verbose,
+                 "With --version: print commit, compiler, libraries and processor too");
     app.require_subcommand(1);
-    app.footer("`lsc COMMAND --help` lists the options of a command.");
-    // Only the given command gets options, because `parsed` has room for the options of one
-    // command.
-    const std::string first = arguments.empty() ? std::string() : arguments.front();
-    CommandLine parsed = UsageError{"no command is given", kListHint};
+    app.footer("`lsc help COMMAND` and `lsc COMMAND --help` list the options of a command.");
     const auto add = [&]<typename Command>(const char* name, const char* text,
                                            void (*add_options)(CLI::App&, Command&)) {
         CLI::App& added = *app.add_subcommand(name, text);
-        if (first == name) {
+        if (chosen == name) {
             add_options(added, parsed.emplace<Command>());
         }
     };
@@ -545,6 +550,47 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     add("trace", "Explain what becomes of a module, and why", add_trace);
     add("fmt", "Format grammars", add_format);
     add("explain", "Explain a diagnostic, with examples", add_explain);
+    CLI::App& help = *app.add_subcommand("help", "Print the options of a command");
+    if (chosen == "help") {
+        help.add_option("COMMAND", options.topic, "The command (default: list all commands)");
+        help.footer("Example: lsc help export");
+    }
+}
+
+constexpr const char* kTitle =
+    "Compiles, derives and exports L-systems, the grammars of plants and curves.";
+
+/// The text of `lsc help TOPIC`.
+CommandLine help_on(const std::string& topic) {
+    CLI::App app(kTitle, "lsc");
+    CommandLine parsed = UsageError{};
+    ProgramOptions options;
+    add_commands(app, topic, parsed, options);
+    if (topic.empty()) {
+        return PrintText{help_text(app, "")};
+    }
+    const CLI::App* const command = find_command(app, topic);
+    if (command != nullptr) {
+        return PrintText{help_text(*command, "lsc")};
+    }
+    std::vector<std::string_view> names;
+    for (const CLI::App* each : app.get_subcommands({})) {
+        names.push_back(each->get_name());
+    }
+    const auto nearest = nearest_name(topic, names);
+    return UsageError{fmt::format("`{}` is not a command", topic),
+                      nearest ? fmt::format("did you mean `lsc help {}`?", *nearest)
+                              : std::string(kListHint)};
+}
+
+/// Parses the arguments. Sets `implied` to the options that their preset adds.
+CommandLine parse_arguments(std::span<const std::string> arguments,
+                            std::vector<std::string>& implied) {
+    CLI::App app(kTitle, "lsc");
+    CommandLine parsed = UsageError{"no command is given", kListHint};
+    ProgramOptions program_options;
+    add_commands(app, arguments.empty() ? std::string() : arguments.front(), parsed,
+                 program_options);
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
         return *usage;
@@ -556,9 +602,18 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     } catch (const CLI::CallForHelp&) {
         return PrintText{command == nullptr ? help_text(app, "") : help_text(*command, "lsc")};
     } catch (const CLI::CallForVersion&) {
-        return PrintText{"lsc " LSC_VERSION "\n"};
+        const CLI::App& named = command == nullptr ? app : *command;
+        const CLI::Option* const verbose = named.get_option_no_throw("--verbose");
+        return PrintText{"lsc " LSC_VERSION "\n", verbose != nullptr && verbose->count() > 0};
     } catch (const CLI::ParseError& error) {
         return usage_error(error, app, command, arguments);
+    }
+    if (command == nullptr) { // an option of the program before the command
+        return UsageError{fmt::format("the command is missing before `{}`", arguments.front()),
+                          "options stand after the command"};
+    }
+    if (command->get_name() == "help") {
+        return help_on(program_options.topic);
     }
     const std::optional<UsageError> mistake = std::visit(
         []<typename Command>(Command& given) -> std::optional<UsageError> {
@@ -598,6 +653,26 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
 }
 
 } // namespace
+
+void visit_commands(
+    const std::function<void(const CLI::App& program, const CLI::App& command)>& visit) {
+    std::vector<std::string> names;
+    const auto with_options_of = [](const std::string& name, const auto& use) {
+        CLI::App app(kTitle, "lsc");
+        CommandLine parsed = UsageError{};
+        ProgramOptions options;
+        add_commands(app, name, parsed, options);
+        use(app);
+    };
+    with_options_of("", [&names](const CLI::App& app) {
+        for (const CLI::App* command : app.get_subcommands({})) {
+            names.push_back(command->get_name());
+        }
+    });
+    for (const std::string& name : names) {
+        with_options_of(name, [&](const CLI::App& app) { visit(app, *find_command(app, name)); });
+    }
+}
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
     // CLI11 takes longer than the rest of such a run, most of it for the exception that it throws.

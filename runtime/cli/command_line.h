@@ -5,9 +5,14 @@
 #include "runtime/program/usage.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
+
+namespace CLI {
+class App;
+}
 
 namespace lsys::lsc {
 
@@ -26,5 +31,10 @@ using CommandLine = std::variant<PrintText,
 
 /// The command with its options, a text to print, or a usage error.
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
+
+/// Calls `visit` for each command, in the order of --help. `program`: the whole command line, in
+/// which only this command has options.
+void visit_commands(
+    const std::function<void(const CLI::App& program, const CLI::App& command)>& visit);
 
 } // namespace lsys::lsc

@@ -3,9 +3,11 @@
 #include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
+#include "runtime/program/build_info.h"
 #include "runtime/program/process.h"
 
 #include <ostream>
+#include <string>
 #include <variant>
 
 namespace lsys::lsc {
@@ -19,7 +21,9 @@ public:
 
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io_, {});
-        return console.finish(report_result(console.write(text.text), console));
+        const std::string build =
+            text.with_build ? describe_build(io_.revision, common_libraries()) : std::string();
+        return console.finish(report_result(console.write(text.text + build), console));
     }
     ExitStatus operator()(const UsageError& usage) const {
         const Console console(io_, {});

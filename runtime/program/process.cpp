@@ -14,6 +14,7 @@ namespace lsys {
 int run_process(int argc,
                 char** argv,
                 const char* program,
+                const char* revision,
                 int (*run)(std::span<const std::string> arguments, const Io& io)) {
     if (!platform::prepare_standard_streams()) {
         std::_Exit(static_cast<int>(ExitStatus::Failure)); // without a stream for a message
@@ -24,7 +25,7 @@ int run_process(int argc,
     const std::vector<std::string> arguments = platform::process_arguments(argc, argv);
     const int status =
         run(arguments, {std::cin, std::cout, std::cerr, platform::error_stream_is_terminal(),
-                        &platform::end_requested(), program});
+                        &platform::end_requested(), program, revision});
     const int end_status = platform::end_status();
     const bool was_ended = status == static_cast<int>(ExitStatus::Interrupted) && end_status != 0;
     return was_ended ? end_status : status;

@@ -10,11 +10,12 @@ namespace lsys {
 
 /// Calls `run` with the arguments after the program's name and the streams of the process. Returns
 /// the exit status of `run`, or 130 after SIGINT, 143 after SIGTERM and 129 after SIGHUP. Call it
-/// at most once per process. `program`: the prefix of messages. Closed standard streams become
-/// files that cannot be read or written.
+/// at most once per process. `program`: the prefix of messages; `revision`: Io::revision. Closed
+/// standard streams become files that cannot be read or written.
 [[nodiscard]] int run_process(int argc,
                               char** argv,
                               const char* program,
+                              const char* revision,
                               int (*run)(std::span<const std::string> arguments, const Io& io));
 
 /// Prints that memory has run out, without allocating any; returns the exit status.

@@ -9,6 +9,7 @@ namespace lsys {
 /// Text to print instead of running a command: --help, --version.
 struct PrintText {
     std::string text;
+    bool with_build = false; // print describe_build() too
 };
 
 /// A mistake in a command line.

@@ -5,7 +5,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE "${ROOT}"
-  "${ROOT}/grammar/*" "${ROOT}/compiler/*" "${ROOT}/runtime/*" "${ROOT}/viewer/*")
+  "${ROOT}/grammar/*" "${ROOT}/compiler/*" "${ROOT}/runtime/*" "${ROOT}/viewer/*" "${ROOT}/packaging/pages/*")
 foreach(path ${sources})
   if(NOT path MATCHES "\\.(h|cpp|def|ll|yy)$")
     continue()
@@ -51,7 +51,7 @@ foreach(path ${sources})
         AND NOT path MATCHES "^runtime/base/workers\\.cpp$")
       list(APPEND failures "${path}: threads are made in runtime/base/workers.cpp, runtime/platform, viewer/app and runtime/python: ${line}")
     endif()
-    if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
+    if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app|packaging/pages)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"
         AND line MATCHES "(std::(cout|cerr|exit|abort)|[^a-z_]f?printf\\()")
       list(APPEND failures "${path}: a library may not print or end the process: ${line}")
     endif()

@@ -1,7 +1,7 @@
 # Fails if two headers define a class, struct or enumeration with one name in one namespace, a violation of the
 # one-definition rule that compilers do not report. Usage: cmake -D ROOT=<folder> -P check_names.cmake
 file(GLOB_RECURSE headers RELATIVE "${ROOT}"
-  "${ROOT}/grammar/*.h" "${ROOT}/compiler/*.h" "${ROOT}/runtime/*.h" "${ROOT}/viewer/*.h")
+  "${ROOT}/grammar/*.h" "${ROOT}/compiler/*.h" "${ROOT}/runtime/*.h" "${ROOT}/viewer/*.h" "${ROOT}/packaging/*.h")
 set(failures "")
 foreach(header ${headers})
   file(STRINGS "${ROOT}/${header}" lines REGEX "^(namespace|struct|class|enum) ")

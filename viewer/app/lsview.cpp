@@ -1,6 +1,7 @@
 #include "viewer/app/lsview.h"
 
 #include "runtime/base/out_of_memory.h"
+#include "runtime/program/build_info.h"
 #include "runtime/program/console.h"
 #include "runtime/program/host.h"
 #include "runtime/program/process.h"
@@ -12,6 +13,7 @@
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/window_run.h"
 #include "viewer/gl/headless_context.h"
+#include "viewer/gl/library_versions.h"
 #include "viewer/gl/renderer.h"
 
 #include <fmt/format.h>
@@ -19,8 +21,10 @@
 #include <limits>
 #include <memory>
 #include <ostream>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace lsys::view {
 
@@ -108,12 +112,21 @@ ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
                              : run_plant_pictures(options, camera.value(), console);
 }
 
+std::string describe(const char* revision) {
+    std::vector<LibraryVersion> libraries = viewer_libraries();
+    for (LibraryVersion& library : common_libraries()) {
+        libraries.push_back(std::move(library));
+    }
+    return describe_build(revision, libraries);
+}
+
 struct Dispatch {
     const Io& io;
 
     ExitStatus operator()(const PrintText& text) const {
         const Console console(io, {});
-        const Result<void> written = console.write(text.text);
+        const std::string build = text.with_build ? describe(io.revision) : std::string();
+        const Result<void> written = console.write(text.text + build);
         return written ? console.finish(ExitStatus::Ok) : report_error(written.error(), console);
     }
     ExitStatus operator()(const UsageError& usage) const {

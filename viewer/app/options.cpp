@@ -204,12 +204,10 @@ void add_bending(CLI::App& app, ViewOptions& options) {
         ->group("Bending");
 }
 
-} // namespace
+constexpr const char* kTitle =
+    "Shows plants and forests of L-systems, live in a window or as pictures.";
 
-ParsedOptions parse_options(std::span<const std::string> arguments) {
-    ViewOptions options;
-    CLI::App app("Shows plants and forests of L-systems, live in a window or as pictures.",
-                 "lsview");
+void add_all(CLI::App& app, ViewOptions& options) {
     app.add_option("FILE", options.files,
                    "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
         ->required();
@@ -235,12 +233,27 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         "          lsview tree.lsys --screenshot tree.png --grow --frames 240\n"
         "          lsview oak.lsys birch.lsys --count 10000 --forest-size 700 --screenshot "
         "wood.png");
+}
+
+} // namespace
+
+void visit_options(const std::function<void(const CLI::App& app)>& visit) {
+    ViewOptions options;
+    CLI::App app(kTitle, "lsview");
+    add_all(app, options);
+    visit(app);
+}
+
+ParsedOptions parse_options(std::span<const std::string> arguments) {
+    ViewOptions options;
+    CLI::App app(kTitle, "lsview");
+    add_all(app, options);
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
         return PrintText{help_text(app, "")};
     } catch (const CLI::CallForVersion&) {
-        return PrintText{"lsview " LSC_VERSION "\n"};
+        return PrintText{"lsview " LSC_VERSION "\n", app.count("--verbose") > 0};
     } catch (const CLI::ParseError& error) {
         return to_usage_error(error, app, "lsview");
     }

@@ -14,11 +14,16 @@
 #include "viewer/scene/camera.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace lsys::view {
 
@@ -74,5 +79,8 @@ void use_other_file(ViewOptions& options, const std::string& file);
 
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;
 [[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
+
+/// Calls `visit` with all options.
+void visit_options(const std::function<void(const CLI::App& app)>& visit);
 
 } // namespace lsys::view

@@ -82,6 +82,37 @@ TEST_CASE("an error of standard output ends with status 2") {
     }
 }
 
+TEST_CASE("--version --verbose tells how the program was built") {
+    const auto version = [](const std::vector<std::string>& arguments) {
+        std::istringstream in;
+        std::ostringstream out;
+        std::ostringstream err;
+        lsys::Io io{in, out, err};
+        io.revision = "0123abcd of 2026-01-31";
+        CHECK(run(arguments, io) == 0);
+        CHECK(err.str().empty());
+        return out.str();
+    };
+    const std::string text = version({"--version", "--verbose"});
+    INFO(text);
+    CHECK(text.starts_with(version({"--version"})));
+    for (const char* const row : {"\ncommit        0123abcd of 2026-01-31\n", "\ncompiler      ",
+                                  "\nC++ library   ", "\nprocessor     ", "\nthreads       "}) {
+        CHECK(text.find(row) != std::string::npos);
+    }
+    for (const char* const library :
+         {"CLI11", "fmt", "GLM", "libpng", "meshoptimizer", "nlohmann-json", "stb_image",
+          "stb_perlin", "toml++", "utf8proc", "zlib"}) {
+        const std::size_t at = text.find(library + std::string(" "));
+        REQUIRE(at != std::string::npos);
+        const char digit = text[at + std::string(library).size() + 1];
+        INFO(library);
+        CHECK((digit >= '0' && digit <= '9'));
+    }
+    CHECK(version({"-v", "--version"}) == text);
+    CHECK(version({"dump", "--version", "-v"}) == text);
+}
+
 TEST_CASE("running out of memory ends like a limit, without a crash") {
     NoMemory nothing;
     std::istream in(&nothing);
