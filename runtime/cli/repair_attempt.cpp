@@ -2,6 +2,7 @@
 
 #include "grammar/rendering/render_diagnostic.h"
 #include "runtime/cli/alternative_repairs.h"
+#include "runtime/cli/mistyped_signs.h"
 
 #include <fmt/format.h>
 
@@ -181,7 +182,10 @@ void RepairAttempt::apply(const ChosenFixes& chosen) {
         const SourceSpan first = fix.edits.front().span;
         const std::string& path = sources.file(first.file).path();
         const AppliedFix applied{chosen.diagnostics[i]->code, path,
-                                 files_.at(path).original_place(first.begin)};
+                                 files_.at(path).original_place(first.begin),
+                                 fix.edits.size() == 1 && first.begin == first.end
+                                     ? added_sign(fix.edits.front().replacement)
+                                     : '\0'};
         append_record(*chosen.diagnostics[i], fix, sources, fixed_.records);
         repaired_places_.emplace(path, applied.place, applied.code);
         for (const StatementKey& key : statements_of(fix)) {

@@ -42,7 +42,7 @@ Project disk_project() {
 }
 
 std::string program_text(const Grammar& grammar) {
-    return grammar.program ? dump_program(*grammar.program, grammar.names) : std::string();
+    return grammar.program ? dump_without_labels(*grammar.program, grammar.names) : std::string();
 }
 
 Compiled compile(const std::string& path, const std::string& text) {
