@@ -34,6 +34,7 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         return keys; // the user accepts ambiguous repairs
     }
     std::size_t compared = 0;
+    const std::set<DiagnosticCode> single = codes_of_single_fixes();
     for (const auto& [key, fixes] : applied_) {
         if (subject_.project.is_cancelled()) {
             break;
@@ -48,19 +49,41 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
             keys.insert(key);
             continue;
         }
-        for (const AppliedFix& fix : fixes) {
-            if (fix.added != '\0' && (++compared > kMaxCompared || may_be_mistyped(fix))) {
-                keys.insert(key);
-                break;
-            }
+        const bool is_slip = std::any_of(fixes.begin(), fixes.end(), [&](const AppliedFix& fix) {
+            return single.contains(fix.code) && (fix.may_be_slip || may_be_mistyped(fix));
+        });
+        if (is_slip) {
+            keys.insert(key);
         }
     }
     return keys;
 }
 
+/// The codes of mistakes that were repaired once. A mistake that is made again is a habit of the
+/// author and not a slip of the hand.
+std::set<DiagnosticCode> RepairAttempt::codes_of_single_fixes() const {
+    std::set<std::tuple<DiagnosticCode, std::string, std::uint32_t>> places;
+    for (const auto& [key, fixes] : applied_) {
+        for (const AppliedFix& fix : fixes) {
+            places.emplace(fix.code, fix.path, fix.place);
+        }
+    }
+    std::map<DiagnosticCode, std::size_t> counts;
+    for (const auto& [code, path, place] : places) {
+        ++counts[code];
+    }
+    std::set<DiagnosticCode> single;
+    for (const auto& [code, count] : counts) {
+        if (count == 1) {
+            single.insert(code);
+        }
+    }
+    return single;
+}
+
 /// Whether the sign that a fix added may have been typed as a character beside it.
 bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
-    if (fix.added == '#') {
+    if (fix.added == '\0' || fix.added == '#') {
         return false; // the character would be part of a label, which changes no word
     }
     const EditedFile& file = files_.at(fix.path);

@@ -339,8 +339,9 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
     // Text after a `;` may belong to the statement before it, whose `;` and fixes are then wrong. So
     // first_diagnostic stays the index of the first diagnostic of that statement, whose fixes become
-    // offers if this text is an error.
-    if (is_statement || !after_statement) {
+    // offers if this text is an error. A statement behind one in error may belong to it too.
+    if (!after_statement || (is_statement && !session.context.diagnostics.has_doubtful_error_from(
+                                                 scan.first_diagnostic))) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
