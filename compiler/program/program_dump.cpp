@@ -25,7 +25,8 @@ void append_number(std::string& out, float value) {
 
 class Dumper {
 public:
-    Dumper(const Program& program, const Names& names) : program_(program), names_(names) {}
+    Dumper(const Program& program, const Names& names, bool has_labels)
+        : program_(program), names_(names), has_labels_(has_labels) {}
 
     std::string run() {
         settings();
@@ -212,7 +213,7 @@ private:
             out_ += keyword_of(production.stage);
             out_ += ' ';
         }
-        out_ += names_.text(production.name);
+        out_ += has_labels_ ? names_.text(production.name) : std::string_view();
         out_ += fmt::format(" (rule {}, group {})\n    ", production.rule, production.group);
         if (production.has_left) {
             pattern(production.left, production);
@@ -356,13 +357,18 @@ private:
 
     const Program& program_;
     const Names& names_;
+    bool has_labels_;
     std::string out_;
 };
 
 } // namespace
 
 std::string dump_program(const Program& program, const Names& names) {
-    return Dumper(program, names).run();
+    return Dumper(program, names, true).run();
+}
+
+std::string dump_without_labels(const Program& program, const Names& names) {
+    return Dumper(program, names, false).run();
 }
 
 } // namespace lsys

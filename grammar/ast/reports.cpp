@@ -83,9 +83,19 @@ void report_bad_range(Diagnostics& diagnostics,
     const std::string found = count == 0   ? "nothing"
                               : count == 1 ? "one value"
                                            : std::to_string(count) + " values";
-    Diagnostic& diagnostic = diagnostics.add(
-        DiagnosticCode::BadRange, span, "a range has two values, `{min, max}`; this has " + found);
     const std::string_view text = sources.file(span.file).text();
+    const bool is_colour = count == 3 && span.begin > 1 && text[span.begin - 1] == '(' &&
+                           text[span.begin - 2] == '\'' && text.substr(span.end, 1) == ")" &&
+                           span.end - span.begin > 2;
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::BadRange, span,
+        is_colour ? "the values of a colour stand in `( )` alone; `{ }` is a random range"
+                  : "a range has two values, `{min, max}`; this has " + found);
+    if (is_colour) {
+        const std::string inside(text.substr(span.begin + 1, span.end - span.begin - 2));
+        add_fix(diagnostic, "write `'(" + inside + ")`", span, inside, false);
+        return;
+    }
     if (const auto bounds = bounds_with_minus(sources.text(span)); bounds && count == 1) {
         const std::string range = "{" + bounds->first + ", " + bounds->second + "}";
         add_fix(diagnostic,
@@ -96,16 +106,6 @@ void report_bad_range(Diagnostics& diagnostics,
     }
     diagnostic.help.emplace_back(
         "inside parentheses braces are a random range; around modules they are a polygon");
-    const bool is_whole = span.begin > 1 && text[span.begin - 1] == '(' &&
-                          text[span.begin - 2] == '\'' && text.substr(span.end, 1) == ")" &&
-                          span.end - span.begin > 2;
-    if (count == 3 && is_whole) {
-        const std::string inside(text.substr(span.begin + 1, span.end - span.begin - 2));
-        add_fix(diagnostic,
-                std::string("a colour or a direction has no braces: write `") +
-                    text[span.begin - 2] + "(" + inside + ")`",
-                span, inside, false);
-    }
 }
 
 void report_not_a_letter(Diagnostics& diagnostics, SourceSpan span, char c) {

@@ -101,6 +101,26 @@ bool is_before_number(std::string_view text, std::size_t place) {
            ((text[next] >= '0' && text[next] <= '9') || text[next] == '.');
 }
 
+bool is_number_part(char c) {
+    return (c >= '0' && c <= '9') || c == '.';
+}
+
+/// Adds the texts without the blank at the place of a missing comma, if it splits a number, and
+/// with a `.` in place of it.
+void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>& texts) {
+    const std::string_view text = repair.broken;
+    const std::size_t begin = repair.place;
+    const std::size_t end = text.find_first_not_of(" \t\r\n", begin);
+    if (begin == 0 || end == std::string_view::npos || end == begin ||
+        !is_number_part(text[begin - 1]) || !is_number_part(text[end])) {
+        return;
+    }
+    for (const std::string_view joint : {"", "."}) {
+        texts.emplace_back(text);
+        texts.back().replace(begin, end - begin, joint);
+    }
+}
+
 std::vector<std::string> bracket_repairs(std::string_view broken) {
     constexpr std::string_view kOpening = "([{";
     constexpr std::string_view kClosing = ")]}";
@@ -163,6 +183,7 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
             texts.emplace_back(repair.broken);
             texts.back().insert(repair.place, " * ");
         }
+        add_joined_numbers(repair, texts);
     } else {
         texts = bracket_repairs(repair.broken);
     }

@@ -491,6 +491,18 @@ std::optional<UsageError> unknown_command(std::span<const std::string> arguments
     return usage;
 }
 
+/// The help for `-D NAME 3`, which lacks a `=`.
+std::optional<std::string> definition_help(std::span<const std::string> arguments) {
+    for (std::size_t i = 0; i + 2 < arguments.size(); ++i) {
+        const bool is_option = arguments[i] == "-D" || arguments[i] == "--define";
+        if (is_option && parse_definition(arguments[i + 1] + "=" + arguments[i + 2])) {
+            return fmt::format("write `-D {}={}`: name, `=` and number are one argument",
+                               arguments[i + 1], arguments[i + 2]);
+        }
+    }
+    return std::nullopt;
+}
+
 /// Words a mistake found by CLI11, with help about commands. `command`: the given command; null if
 /// the first argument is not a command.
 UsageError usage_error(const CLI::ParseError& error,
@@ -510,8 +522,23 @@ UsageError usage_error(const CLI::ParseError& error,
     }
     UsageError usage = to_usage_error(error, *command, "lsc " + command->get_name());
     if (command->get_name() == "export" && usage.message == "--output is missing") {
+        // The file may be named without its option, as with `cp`.
+        const auto output =
+            std::find_if(arguments.begin() + 1, arguments.end(), [](const std::string& argument) {
+                return !argument.starts_with('-') && format_of_path(argument);
+            });
+        if (output != arguments.end()) {
+            usage.message = fmt::format("`{}` stands without its option", *output);
+            usage.help = fmt::format("write `-o {}`", *output);
+            return usage;
+        }
         usage.help = fmt::format("`-o FILE`, whose name ends in {}",
                                  format_names("or", [](const FormatTraits&) { return true; }));
+    } else if (usage.message.starts_with("--define: ")) {
+        usage.help = definition_help(arguments).value_or(usage.help);
+    } else if (usage.message.starts_with("--seed: ")) {
+        usage.help = "any whole number is a seed: `--seed 7` gives one plant, another number "
+                     "another plant";
     }
     return usage;
 }

@@ -1,7 +1,8 @@
 #include "runtime/cli/repair_attempt.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/rendering/render_diagnostic.h"
-#include "runtime/cli/alternative_repairs.h"
+#include "runtime/cli/mistyped_signs.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace {
 
 /// Max number of rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
+constexpr std::string_view kBlanks = " \t\r\n";
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
     const SourceSpan span = fix.edits.front().span;
@@ -35,6 +37,19 @@ void append_record(const Diagnostic& diagnostic,
     RenderOptions options;
     options.format = MessageFormat::Json;
     render(record, sources, options, out);
+}
+
+/// Whether a fix removes one character of a text, or replaces it by something else than a sign. The
+/// character may have been typed in place of any other. One that is doubled is typed too often.
+bool may_be_slip(std::string_view text, const Edit& edit) {
+    const std::uint32_t at = edit.span.begin;
+    if (edit.span.end - at != 1 || kBlanks.find(text[at]) != std::string_view::npos) {
+        return false;
+    }
+    const bool is_doubled = (at > 0 && text[at - 1] == text[at]) ||
+                            (edit.span.end < text.size() && text[edit.span.end] == text[at]);
+    const bool is_sign = edit.replacement.size() == 1 && !is_word_character(edit.replacement[0]);
+    return !is_doubled && !is_sign;
 }
 
 /// Whether a repair of this code is applied regardless of other errors in its statement.
@@ -180,8 +195,13 @@ void RepairAttempt::apply(const ChosenFixes& chosen) {
         }
         const SourceSpan first = fix.edits.front().span;
         const std::string& path = sources.file(first.file).path();
+        const std::string_view text = sources.file(first.file).text();
         const AppliedFix applied{chosen.diagnostics[i]->code, path,
-                                 files_.at(path).original_place(first.begin)};
+                                 files_.at(path).original_place(first.begin),
+                                 fix.edits.size() == 1 && first.begin == first.end
+                                     ? added_sign(fix.edits.front().replacement)
+                                     : '\0',
+                                 may_be_slip(text, fix.edits.front())};
         append_record(*chosen.diagnostics[i], fix, sources, fixed_.records);
         repaired_places_.emplace(path, applied.place, applied.code);
         for (const StatementKey& key : statements_of(fix)) {
@@ -224,12 +244,6 @@ std::vector<StatementKey> RepairAttempt::statements_of(const Fix& fix) const {
 }
 
 std::set<StatementKey> RepairAttempt::wrong_statements() const {
-    const auto has_bracket_repair = [&](const StatementKey& key) {
-        const auto applied = applied_.find(key);
-        return applied != applied_.end() &&
-               std::any_of(applied->second.begin(), applied->second.end(),
-                           [](const AppliedFix& fix) { return may_have_alternatives(fix.code); });
-    };
     const auto is_repaired = [&](const StatementKey& key) {
         const auto applied = applied_.find(key);
         return applied != applied_.end() &&
@@ -250,11 +264,9 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
             const auto before = original_errors_.find(key);
             const bool is_new = before == original_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
-            // The parser recovers by reading the original as if its brackets were repaired, so an
-            // error that a wrong bracket repair causes is in both texts and does not look new.
-            const bool is_doubtful =
-                subject_.choice == FixChoice::Certain && has_bracket_repair(key);
-            if ((is_new || is_doubtful) && is_repaired(key)) {
+            // The parser recovers by reading the original as if it were repaired, so an error that a
+            // wrong repair causes may be in both texts.
+            if ((is_new || subject_.choice == FixChoice::Certain) && is_repaired(key)) {
                 keys.insert(key);
             }
         }

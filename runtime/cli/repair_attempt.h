@@ -30,8 +30,10 @@ using StatementKey = std::pair<std::string, std::size_t>;
 
 struct AppliedFix {
     DiagnosticCode code{};
-    std::string path;        // file of the first edit
-    std::uint32_t place = 0; // offset of the first edit in the original text
+    std::string path;         // file of the first edit
+    std::uint32_t place = 0;  // offset of the first edit in the original text
+    char added = '\0';        // the sign that it adds, if it does nothing else
+    bool may_be_slip = false; // it removes a character, or writes more or a name for it
 };
 
 /// The grammar to repair, and the options of the repair.
@@ -79,6 +81,10 @@ private:
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
     [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
+    [[nodiscard]] bool may_be_mistyped(const AppliedFix& fix) const;
+    [[nodiscard]] std::set<DiagnosticCode> codes_of_single_fixes() const;
+    [[nodiscard]] std::optional<CompiledText> compile_other(const std::string& path,
+                                                            std::string_view text) const;
     [[nodiscard]] std::optional<TextPlace> place_after_fixes(const StatementKey& key) const;
     [[nodiscard]] const SourceFile* find_source(const std::string& path) const;
 

@@ -1,6 +1,7 @@
 // RepairAttempt::ambiguous_statements(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
 #include "runtime/cli/alternative_repairs.h"
+#include "runtime/cli/mistyped_signs.h"
 #include "runtime/cli/repair_attempt.h"
 
 #include <algorithm>
@@ -33,20 +34,86 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         return keys; // the user accepts ambiguous repairs
     }
     std::size_t compared = 0;
+    const std::set<DiagnosticCode> single = codes_of_single_fixes();
     for (const auto& [key, fixes] : applied_) {
+        if (subject_.project.is_cancelled()) {
+            break;
+        }
         const auto candidate = std::find_if(fixes.begin(), fixes.end(), [](const AppliedFix& fix) {
             return may_have_alternatives(fix.code);
         });
-        if (candidate == fixes.end() || subject_.project.is_cancelled()) {
-            continue;
-        }
         // Several repairs of one statement count as ambiguous, because combinations are not
         // compared.
-        if (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate)) {
+        if (candidate != fixes.end() &&
+            (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate))) {
+            keys.insert(key);
+            continue;
+        }
+        const bool is_slip = std::any_of(fixes.begin(), fixes.end(), [&](const AppliedFix& fix) {
+            return single.contains(fix.code) && (fix.may_be_slip || may_be_mistyped(fix));
+        });
+        if (is_slip) {
             keys.insert(key);
         }
     }
     return keys;
+}
+
+/// The codes of mistakes that were repaired once. A mistake that is made again is a habit of the
+/// author and not a slip of the hand.
+std::set<DiagnosticCode> RepairAttempt::codes_of_single_fixes() const {
+    std::set<std::tuple<DiagnosticCode, std::string, std::uint32_t>> places;
+    for (const auto& [key, fixes] : applied_) {
+        for (const AppliedFix& fix : fixes) {
+            places.emplace(fix.code, fix.path, fix.place);
+        }
+    }
+    std::map<DiagnosticCode, std::size_t> counts;
+    for (const auto& [code, path, place] : places) {
+        ++counts[code];
+    }
+    std::set<DiagnosticCode> single;
+    for (const auto& [code, count] : counts) {
+        if (count == 1) {
+            single.insert(code);
+        }
+    }
+    return single;
+}
+
+/// Whether the sign that a fix added may have been typed as a character beside it.
+bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
+    if (fix.added == '\0' || fix.added == '#') {
+        return false; // the character would be part of a label, which changes no word
+    }
+    const EditedFile& file = files_.at(fix.path);
+    const SourceFile* const source = find_source(fix.path);
+    if (source == nullptr || source->text().size() > kMaxComparedFile) {
+        return true;
+    }
+    const std::string_view text = source->text();
+    std::uint32_t begin = 0; // first offset that is not before the fix
+    for (auto count = static_cast<std::uint32_t>(text.size()); count > 0;) {
+        const std::uint32_t half = count / 2;
+        if (file.original_place(begin + half) < fix.place) {
+            begin += half + 1;
+            count -= half + 1;
+        } else {
+            count = half;
+        }
+    }
+    std::uint32_t end = begin;
+    while (end < text.size() && text[end] != fix.added &&
+           file.original_place(end + 1) == fix.place) {
+        ++end;
+    }
+    if (end == text.size() || text[end] != fix.added) {
+        return true; // another fix has removed it
+    }
+    const std::vector<std::string> others = mistyped_texts(text, {begin, end + 1});
+    return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+        return compile_other(fix.path, other).has_value();
+    });
 }
 
 /// Whether an alternative is as plausible as the applied fix.
@@ -73,32 +140,45 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
     if (others.empty() || !fixed.grammar.program) {
         return !others.empty();
     }
-    const std::string program = dump_program(*fixed.grammar.program, fixed.grammar.names);
     const std::set<ModuleName> modules = modules_of(fixed.grammar);
     return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
-        std::map<std::string, std::string> changed = fixed_.changed;
-        std::string& fixed_text = changed[key.first];
-        fixed_text = std::string(source->has_byte_order_mark() ? kByteOrderMark : "");
-        fixed_text += text.substr(0, now->begin);
-        fixed_text += other;
-        fixed_text += text.substr(now->end);
-        CompiledText alternative_text;
-        if (!compile_changed(subject_, changed, alternative_text) ||
-            !alternative_text.grammar.program || alternative_text.diagnostics.has_errors() ||
-            alternative_text.diagnostics.count(Severity::Warning) >
-                fixed.diagnostics.count(Severity::Warning) ||
-            dump_program(*alternative_text.grammar.program, alternative_text.grammar.names) ==
-                program) {
+        std::string other_text(text.substr(0, now->begin));
+        other_text += other;
+        other_text += text.substr(now->end);
+        const std::optional<CompiledText> alternative = compile_other(key.first, other_text);
+        if (!alternative || !alternative->grammar.program) {
             return false;
         }
         // For a missing comma the alternative is a missing `*`. It is not plausible if it makes a
         // module whose name and number of parameters no other module has.
-        const std::set<ModuleName> alternative_modules = modules_of(alternative_text.grammar);
+        const std::set<ModuleName> alternative_modules = modules_of(alternative->grammar);
         return fix.code != DiagnosticCode::MissingComma ||
                alternative_modules.size() <= modules.size() ||
                !std::includes(alternative_modules.begin(), alternative_modules.end(),
                               modules.begin(), modules.end());
     });
+}
+
+/// Compiles the repaired grammar with `text` in place of one of its files. Nothing if that gives
+/// more errors, more warnings or the same program.
+std::optional<CompiledText> RepairAttempt::compile_other(const std::string& path,
+                                                         std::string_view text) const {
+    const CompiledText& fixed = fixed_.compiled;
+    const SourceFile* const source = find_source(path);
+    std::map<std::string, std::string> changed = fixed_.changed;
+    std::string& bytes = changed[path];
+    bytes = std::string(source->has_byte_order_mark() ? kByteOrderMark : "");
+    bytes += text;
+    CompiledText other;
+    if (!compile_changed(subject_, changed, other) ||
+        other.diagnostics.count(Severity::Error) > fixed.diagnostics.count(Severity::Error) ||
+        other.diagnostics.count(Severity::Warning) > fixed.diagnostics.count(Severity::Warning) ||
+        (fixed.grammar.program && other.grammar.program &&
+         dump_without_labels(*other.grammar.program, other.grammar.names) ==
+             dump_without_labels(*fixed.grammar.program, fixed.grammar.names))) {
+        return std::nullopt;
+    }
+    return other;
 }
 
 /// The place of the statement after all fixes; nothing if the fixes split or removed it.

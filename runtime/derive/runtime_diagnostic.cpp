@@ -172,6 +172,12 @@ std::string reason_for(const RuntimeError& error, const Bytecode& bytecode) {
                    : "a division by 0 is infinite: leave out the values for which the divisor is "
                      "0 with a condition, or choose with `if(condition, a, b)`";
     }
+    if (!is_nan && error.production != kNoProduction && !has(Opcode::Divide) &&
+        (has(Opcode::Multiply) || has(Opcode::Power) || has(Opcode::Exp))) {
+        return "the value grows with every generation and passes 3.4e38, the largest binary32 "
+               "number: stop it with a condition such as `x < 100`, or bound it, as in `min(x * "
+               "x, 100)`";
+    }
     return {};
 }
 
@@ -220,18 +226,46 @@ Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
 }
 
 Diagnostic bad_distribution(const RuntimeError& error, const Bytecode& bytecode) {
+    const DistributionFault fault = check_distribution(error.opcode, error.minimum, error.maximum);
     const std::string call =
         info(error.opcode).pops == 1
             ? fmt::format("{}({})", info(error.opcode).mnemonic, number(error.minimum))
             : fmt::format("{}({}, {})", info(error.opcode).mnemonic, number(error.minimum),
                           number(error.maximum));
-    Diagnostic diagnostic = make_diagnostic(
-        DiagnosticCode::BadDistribution, {},
-        fmt::format("`{}` of {} cannot be drawn from: {}", call, owner(error, bytecode),
-                    describe(error.opcode,
-                             check_distribution(error.opcode, error.minimum, error.maximum))));
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::BadDistribution, {},
+                        fmt::format("`{}` of {} cannot be drawn from: {}", call,
+                                    owner(error, bytecode), describe(error.opcode, fault)));
     note_module(diagnostic, error, bytecode);
-    diagnostic.help.emplace_back("bound its arguments with `clamp`");
+    const std::string_view name = info(error.opcode).mnemonic;
+    const std::vector<Opcode> operations = operations_at(error.site, bytecode);
+    const bool has_step =
+        std::find(operations.begin(), operations.end(), Opcode::Step) != operations.end();
+    switch (fault) {
+    case DistributionFault::Mean:
+        if (error.opcode == Opcode::Poisson) {
+            diagnostic.help.push_back(
+                error.minimum < 0.0F
+                    ? fmt::format("{}let it end at 0: write `{}(max(0, ...))`",
+                                  has_step ? "`step()` grows by 1 in each generation: " : "", name)
+                    : fmt::format("bound it: write `{}(min(700, ...))`", name));
+            break;
+        }
+        diagnostic.help.emplace_back("bound its arguments with `clamp`");
+        break;
+    case DistributionFault::Deviation:
+        diagnostic.help.push_back(fmt::format("bound it: write `{}(mean, max(0, ...))`", name));
+        break;
+    case DistributionFault::Trials:
+        diagnostic.help.push_back(
+            fmt::format("round and bound it: write `{}(clamp(floor(...), 0, 10000), p)`", name));
+        break;
+    case DistributionFault::Probability:
+        diagnostic.help.push_back(fmt::format("bound it: write `{}(n, clamp(..., 0, 1))`", name));
+        break;
+    case DistributionFault::None:
+        break;
+    }
     return diagnostic;
 }
 
@@ -262,6 +296,19 @@ Diagnostic out_of_bounds(const RuntimeError& error, const Bytecode& bytecode) {
     return diagnostic;
 }
 
+/// The predecessor of the production at fault, if its successor holds it again; else empty.
+std::string repeated_module(const RuntimeError& error, const Bytecode& bytecode) {
+    const BytecodeProduction& production =
+        bytecode.productions[static_cast<std::size_t>(error.production)];
+    const SymbolId own = bytecode.patterns[production.predecessor.first].symbol;
+    const TableRange codes = production.successor.codes;
+    const auto begin = bytecode.template_codes.begin() + codes.first;
+    const bool repeats = std::any_of(begin, begin + codes.count,
+                                     [&](Code code) { return bytecode.symbol_of(code) == own; });
+    return repeats ? spelled_name(bytecode.symbol(own).name, bytecode.settings.print_letters)
+                   : std::string();
+}
+
 Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
     const BytecodeSymbol& close = bytecode.symbol(error.symbol);
     const bool is_branch = close.kind == SymbolKind::BranchClose;
@@ -273,13 +320,19 @@ Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
     diagnostic.severity = Severity::Error;
     if (error.production != kNoProduction) {
         diagnostic.label = "writes it";
-        diagnostic.notes.push_back(fmt::format("{} {}, and no other does", owner(error, bytecode),
-                                               is_branch
-                                                   ? "closes a branch that it does not open"
-                                                   : "ends a polygon that it does not begin"));
+        const std::string own = repeated_module(error, bytecode);
+        diagnostic.notes.push_back(
+            own.empty()
+                ? fmt::format("{} {}, and no `{}` before it is left to pair with",
+                              owner(error, bytecode),
+                              is_branch ? "closes a branch that it does not open"
+                                        : "ends a polygon that it does not begin",
+                              is_branch ? "[" : "{")
+                : fmt::format("{} writes `{}` again, and with it one more `{}` in each generation",
+                              owner(error, bytecode), own, close.name));
     }
     diagnostic.help.emplace_back(
-        is_branch ? "balance the brackets of every successor and of the axiom"
+        is_branch ? "close each branch in the successor that opens it"
                   : "let as many `{` as `}` stand before each place of the word");
     return diagnostic;
 }

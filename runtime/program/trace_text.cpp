@@ -24,6 +24,8 @@ constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
 constexpr std::size_t kMaxLater = 8;   // modules of later passes
 constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
+/// Max width of a line that joins shorter lines.
+constexpr std::size_t kMaxColumns = 96;
 /// With more productions to show than these, those that do not apply take one line each.
 constexpr std::size_t kMaxFrames = 4;
 constexpr std::size_t kMaxReasons = 4; // operations in such a line
@@ -319,34 +321,76 @@ private:
         return count > kMaxReasons ? text + ", ..." : text;
     }
 
+    /// The last operation of a condition, which gives its value.
     static std::string condition_text(const ExpressionTrace& condition) {
-        if (condition.parts.size() == 1) {
-            return part_text(condition.parts[0]);
-        }
-        if (!condition.is_finite) {
+        if (!condition.is_finite && condition.parts.size() != 1) {
             return "this is " + value_text(condition.value);
         }
-        const bool is_truth = !condition.parts.empty() && condition.parts.back().is_truth;
-        return is_truth ? (condition.value != 0.0F ? "true" : "false")
-                        : fmt::format("{}", value_text(condition.value));
+        return condition.parts.empty() ? value_text(condition.value)
+                                       : part_text(condition.parts.back());
     }
-    /// Prints the operations of a condition, if it has several.
+    /// A line under a frame: an operation and its values.
+    struct PartLine {
+        std::string text;
+        std::string values;
+        std::size_t operations = 0;
+    };
+    /// Prints the operations of a condition before the last, which is the label of the frame. A
+    /// comparison shares its line with the arithmetic before it.
     void parts(const ExpressionTrace& condition) {
-        if (condition.parts.size() < 2) {
+        std::vector<PartLine> lines;
+        std::size_t first = 0; // operation
+        for (std::size_t i = 0; i + 1 < condition.parts.size(); ++i) {
+            if (!condition.parts[i].is_truth) {
+                continue;
+            }
+            for (; !is_within(condition, first, i); ++first) {
+                add_part_lines(condition, first, first + 1, lines);
+            }
+            add_part_lines(condition, first, i + 1, lines);
+            first = i + 1;
+        }
+        for (; first + 1 < condition.parts.size(); ++first) {
+            add_part_lines(condition, first, first + 1, lines);
+        }
+        const std::size_t shown = std::min(lines.size(), kMaxParts);
+        std::size_t width = 0;
+        std::size_t hidden = 0;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const std::size_t size = lines[i].text.size();
+            width = i < shown && size <= 40 ? std::max(width, size) : width;
+            hidden += i < shown ? 0 : lines[i].operations;
+        }
+        for (std::size_t i = 0; i < shown; ++i) {
+            line("      {:<{}}   {}", lines[i].text, width, lines[i].values);
+        }
+        if (hidden != 0) {
+            line("      and {} more", counted(hidden, "operation"));
+        }
+    }
+    /// Whether all operations from `first` on are operands of the operation `last`.
+    static bool is_within(const ExpressionTrace& condition, std::size_t first, std::size_t last) {
+        const std::string& whole = condition.parts[last].text;
+        return std::all_of(
+            condition.parts.begin() + static_cast<std::ptrdiff_t>(first),
+            condition.parts.begin() + static_cast<std::ptrdiff_t>(last),
+            [&](const TracedPart& part) { return whole.find(part.text) != std::string::npos; });
+    }
+    /// Adds the operations [first, end) in one line, or each in its own if the line is too long.
+    static void add_part_lines(const ExpressionTrace& condition,
+                               std::size_t first,
+                               std::size_t end,
+                               std::vector<PartLine>& lines) {
+        PartLine all{condition.parts[end - 1].text, {}, end - first};
+        for (std::size_t i = first; i < end; ++i) {
+            all.values += (i == first ? "" : ", ") + part_text(condition.parts[i]);
+        }
+        if (all.text.size() + all.values.size() <= kMaxColumns - 9) {
+            lines.push_back(std::move(all));
             return;
         }
-        const std::size_t shown = std::min(condition.parts.size(), kMaxParts);
-        std::size_t width = 0;
-        for (std::size_t i = 0; i < shown; ++i) {
-            const std::size_t size = condition.parts[i].text.size();
-            width = size <= 40 ? std::max(width, size) : width;
-        }
-        for (std::size_t i = 0; i < shown; ++i) {
-            const TracedPart& part = condition.parts[i];
-            line("      {:<{}}   {}", part.text, width, part_text(part));
-        }
-        if (condition.parts.size() > shown) {
-            line("      and {} more", counted(condition.parts.size() - shown, "operation"));
+        for (std::size_t i = first; i < end; ++i) {
+            lines.push_back({condition.parts[i].text, part_text(condition.parts[i]), 1});
         }
     }
 
@@ -518,6 +562,13 @@ private:
         }
         return text;
     }
+    /// Prints modules behind `title`, or below it if the line is too long.
+    void list(const std::string& title, const std::vector<TracedModule>& written) {
+        const std::string text = modules(written);
+        const bool fits =
+            title.size() + 1 + text.size() <= kMaxColumns && text.find('\n') == std::string::npos;
+        line("{}{}{}", title, fits ? " " : "\n      ", text);
+    }
     [[nodiscard]] static std::string range_text(std::uint64_t first, std::size_t count) {
         return count == 1 ? fmt::format("position {}", first)
                           : fmt::format("positions {} to {}", first, first + count - 1);
@@ -585,8 +636,9 @@ private:
             } else if (word.empty()) {
                 line("writes {}", modules(trace.written));
             } else {
-                line("writes {}{}:", range_text(trace.first_written, trace.written.size()), word);
-                line("      {}", modules(trace.written));
+                list(fmt::format("writes {}{}:",
+                                 range_text(trace.first_written, trace.written.size()), word),
+                     trace.written);
             }
             break;
         }
@@ -654,7 +706,6 @@ private:
             }
             const std::string title = pass_head(trace);
             if (!title.empty()) {
-                out_ += i == 0 ? "" : "\n";
                 line("{}{}", title, is_later ? again_text(trace) : std::string());
             } else if (is_cause(list, trace)) {
                 line("the match begins with {} at position {}", module(trace.module),
@@ -699,13 +750,12 @@ private:
         traces(place.step, place.position, trace_.generation + 1);
         const bool several = place.step.size() > 1;
         if (several && !trace_.stop) {
-            line("");
             if (place.next.empty()) {
                 line("nothing of it is in generation {}", trace_.generation + 1);
             } else {
-                line("in generation {} at {}:", trace_.generation + 1,
-                     range_text(place.first_next, place.next.size()));
-                line("      {}", modules(place.next));
+                list(fmt::format("in generation {} at {}:", trace_.generation + 1,
+                                 range_text(place.first_next, place.next.size())),
+                     place.next);
             }
         }
     }
@@ -754,7 +804,6 @@ private:
             const ModuleTrace& trace = step.steps[i];
             const bool is_last = i + 1 == step.steps.size();
             if (const std::string title = pass_head(trace); !title.empty()) {
-                out_ += i == 0 ? "" : "\n";
                 line("{}", title);
             }
             attempts(trace, false,

@@ -4,38 +4,68 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lsys {
 
 namespace {
 
-void check_word(const CheckInput& input,
-                const std::vector<SymbolKind>& kinds,
-                const ProgramWord& word,
-                const char* where,
-                Diagnostics& diagnostics) {
-    std::vector<std::size_t> open;
-    std::vector<std::size_t> extra; // the first `]` without `[`
+/// The brackets of a word that have no partner in it.
+struct Unbalanced {
+    const ProgramWord& word;
+    const char* where;             // "axiom", "successor"
+    std::vector<std::size_t> open; // indices of `[`
+    std::size_t first_extra = 0;   // index of the first `]`
     std::uint64_t extra_count = 0;
+};
+
+Unbalanced read_word(const CheckInput& input,
+                     const std::vector<SymbolKind>& kinds,
+                     const ProgramWord& word,
+                     const char* where) {
+    Unbalanced found{word, where, {}, 0, 0};
     for_each_symbol(input.program, word, [&](std::size_t index, SymbolId symbol) {
         const SymbolKind kind = kinds[static_cast<std::size_t>(symbol)];
         if (kind == SymbolKind::BranchOpen) {
-            open.push_back(index);
+            found.open.push_back(index);
         } else if (kind == SymbolKind::BranchClose) {
-            if (!open.empty()) {
-                open.pop_back();
-            } else if (++extra_count == 1) {
-                extra.push_back(index);
+            if (!found.open.empty()) {
+                found.open.pop_back();
+            } else if (++found.extra_count == 1) {
+                found.first_extra = index;
             }
         }
     });
+    return found;
+}
+
+/// Reports a `[` of one word and the `]` of another, which may belong together.
+void report_crossing(const CheckInput& input,
+                     const Unbalanced& opens,
+                     const Unbalanced& closes,
+                     Diagnostics& diagnostics) {
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::UnclosedBranch, module_name_span(input, opens.word, opens.open.front()),
+        fmt::format("`[` of this {} can only be closed by the `]` of another {}", opens.where,
+                    closes.where));
+    diagnostic.labels.push_back(
+        {module_name_span(input, closes.word, closes.first_extra), "this `]` closes none here"});
+    diagnostic.notes.emplace_back("a `]` that finds no `[` in the derived word is an error, with "
+                                  "generation and place");
+    diagnostic.help.emplace_back("write `[` and its `]` in the same successor");
+}
+
+void report_word(const CheckInput& input, const Unbalanced& found, Diagnostics& diagnostics) {
+    const auto& [word, where, open, first_extra, extra_count] = found;
     const auto more = [](std::uint64_t count) {
         return count < 2 ? std::string() : fmt::format(", and {} more", count - 1);
     };
     if (extra_count != 0) {
         Diagnostic& diagnostic = diagnostics.add(
-            DiagnosticCode::UnopenedBranch, module_name_span(input, word, extra.front()),
+            DiagnosticCode::UnopenedBranch, module_name_span(input, word, first_extra),
             fmt::format("`]` closes no branch of this {}{}", where, more(extra_count)));
         diagnostic.notes.emplace_back(
             "a derived word with a `]` that has no `[` is an error, with generation and place");
@@ -76,11 +106,29 @@ void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
     if (!any) {
         return;
     }
+    std::vector<Unbalanced> words;
+    const auto read = [&](const ProgramWord& word, const char* where) {
+        Unbalanced found = read_word(input, kinds, word, where);
+        if (!found.open.empty() || found.extra_count != 0) {
+            words.push_back(std::move(found));
+        }
+    };
     for (const Axiom& axiom : input.program.axioms) {
-        check_word(input, kinds, axiom.word, "axiom", diagnostics);
+        read(axiom.word, "axiom");
     }
     for (const Production& production : input.program.productions) {
-        check_word(input, kinds, production.successor, "successor", diagnostics);
+        read(production.successor, "successor");
+    }
+    if (words.size() == 2) {
+        const std::size_t opens = words[0].open.empty() ? 1 : 0;
+        const Unbalanced& closes = words[1 - opens];
+        if (words[opens].extra_count == 0 && closes.open.empty()) {
+            report_crossing(input, words[opens], closes, diagnostics);
+            return;
+        }
+    }
+    for (const Unbalanced& found : words) {
+        report_word(input, found, diagnostics);
     }
 }
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,6 +36,7 @@ public:
         crosses_words_ = std::any_of(
             program_.productions.begin(), program_.productions.end(),
             [&](const Production& production) { return leaves_open(production.successor); });
+        find_partners();
         for (const Axiom& axiom : program_.axioms) {
             check_word(axiom.word, "axiom", crosses_words_);
         }
@@ -101,6 +104,27 @@ private:
             depth -= kind(i) == SymbolKind::PolygonClose && depth > 0 ? 1U : 0U;
         }
         return depth > 0;
+    }
+
+    /// Sets some_open_ and some_end_.
+    void find_partners() {
+        const auto read = [&](const ProgramWord& word) {
+            std::int64_t surplus = 0; // of `{`
+            for (std::size_t i = word.first_module;
+                 i < std::size_t{word.first_module} + word.module_count; ++i) {
+                surplus += kind(i) == SymbolKind::PolygonOpen    ? 1
+                           : kind(i) == SymbolKind::PolygonClose ? -1
+                                                                 : 0;
+            }
+            some_open_ = some_open_ || surplus > 0;
+            some_end_ = some_end_ || surplus < 0;
+        };
+        for (const Axiom& axiom : program_.axioms) {
+            read(axiom.word);
+        }
+        for (const Production& production : program_.productions) {
+            read(production.successor);
+        }
     }
 
     /// Finds the modules that can occur in a polygon: modules written in a polygon, and modules
@@ -178,7 +202,8 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        if (opened != closed) {
+        // Words with more `}` than `{` may end the polygons of words with more `{`.
+        if (opened != closed && !(some_open_ && some_end_)) {
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);
         }
@@ -254,6 +279,8 @@ private:
     /// Some polygon begins in one word and ends in another, so modules outside of `{` and `}` of
     /// their own word may be inside a polygon.
     bool crosses_words_ = false;
+    bool some_open_ = false; // some word has more `{` than `}`
+    bool some_end_ = false;  // some word has more `}` than `{`
 };
 
 } // namespace

@@ -65,6 +65,13 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
             count || number >= 0x1p32F
                 ? fmt::format("more than {} generations cannot be counted", kMaxGenerations)
                 : fmt::format("{} is not a number of generations", number));
+        if (!count && number > 0.0F && number < 1000.0F) {
+            error.help.push_back(fmt::format(
+                "a word is rewritten a whole number of times: write `{}` or `{}`; `lsview` plays "
+                "the growth between them",
+                std::floor(number), std::ceil(number)));
+            return;
+        }
         error.help.emplace_back("generations are a whole number from 0 on");
         return;
     }

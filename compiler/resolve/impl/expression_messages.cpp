@@ -503,13 +503,11 @@ bool ExpressionResolver::check_range(const Expression& expression,
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadRangeBounds, expression.span(),
             fmt::format("the minimum {} of this range lies above its maximum {}", *low, *high));
-        const std::string low_text(resolution_.sources.text(first));
-        const std::string high_text(resolution_.sources.text(second));
-        // If the arguments are names or expressions, any argument may be the wrong one.
-        const bool are_numbers =
-            (low_text + high_text).find_first_not_of("0123456789.eE+-") == std::string::npos;
-        error.fixes.push_back(
-            {"exchange them", {{first, high_text}, {second, low_text}}, are_numbers});
+        // A digit that is missing or mistyped is as likely as an exchange.
+        error.fixes.push_back({"exchange them",
+                               {{first, std::string(resolution_.sources.text(second))},
+                                {second, std::string(resolution_.sources.text(first))}},
+                               false});
         return false;
     }
     if (!std::isfinite(*low) || !std::isfinite(*high) || !std::isfinite(*high - *low)) {

@@ -183,7 +183,13 @@ float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
     }
     Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::BadProbability, span,
                                                    fmt::format("{} is not a probability", weight));
-    if (weight > 1.0F && std::isfinite(weight)) {
+    constexpr float kAllPercent = 100.0F;
+    if (weight > 1.0F && weight <= kAllPercent) {
+        const std::string fraction = fmt::format("{:.6g}", weight / kAllPercent);
+        add_fix(error, fmt::format("{} percent is written `{}`", weight, fraction), span, fraction,
+                false);
+        error.help.emplace_back("for weights that need not sum to 1 write `#set weights any;`");
+    } else if (weight > 1.0F && std::isfinite(weight)) {
         error.help.emplace_back("probabilities lie above 0 and go up to 1; for weights that are "
                                 "normalised, write `#set weights any;`");
     } else {

@@ -340,8 +340,9 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
     // Text after a `;` may belong to the statement before it, whose `;` and fixes are then wrong. So
     // first_diagnostic stays the index of the first diagnostic of that statement, whose fixes become
-    // offers if this text is an error.
-    if (is_statement || !after_statement) {
+    // offers if this text is an error. A statement behind one in error may belong to it too.
+    if (!after_statement || (is_statement && !session.context.diagnostics.has_doubtful_error_from(
+                                                 scan.first_diagnostic))) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::MissingHash)) {
@@ -777,8 +778,8 @@ bool has_plain_head(const ParseSession& session) {
     return at != std::string_view::npos && (text[at] == ':' || text[at] == '~');
 }
 
-/// Offers `: * :` for an arrow of other languages in the head of a production.
-void offer_colon_for_arrow(const ParseSession& session, Diagnostic& diagnostic) {
+/// Reports an arrow of other languages in the head of a production. Returns whether there is one.
+bool report_arrow(const ParseSession& session, Diagnostics& diagnostics) {
     const ScanState& scan = session.scan;
     const std::string_view head =
         session.scanned.text.substr(scan.part_begin, scan.last_end - scan.part_begin);
@@ -786,12 +787,17 @@ void offer_colon_for_arrow(const ParseSession& session, Diagnostic& diagnostic) 
         const std::size_t at = head.find(arrow);
         if (at != std::string_view::npos && head.find(arrow, at + 1) == std::string_view::npos) {
             const auto begin = static_cast<std::uint32_t>(scan.part_begin + at);
-            add_fix(diagnostic, "`" + std::string(arrow) + "` of other programs is `: * :` here",
-                    session.scanned.span(begin, begin + static_cast<std::uint32_t>(arrow.size())),
-                    ": * :", false);
-            return;
+            const SourceSpan span =
+                session.scanned.span(begin, begin + static_cast<std::uint32_t>(arrow.size()));
+            Diagnostic& diagnostic =
+                diagnostics.add(DiagnosticCode::MissingColon, span,
+                                "`" + std::string(arrow) + "` of other programs is `: * :` here");
+            diagnostic.help.emplace_back(kFourParts);
+            add_fix(diagnostic, "write `: * :`", span, ": * :", false);
+            return true;
         }
     }
+    return false;
 }
 
 /// Reports the end of a production before its successor.
@@ -803,11 +809,13 @@ void report_missing_parts(ParseSession& session) {
     const SourceSpan place = session.insertion_place();
     Diagnostics& diagnostics = session.context.diagnostics;
     if (scan.part == Part::Head) {
+        if (report_arrow(session, diagnostics)) {
+            return;
+        }
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::MissingColon, place,
                             "the production ends before its condition and its successor");
         diagnostic.help.emplace_back(kFourParts);
-        offer_colon_for_arrow(session, diagnostic);
         if (scan.keyword == Keyword::Generations) {
             diagnostic.help.emplace_back("the number of generations is `#n = 6;`");
         }

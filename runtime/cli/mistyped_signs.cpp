@@ -1,0 +1,71 @@
+#include "runtime/cli/mistyped_signs.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace lsys::lsc {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+bool is_blank_at(std::string_view text, std::size_t at) {
+    return at >= text.size() || kBlanks.find(text[at]) != std::string_view::npos;
+}
+
+/// Whether a blank or an end of the text stands before and after the character at `at`.
+std::pair<bool, bool> sides_of(std::string_view text, std::size_t at) {
+    return {at == 0 || is_blank_at(text, at - 1), is_blank_at(text, at + 1)};
+}
+
+/// Whether another equal sign of the text has the same sides as the one at `at`, or there is none.
+bool is_laid_out_as_others(std::string_view text, std::size_t at) {
+    const std::pair<bool, bool> sides = sides_of(text, at);
+    bool has_others = false;
+    for (std::size_t other = text.find(text[at]); other != std::string_view::npos;
+         other = text.find(text[at], other + 1)) {
+        if (other != at && sides_of(text, other) == sides) {
+            return true;
+        }
+        has_others = has_others || other != at;
+    }
+    return !has_others;
+}
+
+} // namespace
+
+char added_sign(std::string_view added) {
+    const std::size_t first = added.find_first_not_of(kBlanks);
+    return first != std::string_view::npos && added.find_last_not_of(kBlanks) == first
+               ? added[first]
+               : '\0';
+}
+
+std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) {
+    const char sign = added_sign(text.substr(added.begin, added.end - added.begin));
+    std::string without(text.substr(0, added.begin));
+    without += text.substr(added.end);
+    std::vector<std::string> texts;
+    const auto add = [&](std::size_t at) {
+        std::string other = without;
+        other[at] = sign;
+        if (without[at] != sign && is_laid_out_as_others(other, at)) {
+            texts.push_back(std::move(other));
+        }
+    };
+    if (sign == '\0') {
+        return texts;
+    }
+    const std::size_t before =
+        added.begin == 0 ? std::string::npos : without.find_last_not_of(kBlanks, added.begin - 1);
+    if (before != std::string::npos) {
+        add(before);
+    }
+    const std::size_t after = without.find_first_not_of(kBlanks, added.begin);
+    if (after != std::string::npos) {
+        add(after);
+    }
+    return texts;
+}
+
+} // namespace lsys::lsc

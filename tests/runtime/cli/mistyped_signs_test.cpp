@@ -1,0 +1,47 @@
+#include "runtime/cli/mistyped_signs.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace lsys::lsc;
+
+namespace {
+
+/// mistyped_texts() of `before` + `added` + `after`.
+std::vector<std::string>
+others(const std::string& before, const std::string& added, const std::string& after) {
+    const auto begin = static_cast<std::uint32_t>(before.size());
+    const std::string text = before + added + after;
+    return mistyped_texts(text, {begin, begin + static_cast<std::uint32_t>(added.size())});
+}
+
+} // namespace
+
+TEST_CASE("an added sign is one character") {
+    CHECK(added_sign(";") == ';');
+    CHECK(added_sign(" :") == ':');
+    CHECK(added_sign("* ") == '*');
+    CHECK(added_sign("") == '\0');
+    CHECK(added_sign(" ") == '\0');
+    CHECK(added_sign("let a") == '\0');
+}
+
+TEST_CASE("an added sign may stand in place of a character beside it") {
+    using Texts = std::vector<std::string>;
+    CHECK(others("#w : FA", ";", "\n#n = 3;\n") == Texts{"#w : F;\n#n = 3;\n"});
+    CHECK(others("#w x", " :", " F;") == Texts{"#w : F;", "#w x :;"});
+    CHECK(others("#w", " :", " x F;") == Texts{"#: x F;", "#w : F;"});
+}
+
+TEST_CASE("an added sign is laid out as others of the text") {
+    // No other `;` follows a blank.
+    CHECK(others("#n = 3;\n#w : F A", ";", "\n#p : F : * : F;\n").empty());
+    CHECK(others("#n = 3 ;\n#w : F A", ";", "\n").size() == 1);
+}
+
+TEST_CASE("equal signs beside each other are no alternative") {
+    CHECK(others("#w : F;", ";", "\n").empty());
+}
