@@ -348,7 +348,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     std::vector<KnownValue> point(parameters.begin(), parameters.end());
     Matches all;
     for (std::uint64_t i = 0; i < grid->point_count(); ++i) {
-        grid->place(i, point);
+        grid->set_parameters(i, point);
         Matches here = match(symbol, point, parameters);
         if (i == 0) {
             all = std::move(here);

@@ -116,7 +116,7 @@ TEST_CASE(
     bool greater = false;
     std::vector<KnownValue> values(2);
     for (std::uint64_t point = 0; point < compared->point_count(); ++point) {
-        compared->place(point, values);
+        compared->set_parameters(point, values);
         less = less || values[0].value < values[1].value;
         equal = equal || values[0].value == values[1].value;
         greater = greater || values[0].value > values[1].value;
@@ -259,7 +259,7 @@ TEST_CASE("a condition has one truth value in each cell and in each order of com
             }
             bool met = false;
             for (std::uint64_t point = 0; point < grid->point_count() && !met; ++point) {
-                grid->place(point, values);
+                grid->set_parameters(point, values);
                 met = true;
                 bool compared = false;
                 for (std::size_t axis = 0; axis < grid->axes.size(); ++axis) {
