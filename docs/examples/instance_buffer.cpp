@@ -1,5 +1,5 @@
 // A forest in the buffers of a renderer: vertices and indices of each mesh, a matrix for each
-// instance, and the list of draws, which a renderer would hand to glMultiDrawElementsIndirect.
+// instance, and the list of draws for glMultiDrawElementsIndirect.
 // Usage: instance_buffer FILE COUNT
 #include <cstdint>
 #include <cstdlib>
@@ -12,13 +12,13 @@ struct Vertex {
     float normal[3];
 };
 
-/// What follows the matrix of an instance in the buffer of this renderer.
+/// The data after the matrix of an instance in the buffer of this renderer.
 struct InstanceData {
     float matrix[16];
     float tint[4];
 };
 
-/// As DrawElementsIndirectCommand.
+/// Has the layout of DrawElementsIndirectCommand.
 struct Draw {
     std::uint32_t index_count;
     std::uint32_t instance_count;
@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
         mesh.read_indices(0, mesh.index_count(), &indices[base_index.back()]);
     }
 
-    // The matrices go straight to their places in the buffer.
+    // Write the matrices directly to their places in the buffer.
     std::vector<InstanceData> data(instances.all().size());
     instances.read_matrices(0, data.size(), data.data(), sizeof(InstanceData));
 

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Numbers of the instances of all caches: those of a cache follow each other.
+/// Numbers of the instances of all caches: those of one cache are consecutive.
 class GroupNumbers {
 public:
     explicit GroupNumbers(const Forest& forest) : forest_(forest) {
@@ -58,7 +58,7 @@ make_list(const Forest& forest, const InstanceListOptions& options, InstanceList
         return options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed);
     };
     const GroupNumbers numbers(forest);
-    // By piece: counts of instances, later the places of the next instance of each number.
+    // For each piece: counts of instances, later the place of the next instance of each number.
     std::vector<std::vector<std::uint64_t>> places(piece_count(forest));
     for_each_piece(forest, options.threads, [&](std::uint64_t piece, std::span<const Tree> trees) {
         if (is_cancelled()) {

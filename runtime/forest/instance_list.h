@@ -1,5 +1,5 @@
-// InstanceList: all branch instances of a forest as one array, those with the same mesh together, as
-// renderers draw them. Made by make_instance_list(); used by the public library.
+// InstanceList: all branch instances of a forest as one array, grouped by mesh for renderers. Made by
+// make_instance_list(); used by the public library.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -16,7 +16,7 @@
 
 namespace lsys {
 
-/// An instance: its mesh, in the coordinates of the heroes, is scaled, then turned, then moved.
+/// An instance: its mesh, in hero coordinates, is scaled, then rotated, then translated.
 struct ForestInstance {
     glm::vec3 position{}; // m
     float scale = 1.0F;
@@ -36,8 +36,8 @@ struct InstanceGroup {
 };
 
 struct InstanceList {
-    std::vector<InstanceGroup> groups; // by rising species, stage and instance
-    /// By group, then in the order of trees and of TreeExpander::expand().
+    std::vector<InstanceGroup> groups; // in ascending order of species, stage and instance
+    /// Sorted by group, then in the order of trees and of TreeExpander::expand().
     LargeVector<ForestInstance> instances;
 };
 

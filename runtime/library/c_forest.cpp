@@ -34,7 +34,7 @@ forest_options(const lsys_grammar_options* grammar, const lsys_option* options, 
     return {options_of(grammar), named(options, count)};
 }
 
-/// A function of C that takes files as one of C++.
+/// A C++ callback that passes files to a function of C.
 api::FileReceiver receiver_of(lsys_receive receive, void* user) {
     return [receive, user](const api::FilePiece& piece) {
         return receive(user, std::string(piece.name).c_str(), piece.bytes.data(),

@@ -36,7 +36,7 @@ static_assert(offsetof(Instance, rotation) == offsetof(ForestInstance, rotation)
 static_assert(offsetof(Instance, tree) == offsetof(ForestInstance, tree));
 static_assert(offsetof(Instance, group) == offsetof(ForestInstance, group));
 
-/// The mistake of a place; empty if there is none.
+/// The message about an invalid place; empty if the place is valid.
 std::string find_mistake(std::span<const Tree> places, std::size_t species) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const Tree& place = places[i];
@@ -197,8 +197,8 @@ ExitStatus write_loaded(const ForestFileOptions& options,
                                : ::lsys::write_forest(output, grown);
 }
 
-/// Writes the files of a forest. Grows it anew where the file needs other heroes, or trees of other
-/// years.
+/// Writes the files of a forest. Grows the forest again if the file needs other heroes, or trees of
+/// other years.
 ExitStatus write_grown_forest(const ForestFileOptions& options,
                               const ForestTarget& target,
                               const Forest::Data& forest,

@@ -1,5 +1,5 @@
-// Options of files of plants and forests as texts: added to a command line, or parsed from names and
-// values for the public library.
+// Options of files of plants and forests: added to a command line, or parsed from names and values for
+// the public library.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -20,7 +20,7 @@ namespace lsys {
 /// The option --preset with the presets of the command.
 void add_preset(CLI::App& app, PresetCommand command, std::string& target);
 
-// The options of files of plants, in the order of `lsc export --help`, which has others between.
+// The options of files of plants, in the order of `lsc export --help`, which has more options.
 /// --format, --preset, and the options of all files: place, unit, compression, axes.
 void add_plant_form(CLI::App& app, PlantFileOptions& options);
 /// The options of meshes and levels of detail.
@@ -34,7 +34,7 @@ void add_forest_form(CLI::App& app, ForestFileOptions& options);
 /// --frames, and the options of meshes.
 void add_forest_mesh(CLI::App& app, ForestFileOptions& options);
 
-/// The format of a file, as writing decides it; null if the name of the output decides none.
+/// The format in which a file will be written; null if the name of the output has no known extension.
 [[nodiscard]] const FormatTraits* format_of(const PlantFileOptions& options);
 [[nodiscard]] const FormatTraits* format_of(const ForestFileOptions& options);
 
@@ -47,8 +47,8 @@ void add_forest_mesh(CLI::App& app, ForestFileOptions& options);
 
 /// An option by its name without dashes and its value, empty for a flag: {"lods", "6"}.
 using NamedOption = std::pair<std::string, std::string>;
-/// Options of a file of the name `output`, with those of their preset. Error: an option that does
-/// not exist, or its value.
+/// Options of the file `output`, with those of their preset. Error: an unknown option or an invalid
+/// value.
 [[nodiscard]] Result<PlantFileOptions> parse_plant_files(const std::string& output,
                                                          const std::vector<NamedOption>& options);
 [[nodiscard]] Result<ForestFileOptions> parse_forest_files(const std::string& output,

@@ -54,7 +54,7 @@ struct PlantFileOptions {
     /// Max number of joints of a skin. 0: one per segment that moves. Default: 128.
     std::optional<std::uint32_t> bones;
     bool wind_data = false;   // add vertex attributes for wind shaders
-    bool loop = false;        // the motion ends as it begins
+    bool loop = false;        // the motion is a loop
     bool grow = false;        // the frames show the growth through the generations
     std::uint32_t frames = 0; // of an animation or of numbered files; 0: only the plant at rest
     float frames_per_second = 24.0F;

@@ -18,12 +18,12 @@ namespace lsys {
 
 enum class ForestOutputKind : std::uint8_t { None, Instances, Mesh, Statistics };
 
-/// The kind and format of the output, which its extension decides.
+/// The kind and format of the output, determined by its extension.
 struct ForestTarget {
     ForestOutputKind kind = ForestOutputKind::None;
     ExportFormat format = ExportFormat::Glb;
 };
-/// Error: a name that tells no format of forests.
+/// Error: the extension is no format of forests.
 [[nodiscard]] Result<ForestTarget> target_of(const ForestFileOptions& options);
 
 /// A message about options that conflict; empty if none do. `rho`: of the overrides of the scene.

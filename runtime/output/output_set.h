@@ -1,5 +1,5 @@
-// The files that a command or call writes together: on disk all of them appear or none; a receiver
-// gets them one after the other.
+// The files that a command or call writes together: on disk, all of them appear or none; a receiver
+// gets them in order.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -14,16 +14,16 @@
 
 namespace lsys {
 
-/// A piece of a file. Pieces of a file follow each other; the last one is empty.
+/// A piece of a file. Pieces of one file are consecutive; the last one is empty.
 struct FilePiece {
     std::string_view name;
     std::string_view bytes;
     bool is_last = false;
 };
-/// Takes files in place of a folder; returns false to stop the export.
+/// Receives files instead of a folder; returns false to stop the export.
 using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
-/// Surroundings of writing. All parts outlive the call.
+/// The context of a call that writes files. All parts must outlive the call.
 struct OutputContext {
     const Console& console;
     const Project& project;
@@ -31,8 +31,8 @@ struct OutputContext {
     const FileReceiver* receiver = nullptr;    // null: files on disk
     std::vector<std::string>* paths = nullptr; // if not null, gets the paths of the files
 
-    /// Whether `path` is, or will be, a regular file or goes to a receiver: only then can other
-    /// files accompany it.
+    /// Whether `path` is, or will be, a regular file or goes to a receiver; otherwise no other files
+    /// can accompany it.
     [[nodiscard]] bool is_regular(const std::string& path) const;
 };
 
@@ -42,7 +42,7 @@ public:
     explicit OutputSet(const OutputContext& context) : context_(context) {}
 
     /// Writes a file that appears at commit(), and prints the messages of `write`. `write` passes
-    /// the bytes to the sink that it gets, which returns false after a failure or an interrupt.
+    /// the bytes to the given sink, which returns false after a failure or an interrupt.
     [[nodiscard]] ExitStatus add(const std::string& path,
                                  const std::function<Outcome<void>(const ByteSink&)>& write);
     /// Adds a file with these bytes.

@@ -66,8 +66,8 @@ ExitStatus add_side_files(PlantRun& run,
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
-/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures to what the
-/// format and the output allow.
+/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures if the format
+/// and the output allow pictures.
 ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chain) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
@@ -87,7 +87,7 @@ ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chai
                                     run.levels);
 }
 
-/// Meshes the level of detail of `skeleton` that `--level` asks for, or the coarsest level.
+/// Meshes the level of detail of `skeleton` given by `--level`, at most the coarsest level.
 ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const MeshOptions& options) {
     const std::uint32_t wanted = run.options.mesh.level;
     if (wanted == 0) {
@@ -142,7 +142,7 @@ ExitStatus mesh_frame(PlantRun& run, const Skeleton& skeleton, bool segments) {
     MeshOptions options = run.options.mesh;
     options.segments = segments;
     run.mesh = {};
-    // Frames of a growth are different plants, so planned levels do not fit them: `--level` only
+    // Frames of growth are different plants, so planned levels do not apply to them: `--level` only
     // reduces the number of sides.
     const ExitStatus status =
         run.options.grow

@@ -22,19 +22,19 @@ struct ExportTiming {
     std::uint64_t bytes = 0;
 };
 
-/// What writing leaves for statistics.
+/// Results of writing, for statistics.
 struct PlantFileReport {
     ExportTiming timing;
     Mesh mesh; // of the last file
 };
 
-/// The way to a plant: the path of its grammar and the grammar, compiled.
+/// The inputs of a plant: the path of its grammar and the compiled grammar.
 struct PlantSource {
     std::string file;
     const Grammar& grammar;
 };
 
-/// A message about options that conflict or that the format does not take; empty if all fit.
+/// A message about options that conflict or that the format does not support; else empty.
 [[nodiscard]] std::string
 find_conflict(const PlantFileOptions& options, ExportFormat format, const OutputContext& context);
 

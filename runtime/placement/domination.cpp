@@ -49,7 +49,7 @@ float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
     return growth.rate * vigour * (1.0F - radius / growth.max_radius);
 }
 
-std::vector<float> open_radii(const SpeciesGrowth& growth) {
+std::vector<float> undominated_radii(const SpeciesGrowth& growth) {
     std::vector<float> radii(oldest_age(growth) + 1);
     for (std::size_t age = 1; age < radii.size(); ++age) {
         radii[age] = radii[age - 1] + open_growth(growth, radii[age - 1], 1.0F);
@@ -204,7 +204,7 @@ void add_seedlings(const Life& life,
 Domination::Domination(const PlacementOptions& options, const Terrain& terrain)
     : options_(options), terrain_(&terrain) {
     for (const PlacementSpecies& species : options.species) {
-        open_radii_.push_back(open_radii(species.growth));
+        undominated_radii_.push_back(undominated_radii(species.growth));
     }
 }
 
@@ -283,7 +283,7 @@ LargeVector<Tree> Domination::trees() const {
         const std::uint64_t end = std::min<std::uint64_t>(plants_.size(), (piece + 1) * kPiece);
         for (std::uint64_t i = piece * kPiece; i < end; ++i) {
             const ForestPlant& plant = plants_[i];
-            const std::vector<float>& open = open_radii_[plant.species];
+            const std::vector<float>& open = undominated_radii_[plant.species];
             Tree tree = maker.appearance_of(plant.number, plant.species);
             tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
                              plant.place.y};

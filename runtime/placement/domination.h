@@ -64,7 +64,7 @@ private:
     std::uint32_t next_number_ = 0;
     LargeVector<ForestPlant> plants_;
     /// Radius by species and age, in the open with full vigour.
-    std::vector<std::vector<float>> open_radii_;
+    std::vector<std::vector<float>> undominated_radii_;
     PlacementReport report_;
 };
 

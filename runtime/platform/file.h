@@ -1,5 +1,5 @@
-// Files of the system: opening, facts, renaming. Names are UTF-8. Functions that may fail return a
-// Reason or a value with one; no text, so that callers choose their own words.
+// Files of the system: opening, attributes, renaming. Names are UTF-8. Functions that may fail return
+// a Reason or a value with one, without a text: callers write the messages.
 #pragma once
 
 #include <cstddef>
@@ -58,10 +58,10 @@ struct FileFacts {
 [[nodiscard]] Reason create_file(const std::string& path, bool is_private, File& file);
 
 [[nodiscard]] Reason facts_of(const File& file, FileFacts& facts);
-/// Facts of a name, of the target for a link; the type Missing if there are none. Types are exact
-/// for Regular and Directory only.
+/// Attributes of a name, of the target for a link; the type Missing if the name does not exist. Only
+/// the types Regular and Directory are exact.
 [[nodiscard]] FileFacts facts_of(const std::string& path);
-/// Facts of a name, of the link itself for a link.
+/// Attributes of a name, of the link itself for a link.
 [[nodiscard]] FileFacts link_facts_of(const std::string& path);
 /// Returns 0 if the file may be written.
 [[nodiscard]] Reason check_writable(const std::string& path);
@@ -69,7 +69,7 @@ struct FileFacts {
 [[nodiscard]] Reason resolve_links(const std::string& path, std::string& real);
 [[nodiscard]] Reason set_permissions(const File& file, unsigned permissions);
 
-/// A number of bytes, or the reason that there are none. EINTR: a signal came first.
+/// A number of bytes, or the reason of a failure. EINTR: a signal arrived before.
 struct ByteCount {
     std::size_t count = 0;
     Reason reason = 0;
@@ -83,9 +83,9 @@ struct ByteCount {
 void remove_file(const char* path) noexcept;
 /// Renames a file; replaces a file of that name.
 [[nodiscard]] Reason rename_file(const std::string& from, const std::string& to);
-/// Renames a file; EEXIST if the name exists. EINVAL or ENOSYS where a file system cannot do this.
+/// Renames a file; EEXIST if the name exists. EINVAL or ENOSYS if the file system does not support it.
 [[nodiscard]] Reason rename_to_new(const std::string& from, const std::string& to);
-/// Exchanges the names of two files. EINVAL or ENOSYS where a file system cannot do this.
+/// Exchanges the names of two files. EINVAL or ENOSYS if the file system does not support it.
 [[nodiscard]] Reason exchange_files(const std::string& one, const std::string& other);
 
 /// Random bits for names of temporary files; different on each call.

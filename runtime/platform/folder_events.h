@@ -1,5 +1,5 @@
-// FolderEvents: waits for changes of the entries of folders. Linux tells them by inotify. Other
-// systems tell none: their users compare stamps of files (file.h) at intervals.
+// FolderEvents: waits for changes of the entries of folders, with inotify on Linux. Other systems
+// report no changes: callers compare stamps of files (file.h) at intervals.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// How the program was built: `--version --verbose`.
+// The build of the program, for `--version --verbose`.
 #pragma once
 
 #include <string>

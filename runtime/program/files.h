@@ -36,7 +36,7 @@ enum class FileKind : std::uint8_t {
 [[nodiscard]] Result<std::string> read_standard_input(const ReadLimit& limit,
                                                       const Console& console);
 
-/// The text of an errno value, without a capital at its start.
+/// The text of an errno value, beginning with a lower-case letter.
 [[nodiscard]] std::string errno_text(int reason);
 
 /// The path of a numbered file: tree.0012.glb for tree.glb and 12.

@@ -674,7 +674,7 @@ private:
         return {};
     }
 
-    /// The end of a title, if the production that applies was shown in an earlier pass.
+    /// The end of a title that says that an earlier pass has shown the applied production.
     [[nodiscard]] std::string again_text(const ModuleTrace& trace) const {
         const auto applies =
             std::find_if(trace.attempts.begin(), trace.attempts.end(),

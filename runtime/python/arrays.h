@@ -1,4 +1,4 @@
-// Arrays of the library as arrays of numpy: views that cannot be written and keep their owner alive.
+// Arrays of the library as arrays of numpy: read-only views that keep their owner alive.
 #pragma once
 
 #include <cstddef>

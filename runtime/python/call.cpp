@@ -23,8 +23,8 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
-/// The messages for an exception: with the lines of the source, or the words alone where they are
-/// about no source.
+/// The messages for an exception: with the lines of the source, or only the text for messages without
+/// a source.
 std::string text_of(const lsys::Messages& messages) {
     std::string text;
     for (const lsys::Diagnostic& diagnostic : messages.all()) {

@@ -26,7 +26,7 @@ namespace lsys_python {
 namespace py = pybind11;
 using namespace pybind11::literals;
 
-/// Options that every call takes.
+/// Options of every call.
 struct CallOptions {
     std::uint32_t threads = 0;
     std::uint64_t max_modules = lsys::Limits{}.max_modules;
@@ -53,18 +53,19 @@ struct CallOptions {
 
 /// Python's `threading.main_thread()` handles Ctrl-C.
 [[nodiscard]] bool is_main_thread();
-/// A value of Python as the contents of a file: bytes or text; an OSError says why there is none.
+/// A value of Python as the contents of a file: bytes or text; an OSError has the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
-/// A function of Python that takes (name, bytes, is_last) as a receiver of files: it ends the call by
-/// returning False. `receive` outlives the receiver, which is called without the lock.
+/// Makes a function of Python with the arguments (name, bytes, is_last) a receiver of files; the
+/// function ends the call by returning False. `receive` must outlive the receiver, which is called
+/// without the lock.
 [[nodiscard]] lsys::FileReceiver receiver_of(const py::function& receive);
 /// Raises the exception for a call that has failed.
 [[noreturn]] void raise(lsys::Status status, const lsys::Messages& messages);
-/// Makes warnings of Python of the warnings.
+/// Reports the warnings as warnings of Python.
 void warn(const lsys::Messages& messages);
 
-/// Runs `work(project)` without the interpreter's lock. On Python's main thread the work is done by
-/// another one, while this one lets Ctrl-C end it.
+/// Runs `work(project)` without the lock of the interpreter. If called on the main thread of Python,
+/// another thread does the work, while the main thread handles Ctrl-C.
 template <typename Work>
 auto run(const CallOptions& options, const Work& work) {
     using Result = decltype(work(std::declval<const lsys::Project&>()));
@@ -132,7 +133,7 @@ auto run(const CallOptions& options, const Work& work) {
     return std::move(*result);
 }
 
-/// The value of an outcome; raises an exception with the messages if there is none. Warnings are
+/// The value of an outcome; raises an exception with the messages if there is none. Warnings become
 /// warnings of Python.
 template <typename T>
 T value_of(lsys::Outcome<T> outcome) {

@@ -14,7 +14,7 @@ py::dtype code_type(std::uint32_t bytes) {
                         : py::dtype::of<std::uint32_t>();
 }
 
-/// The modules of a word, one after the other.
+/// Iterates over the modules of a word.
 class WordIterator {
 public:
     explicit WordIterator(lsys::Word word) : word_(std::move(word)) {}

@@ -1,5 +1,4 @@
-// The least that a C++ program does to print one line: what start_bench compares the start of lsc
-// with.
+// A minimal C++ program that prints one line; start_bench compares the start of lsc with it.
 #include <iostream>
 
 int main() {

@@ -1,6 +1,6 @@
-// Whole runs of `lsc`, from start to exit, beside a C++ program that prints one line and is linked
-// alike. The programs run in turn, so that a slow moment of the machine meets all of them. Prints a
-// table of medians. Asserts nothing about time.
+// Compares whole runs of `lsc`, from start to exit, with a C++ program that prints one line and is
+// linked in the same way. The programs run alternately, so that a slow moment of the machine affects
+// all of them. Prints a table of medians. Asserts nothing about time.
 // Usage: start_bench [RUNS]
 #include "tests/bench/measure.h"
 
@@ -25,7 +25,7 @@ struct Program {
     std::vector<double> times;          // seconds
 };
 
-/// Runs a program without a shell, its output thrown away.
+/// Runs a program without a shell; its output is discarded.
 void run(const Program& program) {
     std::vector<char*> arguments;
     for (const std::string& argument : program.arguments) {

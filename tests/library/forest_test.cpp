@@ -1,4 +1,4 @@
-// Files and forests of liblsys, by its public headers alone.
+// Files and forests of liblsys, used only by its public headers.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ lsys::Plant tree() {
     return *plant;
 }
 
-/// Files by name, as a receiver gets them.
+/// The files that a receiver got, by name.
 struct Received {
     std::map<std::string, std::string> files;
     std::vector<std::string> complete;
@@ -95,7 +95,7 @@ TEST_CASE("a plant is saved with the files beside it") {
     }
 }
 
-TEST_CASE("a receiver gets the files that a folder would") {
+TEST_CASE("a receiver gets the same files as a folder") {
     const Folder folder;
     const lsys::Options options{{"preset", "unreal"}, {"lods", "3"}};
     const auto saved = lsys::save_plant(tree(), folder / "a.gltf", options);
@@ -128,12 +128,12 @@ TEST_CASE("a plant bends, moves and grows in files") {
     REQUIRE(
         lsys::write_plant(tree(), "a.ply", growing.receiver(), {{"grow", ""}, {"frames", "3"}}));
     CHECK(growing.complete == std::vector<std::string>{"a.0001.ply", "a.0002.ply", "a.0003.ply"});
-    Received print; // 150 mm high: grown anew
+    Received print; // 150 mm high: grown again
     REQUIRE(lsys::write_plant(tree(), "a.obj", print.receiver(), {{"preset", "print"}}));
     CHECK(print.files["a.obj"].find("# millimetres, +Z up") != std::string::npos);
 }
 
-TEST_CASE("options that do not fit are refused in the words of lsc") {
+TEST_CASE("invalid options are refused with the messages of lsc") {
     const auto text_of = [](const std::string& name, const lsys::Options& options) {
         Received received;
         const auto written = lsys::write_plant(tree(), name, received.receiver(), options);
@@ -149,7 +149,7 @@ TEST_CASE("options that do not fit are refused in the words of lsc") {
     CHECK(text_of("a.xyz", {}).find("the name `a.xyz` does not tell a format") == 0);
 }
 
-TEST_CASE("a receiver ends a call, and its exceptions pass") {
+TEST_CASE("a receiver can end a call, and its exceptions are rethrown") {
     const auto ended =
         lsys::write_plant(tree(), "a.glb", [](const lsys::FilePiece&) { return false; });
     REQUIRE_FALSE(ended);
@@ -245,7 +245,7 @@ TEST_CASE("matrices of instances are those of their places, in a buffer with a s
     const auto plant = lsys::make_mesh(tree());
     REQUIRE(plant);
     CHECK(made->meshes()[0].positions().size() == plant->positions().size());
-    // The whole hero is the plant, scaled, turned about +Y, and moved.
+    // The whole hero is the plant, scaled, rotated about +Y, and translated.
     for (std::size_t i = 0; i < 2; ++i) {
         const std::array<float, 16>& m = rows[i].matrix;
         const lsys::Tree& place = places[made->all()[i].tree];
@@ -274,7 +274,7 @@ TEST_CASE("matrices of instances are those of their places, in a buffer with a s
     }
 }
 
-TEST_CASE("places that are none are refused") {
+TEST_CASE("invalid places are refused") {
     const auto text_of = [](const lsys::Tree& place) {
         const auto forest = lsys::forest_of_places({"tree.lsys"}, {&place, 1}, {}, tree_project());
         REQUIRE_FALSE(forest);

@@ -20,7 +20,7 @@ bool is_external(std::string_view target) {
 }
 
 /// The mistake in a link; empty if it is correct.
-std::string wrong_with(const std::filesystem::path& document, const std::string& target) {
+std::string link_mistake(const std::filesystem::path& document, const std::string& target) {
     const std::size_t hash = target.find('#');
     const std::string name = target.substr(0, hash);
     const std::filesystem::path path =
@@ -54,7 +54,7 @@ TEST_CASE("the links of the documents have existing targets") {
                 continue;
             }
             ++count;
-            if (const std::string wrong = wrong_with(document, link.target); !wrong.empty()) {
+            if (const std::string wrong = link_mistake(document, link.target); !wrong.empty()) {
                 FAIL_CHECK(document.string()
                            << ":" << link.line << ": `" << link.target << "` " << wrong);
             }

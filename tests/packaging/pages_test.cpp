@@ -25,7 +25,7 @@ bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// Text of a man page as a reader sees it: without escapes and fonts.
+/// Text of a man page without escapes and fonts.
 std::string plain(std::string page) {
     for (const auto& [escaped, shown] :
          std::vector<std::pair<std::string, std::string>>{{"\\fB", ""},
@@ -114,7 +114,7 @@ TEST_CASE("a man page has every option and argument with its text") {
     }
 }
 
-TEST_CASE("no line of a man page is a request by accident") {
+TEST_CASE("no line of a man page is an accidental request") {
     CommandText command;
     command.name = "x";
     command.description = "Reads .lsys: `a\\b` and 'c'.";
@@ -161,7 +161,7 @@ TEST_CASE("completions have every command and option") {
     }
 }
 
-TEST_CASE("offered values are those that the command line takes") {
+TEST_CASE("completions offer the values that the command line accepts") {
     std::size_t count = 0;
     for (const CommandText& command : pages::describe_lsc().commands) {
         for (const OptionText& option : command.options) {

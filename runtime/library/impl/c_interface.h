@@ -112,8 +112,8 @@ inline void hand_over(const api::Messages& messages, lsys_messages** to) {
     }
 }
 
-/// Calls `work`, hands over its value as a handle, and its messages. Exceptions are a lack of memory:
-/// the library has no others, and functions of C throw none.
+/// Calls `work` and gives its value, as a handle, and its messages to the caller. An exception means
+/// lack of memory: the library throws no others, and functions of C throw none.
 template <typename Handle, typename Work>
 lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noexcept {
     *value = nullptr;
@@ -132,7 +132,7 @@ lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noe
     }
 }
 
-/// A function of C that takes pieces as one of C++.
+/// A C++ callback that passes pieces to a function of C.
 inline auto piece_writer(int (*write)(void* user, const char* piece, std::size_t size),
                          void* user) {
     return [write, user](std::string_view piece) {
@@ -140,7 +140,7 @@ inline auto piece_writer(int (*write)(void* user, const char* piece, std::size_t
     };
 }
 
-/// Calls `work`, whose value is of no use to C, and hands over its messages.
+/// Calls `work`, ignores its value, and gives its messages to the caller.
 template <typename Work>
 lsys_status call_alone(const Work& work, lsys_messages** messages) noexcept {
     if (messages != nullptr) {

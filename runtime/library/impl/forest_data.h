@@ -13,11 +13,11 @@
 
 namespace lsys::v0 {
 
-/// The way to a forest, for files that need it grown anew.
+/// The inputs of a forest, for files that need another growth of it.
 struct ForestSource {
     std::vector<std::string> files;
     SceneOverrides overrides;
-    std::optional<std::vector<Tree>> places; // unset: those of the scene
+    std::optional<std::vector<Tree>> places; // unset: the places of the scene
 };
 
 struct LoadedForest {

@@ -5,7 +5,7 @@
 namespace lsys::platform {
 
 void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
-    // The system chooses the sizes of pages alone.
+    // Only the system chooses the sizes of pages.
 }
 
 std::uint64_t peak_memory() {

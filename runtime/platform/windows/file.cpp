@@ -92,7 +92,7 @@ HANDLE open_for_facts(const std::string& path) {
                          OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
 }
 
-/// Renames a file, and says why that failed: a folder of the new name counts as such.
+/// Renames a file. Returns EISDIR if the new name is a folder.
 Reason move_file(const std::string& from, const std::string& to, DWORD flags) {
     if (::MoveFileExW(wide_text(from).c_str(), wide_text(to).c_str(), flags) != 0) {
         return 0;
@@ -219,7 +219,7 @@ ByteCount write_some(const File& file, const char* bytes, std::size_t size) {
 }
 
 void remove_file(const char* path) noexcept {
-    // Without memory from the heap, because a handler may call this.
+    // Allocates no memory, because a handler may call this.
     std::array<wchar_t, 4096> wide{};
     if (::MultiByteToWideChar(CP_UTF8, 0, path, -1, wide.data(), static_cast<int>(wide.size())) !=
         0) {

@@ -44,7 +44,7 @@ void release_memory(std::byte* address, std::size_t /*bytes*/) noexcept {
 }
 
 void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
-    // Large pages need a privilege that programs of users do not have.
+    // Large pages need a privilege that ordinary programs do not have.
 }
 
 std::uint64_t physical_memory() {

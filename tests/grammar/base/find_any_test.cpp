@@ -7,7 +7,7 @@
 
 using namespace lsys;
 
-TEST_CASE("the first of several characters is found wherever it stands") {
+TEST_CASE("the first of several characters is found at every position") {
     constexpr std::size_t kSize = 100; // blocks and a rest
     for (std::size_t at = 0; at <= kSize; ++at) {
         for (std::size_t found = 0; found < kSize; ++found) {

@@ -1,4 +1,4 @@
-// The characters of numbers that portable_chars gives are those of the standard library.
+// portable_chars writes and reads numbers like the standard library.
 #include "grammar/base/impl/portable_chars.h"
 #include "grammar/base/number_chars.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kRoom = 512; // more than the longest number without an exponent
 
-/// What a reading left behind.
+/// The result of reading a number.
 struct Reading {
     std::errc error{};
     std::ptrdiff_t length = 0;
@@ -52,7 +52,7 @@ Reading portable_reading(std::string_view text) {
     return {error, end - text.data(), bits_of(value)};
 }
 
-/// Numbers of four kinds by turns: any bits, few digits after the point, whole, round.
+/// Numbers of four alternating kinds: random bits, few digits after the point, whole, round.
 template <typename Number, typename Bits>
 Number random_number(std::mt19937_64& random, std::uint64_t kind) {
     switch (kind % 4) {
@@ -115,7 +115,7 @@ TEST_CASE("ten million numbers have the same characters", "[.]") {
     CHECK(first_difference<double, std::uint64_t>(10'000'000).empty());
 }
 
-TEST_CASE("texts that are no numbers, too large or too small are read alike") {
+TEST_CASE("invalid, too large and too small numbers are read in the same way") {
     for (const char* text :
          {"",       "-",    "+1",       ".",       "e5",    " 1",     "x",       "1e",
           "1e+",    "5.",   ".5",       "-.5",     "0x10",  "1.5e5x", "0.0000e", "1e400",
@@ -129,7 +129,7 @@ TEST_CASE("texts that are no numbers, too large or too small are read alike") {
     check_readings("1." + std::string(400, '0') + "1");
 }
 
-TEST_CASE("numbers of few values and too little room are written alike") {
+TEST_CASE("numbers of small types are written in the same way, also with too little room") {
     for (const double value :
          {0.0, -0.0, 1.0, -1.0, 1e5, 1e6, 123456.0, 1e22, 1e23, 0.0001, 0.00001, 1.5e-4, 1e-5,
           123456789012345680000.0, 5e-324, std::numeric_limits<double>::max(),

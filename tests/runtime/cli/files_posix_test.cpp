@@ -1,4 +1,4 @@
-// Links, permissions and devices, which Windows does not have or has differently.
+// Links, permissions and devices, which are missing or different on Windows.
 #include "runtime/program/files.h"
 #include "tests/support/lsc_run.h"
 
@@ -30,7 +30,7 @@ struct PosixFixture {
 
 } // namespace
 
-TEST_CASE("devices are read as far as they end and fit") {
+TEST_CASE("devices are read to their end, up to the size limit") {
     PosixFixture f;
     const Result<std::string> device = read_file("/dev/null", {1000}, f.console);
     REQUIRE(device.ok());

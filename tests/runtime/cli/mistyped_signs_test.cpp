@@ -29,19 +29,19 @@ TEST_CASE("an added sign is one character") {
     CHECK(added_sign("let a") == '\0');
 }
 
-TEST_CASE("an added sign may stand in place of a character beside it") {
+TEST_CASE("an added sign may replace a character next to it") {
     using Texts = std::vector<std::string>;
     CHECK(others("#w : FA", ";", "\n#n = 3;\n") == Texts{"#w : F;\n#n = 3;\n"});
     CHECK(others("#w x", " :", " F;") == Texts{"#w : F;", "#w x :;"});
     CHECK(others("#w", " :", " x F;") == Texts{"#: x F;", "#w : F;"});
 }
 
-TEST_CASE("an added sign is laid out as others of the text") {
+TEST_CASE("an added sign has the same blanks as others of the text") {
     // No other `;` follows a blank.
     CHECK(others("#n = 3;\n#w : F A", ";", "\n#p : F : * : F;\n").empty());
     CHECK(others("#n = 3 ;\n#w : F A", ";", "\n").size() == 1);
 }
 
-TEST_CASE("equal signs beside each other are no alternative") {
+TEST_CASE("adjacent equal signs are no alternative") {
     CHECK(others("#w : F;", ";", "\n").empty());
 }

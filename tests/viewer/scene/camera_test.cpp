@@ -34,12 +34,12 @@ TEST_CASE("a written camera is read back unchanged") {
 }
 
 TEST_CASE("parts of a camera may be omitted") {
-    const Camera otherwise;
-    const Result<Camera> read = parse_camera("fov 20", otherwise);
+    const Camera default_camera;
+    const Result<Camera> read = parse_camera("fov 20", default_camera);
     REQUIRE(read);
-    CHECK(read.value().eye == otherwise.eye);
+    CHECK(read.value().eye == default_camera.eye);
     CHECK(read.value().field_of_view == 20.0F);
-    CHECK(parse_camera("", otherwise).value() == otherwise);
+    CHECK(parse_camera("", default_camera).value() == default_camera);
 
     Camera first;
     first.eye = {1.0F, 2.0F, 30.0F};

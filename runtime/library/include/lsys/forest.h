@@ -1,6 +1,6 @@
-// Forest: trees of some species on a ground, of a scene file, of grammars or of places; its instances
+// Forest: trees of some species on a ground, from a scene file, grammars or given places; its instances
 // as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are spans into the
-// forest or the instances, which are not copied: they are valid as long as one copy of it is.
+// forest or the instances, without a copy: they are valid as long as a copy of that value exists.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@
 
 namespace lsys::LSYS_INTERFACE {
 
-/// A tree. Its shape depends on the forest's key, its species and its number alone. 28 bytes.
+/// A tree. Its shape depends only on the key of the forest, its species and its number. 28 bytes.
 struct Tree {
     Vector3 position; // of the start of the turtle
     float yaw = 0.0F; // radians about +Y
     float scale = 1.0F;
-    std::uint32_t number = 0; // draws the branches of the tree
+    std::uint32_t number = 0; // determines the branches of the tree
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: the last stage of its species
 };
@@ -69,20 +69,19 @@ private:
     std::shared_ptr<const Data> data_; // never null
 };
 
-/// Grows the forest of a scene (.toml), or of grammars, each of which is a species, as `lsc forest`
-/// does.
+/// Grows the forest of a scene (.toml), or of grammars, one species each, like `lsc forest`.
 [[nodiscard]] LSYS_API Outcome<Forest> grow_forest(const std::vector<std::string>& files,
                                                    const ForestOptions& options = {},
                                                    const Project& project = {});
-/// Grows trees at places. Tree::species: index in `grammars`. Options of placement have no effect.
-/// Status::Failed: a species that does not exist, a number that is not finite, a scale that is not
-/// above 0.
+/// Grows trees at given places. Tree::species: index in `grammars`. Options of placement have no
+/// effect. Status::Failed: an unknown species, a number that is not finite, a scale that is not above
+/// 0.
 [[nodiscard]] LSYS_API Outcome<Forest> forest_of_places(const std::vector<std::string>& grammars,
                                                         std::span<const Tree> places,
                                                         const ForestOptions& options = {},
                                                         const Project& project = {});
 
-/// An instance: its mesh is scaled, then turned, then moved. 40 bytes.
+/// An instance: its mesh is scaled, then rotated, then translated. 40 bytes.
 struct Instance {
     Vector3 position;
     float scale = 1.0F;
@@ -104,7 +103,7 @@ struct InstanceGroup {
 /// Cheap to copy, immutable, safe to use from several threads at once.
 class LSYS_API Instances {
 public:
-    /// One for each species and stage: the heroes, of which a group draws some parts.
+    /// One mesh for each species and stage, with all heroes; a group draws some of its parts.
     [[nodiscard]] const std::vector<Mesh>& meshes() const;
     [[nodiscard]] const std::vector<InstanceGroup>& groups() const;
     [[nodiscard]] std::span<const Instance> all() const; // by group
@@ -128,16 +127,16 @@ make_instances(const Forest& forest, const MeshOptions& mesh = {}, const Project
 /// The ground below the trees.
 [[nodiscard]] LSYS_API Outcome<Mesh> make_ground(const Forest& forest, const Project& project = {});
 
-/// Writes `path`, whose ending tells the format (json: statistics), and the pictures beside it. All
+/// Writes `path`, whose extension sets the format (json: statistics), and the pictures beside it. All
 /// files appear when they are complete, or none. Returns their paths. Options are those of `lsc
 /// forest` for files: preset, compress, expand, bake, instances, viewpoint, unit, pivot, collision,
 /// up, cell, frames and those of meshes. With `instances` `trees` or `lods` and with `frames` the
-/// forest is grown anew.
+/// forest is grown again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_forest(const Forest& forest,
                                                                      const std::string& path,
                                                                      const Options& options = {},
                                                                      const Project& project = {});
-/// As save_forest(), into `receive`.
+/// Like save_forest(), but passes the files to `receive`.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> write_forest(const Forest& forest,
                                                                       const std::string& name,
                                                                       const FileReceiver& receive,
