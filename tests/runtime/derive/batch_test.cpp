@@ -1,5 +1,6 @@
 // Parameters that are evaluated for many modules at once. Chunks of one, two and seven modules are
 // evaluated one by one, so each case compares both methods.
+#include "runtime/derive/derive.h"
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"
 
@@ -7,7 +8,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -207,6 +211,28 @@ TEST_CASE("values of a batch that are not finite are errors") {
     const RuntimeError distribution = error("#p : A(x) : * : F(if(x < 1, poisson(x), 0));\n");
     CHECK(distribution.kind == RuntimeErrorKind::BadDistribution);
     CHECK(distribution.position == 90);
+}
+
+TEST_CASE("threads share the batches of a long word") {
+    const Bytecode bytecode = bytecode_of_batches(
+        "#w : A(1) A(1) A(1);\n#p : A(x) : * : let r = {0.5, 1} : A(x*r) A(x*r);\n");
+    constexpr std::uint32_t kDoublings = 17; // the last words are long enough to be shared
+    const auto parameters = [&](std::uint32_t threads) {
+        DeriveOptions options;
+        options.generations = kDoublings;
+        options.threads = threads;
+        Derivation derivation(bytecode, options);
+        REQUIRE(derivation.start() == std::nullopt);
+        REQUIRE(derivation.run_to(kDoublings) == std::nullopt);
+        const std::span<const float> values = derivation.word().parameters();
+        return std::vector<float>(values.begin(), values.end());
+    };
+    const std::vector<float> alone = parameters(1);
+    CHECK(alone.size() == std::size_t{3} << kDoublings);
+    for (const std::uint32_t threads : {2u, 3u}) {
+        const bool is_same = parameters(threads) == alone;
+        CHECK(is_same);
+    }
 }
 
 TEST_CASE("local values of a successor without parameters read the formals") {

@@ -222,6 +222,27 @@ TEST_CASE("runs of modules without a production are copied as a block") {
     CHECK(unchanged);
 }
 
+TEST_CASE("long runs of modules that nothing rewrites keep their parameters") {
+    // Chunks of a few modules are rewritten without the mask that finds such runs.
+    std::string row;
+    std::string next;
+    for (int i = 0; i < 1000; ++i) {
+        const std::string module = i % 3 == 0   ? "b(" + std::to_string(i) + ")"
+                                   : i % 3 == 1 ? "c(" + std::to_string(i) + ",2)"
+                                                : "d";
+        const bool is_active = i == 5 || i == 64 || i == 700 || i == 998;
+        row += (i == 0 ? "" : " ") + (is_active ? "A(1)" : module);
+        next += (i == 0 ? "" : " ") + (is_active ? "A(2) d" : module);
+    }
+    BytecodeBuilder builder;
+    builder.fold = GENERATE(true, false);
+    builder.axiom(row);
+    builder.production(GENERATE("p : A(x) : * : A(x+1) d", "p : A(x) : x < 9 : A(x+1) d"));
+    const std::string word = derived_every_way(builder.build(), 1, 0);
+    const bool is_as_expected = word == next;
+    CHECK(is_as_expected);
+}
+
 TEST_CASE("a program without productions keeps its axiom") {
     BytecodeBuilder builder;
     builder.axiom("F(1)[+F]");
