@@ -24,8 +24,10 @@ std::string value_options(const std::string& program, const OptionText& option) 
         return text + " -a '(__fish_complete_directories)'";
     }
     if (option.kind == ValueKind::File && !option.extensions.empty()) {
-        const std::string pattern = quoted(name_pattern(option.extensions));
-        return text + " -a " + quoted(fmt::format("(__{}_files {})", program, pattern));
+        // `string match` would print a group as a match of its own.
+        std::string pattern = name_pattern(option.extensions);
+        pattern.insert(pattern.find('(') + 1, "?:");
+        return text + " -a " + quoted(fmt::format("(__{}_files {})", program, quoted(pattern)));
     }
     return text;
 }

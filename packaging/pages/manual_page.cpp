@@ -60,6 +60,26 @@ std::string prose(std::string_view text) {
     }
 }
 
+/// prose() in lines of at most 80 bytes, as far as there are blanks.
+std::string filled(std::string_view text) {
+    constexpr std::size_t kLineLength = 80;
+    std::istringstream words(prose(text));
+    std::string lines;
+    std::size_t column = 0;
+    for (std::string word; words >> word;) {
+        if (column > 0 && column + 1 + word.size() > kLineLength) {
+            lines += word.starts_with('.') ? "\n\\&" : "\n";
+            column = 0;
+        } else if (column > 0) {
+            lines += ' ';
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+    }
+    return lines;
+}
+
 std::string upper(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -111,7 +131,7 @@ void add_option(std::string& page, const OptionText& option) {
     } else if (!option.names.empty() && option.kind != ValueKind::None) {
         page += ' ' + value_text(option);
     }
-    page += '\n' + prose(option.description) + '\n';
+    page += '\n' + filled(option.description) + '\n';
 }
 
 void add_options(std::string& page, const CommandText& command) {
@@ -148,7 +168,7 @@ struct Footer {
 
 void add_paragraph(std::string& text, std::string& paragraph) {
     if (!paragraph.empty()) {
-        text += (text.empty() ? "" : ".PP\n") + prose(paragraph) + '\n';
+        text += (text.empty() ? "" : ".PP\n") + filled(paragraph) + '\n';
         paragraph.clear();
     }
 }
@@ -211,7 +231,7 @@ void end_page(std::string& page,
               const PageInfo& info) {
     std::string statuses;
     for (const auto& [number, meaning] : info.statuses) {
-        statuses += fmt::format(".TP\n\\fB{}\\fR\n{}\n", number, prose(meaning));
+        statuses += fmt::format(".TP\n\\fB{}\\fR\n{}\n", number, filled(meaning));
     }
     add_section(page, "EXIT STATUS", statuses);
     add_section(page, "EXAMPLES",
@@ -249,7 +269,7 @@ command_page(const std::string& program, const CommandText& command, const PageI
     std::string page;
     begin_page(page, name, program, command.description, info);
     add_synopsis(page, program + " " + command.name, command);
-    page += ".SH DESCRIPTION\n" + prose(command.description) + ".\n";
+    page += ".SH DESCRIPTION\n" + filled(command.description) + ".\n";
     page += footer.notes.empty() ? "" : ".PP\n" + footer.notes;
     add_options(page, command);
     end_page(page, name, footer, info);
@@ -266,7 +286,7 @@ std::string program_page(const ProgramText& program, const PageInfo& info) {
         page += fmt::format(".br\n.B {}\n\\fICOMMAND\\fR [\\fIOPTION\\fR]... \\fIARGUMENT\\fR...\n",
                             self.name);
     }
-    page += ".SH DESCRIPTION\n" + prose(self.description) + '\n';
+    page += ".SH DESCRIPTION\n" + filled(self.description) + '\n';
     page += footer.notes.empty() ? "" : ".PP\n" + footer.notes;
     if (!program.commands.empty()) {
         page += ".SH COMMANDS\n";

@@ -503,6 +503,23 @@ std::optional<std::string> definition_help(std::span<const std::string> argument
     return std::nullopt;
 }
 
+/// The mistake in `lsc --verbose check`: before the command the option is for --version alone.
+std::optional<UsageError> verbose_before_command(std::span<const std::string> arguments,
+                                                 const CLI::App& app) {
+    const std::string& option = arguments.front();
+    if (option != "-v" && option != "--verbose") {
+        return std::nullopt;
+    }
+    for (const std::string& argument : arguments.subspan(1)) {
+        if (find_command(app, argument) != nullptr) {
+            return UsageError{
+                fmt::format("`{}` stands before the command", option),
+                fmt::format("options stand after the command: `lsc {} {}`", argument, option)};
+        }
+    }
+    return std::nullopt;
+}
+
 /// Words a mistake found by CLI11, with help about commands. `command`: the given command; null if
 /// the first argument is not a command.
 UsageError usage_error(const CLI::ParseError& error,
@@ -623,6 +640,9 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
         return *usage;
     }
     const CLI::App* command = find_command(app, arguments.front());
+    if (std::optional<UsageError> usage = verbose_before_command(arguments, app)) {
+        return *usage;
+    }
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
         app.parse(std::move(reversed));
@@ -635,7 +655,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     } catch (const CLI::ParseError& error) {
         return usage_error(error, app, command, arguments);
     }
-    if (command == nullptr) { // an option of the program before the command
+    if (command == nullptr) { // `lsc --version=false check`
         return UsageError{fmt::format("the command is missing before `{}`", arguments.front()),
                           "options stand after the command"};
     }
