@@ -146,6 +146,7 @@ void RepairAttempt::read_syntax_errors() {
 
 void RepairAttempt::read_original_errors() {
     for (const Diagnostic& diagnostic : fixed_.compiled.diagnostics.all()) {
+        ++original_counts_[diagnostic.code];
         if (diagnostic.severity == Severity::Error) {
             for (const StatementKey& key : statements_at(diagnostic.span)) {
                 original_errors_[key].emplace(diagnostic.code, diagnostic.message);
