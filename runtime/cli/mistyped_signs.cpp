@@ -7,10 +7,10 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kSignBlanks = " \t\r\n";
 
 bool is_blank_at(std::string_view text, std::size_t at) {
-    return at >= text.size() || kBlanks.find(text[at]) != std::string_view::npos;
+    return at >= text.size() || kSignBlanks.find(text[at]) != std::string_view::npos;
 }
 
 /// Whether a blank or an end of the text stands before and after the character at `at`.
@@ -35,8 +35,8 @@ bool is_laid_out_as_others(std::string_view text, std::size_t at) {
 } // namespace
 
 char added_sign(std::string_view added) {
-    const std::size_t first = added.find_first_not_of(kBlanks);
-    return first != std::string_view::npos && added.find_last_not_of(kBlanks) == first
+    const std::size_t first = added.find_first_not_of(kSignBlanks);
+    return first != std::string_view::npos && added.find_last_not_of(kSignBlanks) == first
                ? added[first]
                : '\0';
 }
@@ -56,12 +56,13 @@ std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) 
     if (sign == '\0') {
         return texts;
     }
-    const std::size_t before =
-        added.begin == 0 ? std::string::npos : without.find_last_not_of(kBlanks, added.begin - 1);
+    const std::size_t before = added.begin == 0
+                                   ? std::string::npos
+                                   : without.find_last_not_of(kSignBlanks, added.begin - 1);
     if (before != std::string::npos) {
         add(before);
     }
-    const std::size_t after = without.find_first_not_of(kBlanks, added.begin);
+    const std::size_t after = without.find_first_not_of(kSignBlanks, added.begin);
     if (after != std::string::npos) {
         add(after);
     }

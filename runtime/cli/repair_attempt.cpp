@@ -14,7 +14,7 @@ namespace {
 
 /// Max number of rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kBlankSigns = " \t\r\n";
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
     const SourceSpan span = fix.edits.front().span;
@@ -43,7 +43,7 @@ void append_record(const Diagnostic& diagnostic,
 /// character may have been typed in place of any other. One that is doubled is typed too often.
 bool may_be_slip(std::string_view text, const Edit& edit) {
     const std::uint32_t at = edit.span.begin;
-    if (edit.span.end - at != 1 || kBlanks.find(text[at]) != std::string_view::npos) {
+    if (edit.span.end - at != 1 || kBlankSigns.find(text[at]) != std::string_view::npos) {
         return false;
     }
     const bool is_doubled = (at > 0 && text[at - 1] == text[at]) ||
@@ -146,6 +146,7 @@ void RepairAttempt::read_syntax_errors() {
 
 void RepairAttempt::read_original_errors() {
     for (const Diagnostic& diagnostic : fixed_.compiled.diagnostics.all()) {
+        ++original_counts_[diagnostic.code];
         if (diagnostic.severity == Severity::Error) {
             for (const StatementKey& key : statements_at(diagnostic.span)) {
                 original_errors_[key].emplace(diagnostic.code, diagnostic.message);

@@ -11,6 +11,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -82,7 +83,7 @@ private:
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
     [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
     [[nodiscard]] bool may_be_mistyped(const AppliedFix& fix) const;
-    [[nodiscard]] std::set<DiagnosticCode> codes_of_single_fixes() const;
+    [[nodiscard]] std::set<DiagnosticCode> codes_of_single_mistakes() const;
     [[nodiscard]] std::optional<CompiledText> compile_other(const std::string& path,
                                                             std::string_view text) const;
     [[nodiscard]] std::optional<TextPlace> place_after_fixes(const StatementKey& key) const;
@@ -95,6 +96,7 @@ private:
     std::map<std::string, EditedFile> files_;
     std::set<StatementKey> with_syntax_errors_; // in the last round
     std::map<StatementKey, Errors> original_errors_;
+    std::map<DiagnosticCode, std::size_t> original_counts_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
     /// Places repaired with FixChoice::Offered: path, offset and code.
     std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_;

@@ -34,7 +34,7 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         return keys; // the user accepts ambiguous repairs
     }
     std::size_t compared = 0;
-    const std::set<DiagnosticCode> single = codes_of_single_fixes();
+    const std::set<DiagnosticCode> single = codes_of_single_mistakes();
     for (const auto& [key, fixes] : applied_) {
         if (subject_.project.is_cancelled()) {
             break;
@@ -59,22 +59,20 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
     return keys;
 }
 
-/// The codes of mistakes that were repaired once. A mistake that is made again is a habit of the
-/// author and not a slip of the hand.
-std::set<DiagnosticCode> RepairAttempt::codes_of_single_fixes() const {
-    std::set<std::tuple<DiagnosticCode, std::string, std::uint32_t>> places;
+/// The codes of the repaired mistakes that the original has once. A mistake that is made again is a
+/// habit of the author and not a slip of the hand.
+std::set<DiagnosticCode> RepairAttempt::codes_of_single_mistakes() const {
+    std::map<DiagnosticCode, std::set<std::pair<std::string, std::uint32_t>>> places;
     for (const auto& [key, fixes] : applied_) {
         for (const AppliedFix& fix : fixes) {
-            places.emplace(fix.code, fix.path, fix.place);
+            places[fix.code].emplace(fix.path, fix.place);
         }
     }
-    std::map<DiagnosticCode, std::size_t> counts;
-    for (const auto& [code, path, place] : places) {
-        ++counts[code];
-    }
     std::set<DiagnosticCode> single;
-    for (const auto& [code, count] : counts) {
-        if (count == 1) {
+    for (const auto& [code, places_of_code] : places) {
+        const auto original = original_counts_.find(code);
+        if (places_of_code.size() == 1 &&
+            (original == original_counts_.end() || original->second == 1)) {
             single.insert(code);
         }
     }

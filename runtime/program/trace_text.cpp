@@ -25,7 +25,7 @@ constexpr std::size_t kMaxWritten = 60;
 constexpr std::size_t kMaxLater = 8;   // modules of later passes
 constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
 /// Max width of a line that joins shorter lines.
-constexpr std::size_t kMaxColumns = 96;
+constexpr std::size_t kMaxListColumns = 96;
 /// With more productions to show than these, those that do not apply take one line each.
 constexpr std::size_t kMaxFrames = 4;
 constexpr std::size_t kMaxReasons = 4; // operations in such a line
@@ -385,7 +385,7 @@ private:
         for (std::size_t i = first; i < end; ++i) {
             all.values += (i == first ? "" : ", ") + part_text(condition.parts[i]);
         }
-        if (all.text.size() + all.values.size() <= kMaxColumns - 9) {
+        if (all.text.size() + all.values.size() <= kMaxListColumns - 9) {
             lines.push_back(std::move(all));
             return;
         }
@@ -565,8 +565,8 @@ private:
     /// Prints modules behind `title`, or below it if the line is too long.
     void list(const std::string& title, const std::vector<TracedModule>& written) {
         const std::string text = modules(written);
-        const bool fits =
-            title.size() + 1 + text.size() <= kMaxColumns && text.find('\n') == std::string::npos;
+        const bool fits = title.size() + 1 + text.size() <= kMaxListColumns &&
+                          text.find('\n') == std::string::npos;
         line("{}{}{}", title, fits ? " " : "\n      ", text);
     }
     [[nodiscard]] static std::string range_text(std::uint64_t first, std::size_t count) {
