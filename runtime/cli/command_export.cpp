@@ -1,3 +1,4 @@
+#include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/export_stats.h"
 #include "runtime/cli/plant_options.h"
@@ -71,7 +72,7 @@ std::string find_variant_conflict(const ExportCommand& command, ExportFormat for
     return {};
 }
 
-/// Takes the value of an outcome and shows its messages, unless equal messages have been shown.
+/// Moves the value out of an outcome and prints its messages, unless equal ones have been printed.
 template <typename T>
 ExitStatus
 take_once(Outcome<T> outcome, T& value, const Console& console, std::set<std::string>& shown) {
@@ -125,7 +126,7 @@ ExitStatus export_growth(const ExportCommand& command,
                : status;
 }
 
-/// The name of an output with two letters of its ending exchanged, or one wrong; empty: none.
+/// The output name corrected by exchanging two letters of its extension or replacing one; empty: none.
 std::string nearest_output(const std::string& output) {
     const std::size_t dot = output.rfind('.');
     if (dot == std::string::npos || dot < folder_of_path(output).size()) {

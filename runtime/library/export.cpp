@@ -1,5 +1,6 @@
 #include "runtime/export/export.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
 #include "runtime/library/impl/file_call.h"
@@ -143,7 +144,7 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
             return {Stop::Failed, std::move(messages)};
         }
         ExportInfo info;
-        info.grammar = std::filesystem::path(plant.data().grown.file).filename().string();
+        info.grammar = path_text(std::filesystem::path(plant.data().grown.file).filename());
         info.name = options.name;
         info.seed = drawn.seed;
         info.generations = drawn.generations;

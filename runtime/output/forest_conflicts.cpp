@@ -16,7 +16,7 @@ bool has_instances(const FormatTraits& format) {
     return format.write_forest != nullptr;
 }
 
-/// A message about --collision, --unit or --pivot if the output does not allow it; else empty.
+/// A message if --collision, --unit or --pivot does not fit the output; empty if all fit.
 std::string find_option_conflict(const ForestFileOptions& options, const ForestTarget& target) {
     const bool has_format =
         target.kind == ForestOutputKind::Instances || target.kind == ForestOutputKind::Mesh;

@@ -1,5 +1,6 @@
 #include "runtime/output/forest_files.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/export/placed_plant.h"
 #include "runtime/pipeline/forest_growth.h"
@@ -28,7 +29,7 @@ ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
                         OutputSet& outputs) {
     for (const PictureFile& picture : pictures) {
         const std::string beside =
-            (std::filesystem::path(path).parent_path() / picture.name).string();
+            path_text(std::filesystem::path(path).parent_path() / picture.name);
         const ExitStatus added = outputs.add(
             beside, [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (added != ExitStatus::Ok) {
@@ -54,7 +55,7 @@ ExitStatus write_instances(const ForestOutput& run,
                            const ForestScene& scene,
                            const std::string& path) {
     ForestExportInfo info;
-    info.name = std::filesystem::path(path).stem().string();
+    info.name = path_text(std::filesystem::path(path).stem());
     info.generator = run.context.generator;
     constexpr float kCell = 100.0F;
     const bool whole_trees = run.options.instances != ForestInstances::Branches;
@@ -66,7 +67,7 @@ ExitStatus write_instances(const ForestOutput& run,
     info.collision_names = run.options.collision_names;
     info.threads = run.context.project.threads;
     info.compression = run.options.compression.value_or(ExportCompression::None);
-    info.picture_prefix = std::filesystem::path(run.options.output).stem().string();
+    info.picture_prefix = path_text(std::filesystem::path(run.options.output).stem());
     OutputSet outputs(run.context); // pictures are added before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
@@ -104,7 +105,7 @@ ExitStatus write_baked(const ForestOutput& run,
     ExportInfo info;
     info.subject = ExportSubject::Forest;
     info.unit = run.options.unit;
-    info.grammar = std::filesystem::path(path).stem().string();
+    info.grammar = path_text(std::filesystem::path(path).stem());
     info.seed = grown.forest.key;
     info.generator = run.context.generator;
     info.threads = project.threads;
@@ -116,7 +117,7 @@ ExitStatus write_baked(const ForestOutput& run,
     if (path == "-") {
         info.textures = format.pictures == ExportPictures::Inside;
     } else {
-        info.picture_prefix = std::filesystem::path(run.options.output).stem().string();
+        info.picture_prefix = path_text(std::filesystem::path(run.options.output).stem());
         std::vector<PictureFile> pictures;
         status =
             run.context.console.take(make_picture_files(mesh, run.target.format, info), pictures);
@@ -126,8 +127,8 @@ ExitStatus write_baked(const ForestOutput& run,
         if (status == ExitStatus::Ok && format.has_mtl) {
             const std::filesystem::path library =
                 std::filesystem::path(path).replace_extension(".mtl");
-            info.mtl_name = library.filename().string();
-            status = outputs.add(library.string(),
+            info.mtl_name = path_text(library.filename());
+            status = outputs.add(path_text(library),
                                  [&](const ByteSink& sink) { return write_mtl(mesh, info, sink); });
         }
         if (status != ExitStatus::Ok) {
@@ -262,7 +263,7 @@ ExitStatus make_ground(const ForestTarget& target,
     ground.rows = kGroundCells;
     ground.threads = context.project.threads;
     ground.pictures = grown.ground;
-    // A baked mesh has tangents only if all its parts do.
+    // A baked mesh has tangents only if all its parts have tangents.
     ground.tangents = grown.ground.normals != nullptr || target.kind == ForestOutputKind::Mesh;
     Result<Mesh> made = make_terrain_mesh(*grown.terrain, ground);
     if (!made) {

@@ -1,5 +1,6 @@
 #include "runtime/output/plant_files.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/export/export.h"
 #include "runtime/export/placed_plant.h"
 #include "runtime/meshing/mesh.h"
@@ -31,11 +32,11 @@ ExitStatus add_side_files(PlantRun& run,
                           OutputSet& files) {
     // Each level of detail has pictures of its own; all frames share theirs.
     info.picture_prefix = run.options.lods != 0
-                              ? path.stem().string()
-                              : std::filesystem::path(run.options.output).stem().string();
+                              ? path_text(path.stem())
+                              : path_text(std::filesystem::path(run.options.output).stem());
     const bool separate = run.options.buffers == BufferPlace::Separate;
     const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
-    info.buffer_name = separate ? buffer.filename().string() : std::string();
+    info.buffer_name = separate ? path_text(buffer.filename()) : std::string();
     std::vector<PictureFile> pictures;
     ExitStatus status =
         run.context.console.take(make_picture_files(run.mesh, run.format, info), pictures);
@@ -46,14 +47,14 @@ ExitStatus add_side_files(PlantRun& run,
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        status = files.add(path.parent_path() / picture.name,
+        status = files.add(path_text(path.parent_path() / picture.name),
                            [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (status != ExitStatus::Ok) {
             return status;
         }
     }
     if (separate) {
-        return files.add(buffer.string(), [&](const ByteSink& sink) {
+        return files.add(path_text(buffer), [&](const ByteSink& sink) {
             return write_gltf_buffer(run.mesh, skeleton, info, sink);
         });
     }
@@ -61,8 +62,8 @@ ExitStatus add_side_files(PlantRun& run,
         return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
-    info.mtl_name = library.filename().string();
-    return files.add(library.string(),
+    info.mtl_name = path_text(library.filename());
+    return files.add(path_text(library),
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
@@ -107,10 +108,10 @@ ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const Mesh
 ExportInfo export_info(const PlantRun& run) {
     const PlantFileOptions& given = run.options;
     ExportInfo info;
-    info.grammar = std::filesystem::path(run.file).filename().string();
+    info.grammar = path_text(std::filesystem::path(run.file).filename());
     // Nodes are named after the output, else after the grammar; exporters have a default name.
     const std::string& named = given.output == "-" ? run.file : given.output;
-    info.name = named == "-" ? "" : std::filesystem::path(named).stem().string();
+    info.name = named == "-" ? "" : path_text(std::filesystem::path(named).stem());
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = run.context.generator;
@@ -288,7 +289,7 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
                     return export_mesh(run.mesh, placed, run.format, info, sink);
                 });
             }
-            list.push_back({.name = std::filesystem::path(path).filename().string(),
+            list.push_back({.name = path_text(std::filesystem::path(path).filename()),
                             .triangles = run.mesh.indices.size() / 3,
                             .pixels = run.levels.levels[i].pixels,
                             .coverage = meshes[i].coverage});
@@ -334,7 +335,7 @@ ExitStatus write_plant_files(const PlantFileOptions& options,
     const bool bends = options.gravity || options.wind;
     const ExitStatus status = bends ? write_bent(run) : write_still(run, plant.skeleton);
     report.timing = run.timing;
-    if (bends) { // the rest of the time is physics
+    if (bends) { // the remaining time is physics
         report.timing.physics_seconds =
             seconds_since(start) - run.timing.mesh_seconds - run.timing.write_seconds;
     }

@@ -171,7 +171,7 @@ pose_growth(const PlantRun& run, PlantGrowth& growth, const GrowthMoment& moment
                : run.context.console.take(growth.pose(moment, run.context.project, grown));
 }
 
-/// Sets the pivot of all frames to that of the last plant. Derives nothing if the pivot is the
+/// Sets the pivot of all frames to the pivot of the last plant. Derives nothing if the pivot is the
 /// origin.
 ExitStatus find_growth_pivot(PlantRun& run, PlantGrowth& growth) {
     if (run.options.pivot == PlantPivot::Origin) {
@@ -184,7 +184,7 @@ ExitStatus find_growth_pivot(PlantRun& run, PlantGrowth& growth) {
         run.context.console.show(posed.messages());
         return status_of(posed.stop());
     }
-    run.pivot = pivot_of(last, run.options.pivot); // the last frame prints the messages
+    run.pivot = pivot_of(last, run.options.pivot); // writing the last frame prints the messages
     return ExitStatus::Ok;
 }
 
@@ -196,8 +196,8 @@ ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
     }
-    // Growth starts at the last generation that draws nothing. This moment has no file, because there
-    // is nothing to write: the first frame is one step later.
+    // Growth starts at the last generation that draws nothing. This generation has no file, since it is
+    // empty: the first frame is one step later.
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {

@@ -12,7 +12,7 @@ file(REMOVE_RECURSE "${FOLDER}")
 # A copy, because skbuild builds within the sources.
 set(copy "${FOLDER}/source")
 file(MAKE_DIRECTORY "${copy}")
-foreach(name CMakeLists.txt LICENSE pyproject.toml setup.py cmake grammar compiler runtime docs packaging)
+foreach(name CMakeLists.txt LICENSE README.md CHANGELOG.md pyproject.toml setup.py cmake grammar compiler runtime docs packaging)
   if(EXISTS "${SOURCE}/${name}")
     file(COPY "${SOURCE}/${name}" DESTINATION "${copy}")
   endif()
