@@ -196,8 +196,11 @@ void repair_foreign_text(std::string_view source,
     if (source.size() > kMaxSearchedText) {
         return;
     }
-    lsys_grammar::DraftText draft{
-        normalized.scanned.file, std::string(source), context.diagnostics, {}};
+    lsys_grammar::DraftText draft{.file = normalized.scanned.file,
+                                  .text = std::string(source),
+                                  .diagnostics = context.diagnostics,
+                                  .masked = {},
+                                  .lines = {}};
     draft.mask();
     lsys_grammar::repair_pasted_text(draft);
     lsys_grammar::repair_foreign_forms(draft);
