@@ -37,12 +37,12 @@ TEST_CASE("the extension of a file determines the dialect if its text does not")
 }
 
 TEST_CASE("the dialect of a text is recognised") {
-    struct Told {
+    struct DialectCase {
         std::string path;
         std::string text;
         Dialect dialect;
     };
-    const std::vector<Told> texts{
+    const std::vector<DialectCase> texts{
         {"a", "\n LSYSTEM\n1\nA\n", Dialect::Sys},
         {"a", "premise: A\nA=FA\n", Dialect::Houdini},
         {"a.txt", "A\nA=FA\n", Dialect::Houdini},
@@ -54,9 +54,9 @@ TEST_CASE("the dialect of a text is recognised") {
         {"a.l++", "3 90 5\nA\nA=FA\n@\n", Dialect::Lplus},
         {"a.lsys", "3 90 5\nA\nA=FA\n@\n", Dialect::Lsys},
     };
-    for (const Told& told : texts) {
-        INFO(told.path << " " << told.text);
-        CHECK(detect_dialect(told.path, told.text).dialect == told.dialect);
+    for (const DialectCase& sample : texts) {
+        INFO(sample.path << " " << sample.text);
+        CHECK(detect_dialect(sample.path, sample.text).dialect == sample.dialect);
     }
 }
 

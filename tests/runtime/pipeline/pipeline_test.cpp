@@ -144,7 +144,7 @@ Outcome<GrownForest> forest_of(const std::string& grammar,
     return grown;
 }
 
-bool says(const Outcome<GrownForest>& outcome, const std::string& text) {
+bool has_message(const Outcome<GrownForest>& outcome, const std::string& text) {
     const std::vector<Message>& all = outcome.messages().all();
     return std::any_of(all.begin(), all.end(), [&](const Message& message) {
         const std::vector<Diagnostic>& diagnostics = message.diagnostics.all();
@@ -226,11 +226,11 @@ TEST_CASE("species without height are not scaled") {
     REQUIRE_FALSE(scene);
     CHECK(scene.stop() == Stop::Failed);
     const char* const message = "a: its plants are flat, so they cannot be given a height";
-    CHECK(says(scene, message));
+    CHECK(has_message(scene, message));
     const Outcome<GrownForest> grammar = forest_of(std::string("#set height 3;") + flat, "");
     REQUIRE_FALSE(grammar);
     CHECK(grammar.stop() == Stop::Diagnosed);
-    CHECK(says(grammar, message));
+    CHECK(has_message(grammar, message));
     CHECK(forest_of(flat, ""));
 }
 
@@ -238,7 +238,7 @@ TEST_CASE("heroes that share no branch have the widths of the pipe model") {
     const std::string piped = std::string("#set pipe 2 0.1;") + kShrub;
     const Outcome<GrownForest> shared = forest_of(piped, "");
     REQUIRE_FALSE(shared);
-    CHECK(says(shared, "the pipe model cannot be used with instanced branches"));
+    CHECK(has_message(shared, "the pipe model cannot be used with instanced branches"));
     const Outcome<GrownForest> grown = forest_of(piped, "rho = 0\nheroes = 3\n");
     REQUIRE(grown);
     const Skeleton& heroes = grown.value().forest.species[0].stages[0].cache.skeleton;
