@@ -1,3 +1,4 @@
+#include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/export_stats.h"
 #include "runtime/cli/plant_options.h"
