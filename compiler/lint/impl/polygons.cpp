@@ -106,7 +106,7 @@ private:
         return depth > 0;
     }
 
-    /// Sets some_open_ and some_end_.
+    /// Sets open_words_ and end_words_.
     void find_partners() {
         const auto read = [&](const ProgramWord& word) {
             std::int64_t surplus = 0; // of `{`
@@ -116,8 +116,8 @@ private:
                            : kind(i) == SymbolKind::PolygonClose ? -1
                                                                  : 0;
             }
-            some_open_ = some_open_ || surplus > 0;
-            some_end_ = some_end_ || surplus < 0;
+            open_words_ += surplus > 0 ? 1U : 0U;
+            end_words_ += surplus < 0 ? 1U : 0U;
         };
         for (const Axiom& axiom : program_.axioms) {
             read(axiom.word);
@@ -202,8 +202,8 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        // Words with more `}` than `{` may end the polygons of words with more `{`.
-        if (opened != closed && !(some_open_ && some_end_)) {
+        // The only word with more `}` than `{` may end the polygon of the only one with more `{`.
+        if (opened != closed && !(open_words_ == 1 && end_words_ == 1)) {
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);
         }
@@ -279,8 +279,8 @@ private:
     /// Some polygon begins in one word and ends in another, so modules outside of `{` and `}` of
     /// their own word may be inside a polygon.
     bool crosses_words_ = false;
-    bool some_open_ = false; // some word has more `{` than `}`
-    bool some_end_ = false;  // some word has more `}` than `{`
+    std::size_t open_words_ = 0; // words with more `{` than `}`
+    std::size_t end_words_ = 0;  // words with more `}` than `{`
 };
 
 } // namespace

@@ -184,7 +184,7 @@ float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
     Diagnostic& error = resolution.diagnostics.add(DiagnosticCode::BadProbability, span,
                                                    fmt::format("{} is not a probability", weight));
     constexpr float kAllPercent = 100.0F;
-    if (weight > 1.0F && weight <= kAllPercent) {
+    if (weight > 1.0F && weight <= kAllPercent && weight == std::floor(weight)) {
         const std::string fraction = fmt::format("{:.6g}", weight / kAllPercent);
         add_fix(error, fmt::format("{} percent is written `{}`", weight, fraction), span, fraction,
                 false);

@@ -201,10 +201,15 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
     }
     if (meant) {
         const std::string name = "#" + std::string(spelling(*meant));
+        // In `#defin ed 5` and `#definee d 5` the blank may be in the wrong place.
+        const bool may_be_moved =
+            spelling(*meant) == word.substr(0, word.size() - 1) ||
+            spelling(*meant) ==
+                std::string(word) + next_character(session.scanned.text, session.scan.end);
         add_fix(diagnostic,
                 synonym == nullptr || synonym->source.empty() ? "did you mean `" + name + "`?"
                                                               : help_for(*synonym, written),
-                span, name, true);
+                span, name, !may_be_moved);
     } else if (!setting.empty()) {
         add_fix(diagnostic, help_for(*synonym, written), span, std::string(synonym->spelling),
                 false);
