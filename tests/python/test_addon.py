@@ -31,8 +31,12 @@ class Addon(unittest.TestCase):
         self.assertIsInstance(self.program, compiler.Program)
 
     def test_parameters(self):
-        one = self.module.read_parameters(TREE, 60)
-        other = self.program.read_parameters(TREE, 60)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.lsys")
+            with open(path, "w", encoding="ascii") as file:
+                file.write("#n = 3; #set seed 9; #param ratio 0.6 {0.1, 2}; #define turn 25; #w : F(ratio) +(turn) F;")
+            one = self.module.read_parameters(path, 60)
+            other = self.program.read_parameters(path, 60)
         self.assertEqual(one["generations"], other["generations"])
         self.assertEqual(one["seed"], other["seed"])
         self.assertEqual([p["name"] for p in one["parameters"]], [p["name"] for p in other["parameters"]])
@@ -41,14 +45,14 @@ class Addon(unittest.TestCase):
                 self.assertEqual(key in mine, key in theirs)
                 if key in mine:
                     self.assertAlmostEqual(mine[key], theirs[key], places=5)
-        self.assertGreater(len(one["parameters"]), 0)
+        self.assertEqual(len(one["parameters"]), 2)
 
     def test_files(self):
         more = [["export", TREE, "--seed", "3", "--generations", "5"],
-                ["export", TREE, "--height", "2.5", *compiler.split_options("--sides 12 --smooth-joints")],
+                ["export", TREE, "--generations", "5", "--height", "2.5", *compiler.split_options("--sides 12 --smooth-joints")],
                 ["export", TREE, "--wind", "-8,0,0", "--frames", "4", "--generations=4"],
                 ["forest", TREE, "--key", "4", "--count", "20", "--size", "50.5", "--generations", "5"],
-                ["forest", TREE, "--count", "9", "--expand", "--level", "1", "--heroes", "2"]]
+                ["forest", TREE, "--generations", "5", "--count", "9", "--expand", "--level", "1", "--heroes", "2"]]
         for arguments in more:
             with self.subTest(arguments), compiler.TemporaryGlb(self.module, arguments, 120) as (mine, _), \
                     compiler.TemporaryGlb(self.program, arguments, 120) as (theirs, _):
