@@ -214,9 +214,9 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         return view.err;
     };
     std::filesystem::remove(files.folder / "ground.png");
-    CHECK(reports().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
+    CHECK(messages().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
     write_text(files.folder / "ground.png", "GIF89a and so on");
-    CHECK(reports().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
+    CHECK(messages().find("it is a GIF; only PNG and JPEG are read") != std::string::npos);
     // An IHDR of 20,000 by 20,000 pixels.
     std::string large = encode_png(halves(kRed, kBlue));
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {
@@ -224,7 +224,7 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
         large[at + 3] = '\x20';
     }
     write_text(files.folder / "ground.png", large);
-    CHECK(reports().find("ground.png") != std::string::npos);
+    CHECK(messages().find("ground.png") != std::string::npos);
 }
 
 TEST_CASE("exported files of a forest have the pictures of its ground") {

@@ -241,8 +241,8 @@ TEST_CASE("--pick on a forest prints the branch and its number of instances") {
         }
     }
     CHECK(branches > 3);
-    Picked branch;
-    branch.kind = PickedKind::Branch;
+    view::Picked branch;
+    branch.kind = view::PickedKind::Branch;
     branch.tree = document.grown.forest.trees.front();
     const Outcome<view::Description> described =
         view::describe(branch, {}, document, file, make_project(console, options.run));
