@@ -71,7 +71,8 @@ Region region_of(std::span<const Tree> places) {
         });
     const double x = low_x->position.x;
     const double z = low_z->position.z;
-    return {x, z, std::max(high_x->position.x - x, 1.0), std::max(high_z->position.z - z, 1.0)};
+    return {x, z, std::max(double{high_x->position.x} - x, 1.0),
+            std::max(double{high_z->position.z} - z, 1.0)};
 }
 
 /// Places the trees of a grown forest by its scene or at its places.
@@ -84,7 +85,7 @@ Region region_of(std::span<const Tree> places) {
     }
     grown.forest.trees.resize(source.places->size());
     if (!source.places->empty()) {
-        std::memcpy(grown.forest.trees.data(), source.places->data(),
+        std::memcpy(static_cast<void*>(grown.forest.trees.data()), source.places->data(),
                     source.places->size() * sizeof(Tree));
     }
     return size_forest(scene, project, grown);
