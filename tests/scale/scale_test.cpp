@@ -142,7 +142,7 @@ std::map<std::string, Case> cases() {
     all["identifier-10mb"] = {repeated(head + "#w : F ", "a", 10'000'000, ";"), count, 0, ""};
     all["number-10mb"] = {repeated(head + "#w : F(0.", "1", 10'000'000, ");"), count, 0, ""};
     all["nul-bytes"] = {repeated(head + "#w : F", std::string("\0F", 2), 1000, ";"), check, 1,
-                        "this file is no text"};
+                        "this file is binary data"};
     all["few-nul-bytes"] = {
         repeated(head + "#w : F", std::string("\0F", 2) + std::string(38, 'F'), 100'000, ";"),
         check, 1, "unknown-character"};

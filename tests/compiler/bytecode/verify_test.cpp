@@ -148,7 +148,7 @@ TEST_CASE("a random number is drawn once") {
     REQUIRE(second != bytecode.instructions.end());
     *second = op(Opcode::Range, 0);
     REQUIRE(verify(bytecode));
-    CHECK(verify(bytecode)->ends_with("(range) may not stand there"));
+    CHECK(verify(bytecode)->ends_with("(range) is not allowed there"));
 }
 
 TEST_CASE("sites are checked") {

@@ -324,7 +324,7 @@ TEST_CASE("values are not written to a file that has changed or cannot hold them
     CHECK(refused("b.lsys", including, including).find("stands in the included file") !=
           std::string::npos);
     const std::string rules = "axiom: F\nF=F+F\n";
-    CHECK(refused("c.rules", rules, rules).find("is no .lsys file") != std::string::npos);
+    CHECK(refused("c.rules", rules, rules).find("is not a .lsys file") != std::string::npos);
     REQUIRE(run_lsc({"compile", folder / "a.lsys", "-n", "1", "-o", folder / "d.lsb"}, "").status ==
             0);
     const std::string compiled = read_text(folder / "d.lsb");
