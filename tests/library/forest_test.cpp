@@ -317,7 +317,7 @@ TEST_CASE("a forest is saved with its preset, baked, as statistics and in frames
     const auto still = lsys::write_forest(*forest, "wood.glb", counts.receiver(), {{"frames", "3"}},
                                           tree_project());
     REQUIRE_FALSE(still);
-    CHECK(still.messages().all().front().message ==
+    CHECK(still.messages().all().back().message ==
           "frames show a forest that grows, which is placed by domination or has several stages");
     options.scene.push_back({"stages", "2,4"});
     const auto growing = lsys::grow_forest({"tree.lsys"}, options, tree_project());
