@@ -29,9 +29,8 @@ constexpr auto find(Range&& range, const Value& value) {
 
 template <typename Range, typename Value, typename Projection>
 constexpr auto find(Range&& range, const Value& value, Projection projection) {
-    return std::find_if(std::begin(range), std::end(range), [&](const auto& item) {
-        return std::invoke(projection, item) == value;
-    });
+    return std::find_if(std::begin(range), std::end(range),
+                        [&](const auto& item) { return std::invoke(projection, item) == value; });
 }
 
 template <typename Range, typename Value>

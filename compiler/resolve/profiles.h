@@ -26,7 +26,8 @@ struct TurtleCommand {
                             TurtleOperation own_operation,
                             std::uint8_t parameter_count,
                             std::string_view meanings)
-        : name(own_name), operation(own_operation), max_parameters(parameter_count), parameters(meanings) {}
+        : name(own_name), operation(own_operation), max_parameters(parameter_count),
+          parameters(meanings) {}
 
     std::string_view name;
     TurtleOperation operation = TurtleOperation::Nothing;

@@ -1,4 +1,4 @@
-# Installs into a folder and compares the list of files with installed.txt. Documents and samples are compared with
+# Installs into a folder and compares the list of files with installed.list. Documents and samples are compared with
 # the folders they come from. Usage: cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D VERSION=... -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")
@@ -22,9 +22,9 @@ endforeach()
 list(SORT installed)
 list(JOIN installed "\n" text)
 file(WRITE "${FOLDER}.txt" "${text}\n")
-file(READ "${CMAKE_CURRENT_LIST_DIR}/installed.txt" expected)
+file(READ "${CMAKE_CURRENT_LIST_DIR}/installed.list" expected)
 if(NOT "${text}\n" STREQUAL expected)
-  message(FATAL_ERROR "other files are installed than tests/packaging/installed.txt lists; see ${FOLDER}.txt")
+  message(FATAL_ERROR "other files are installed than tests/packaging/installed.list lists; see ${FOLDER}.txt")
 endif()
 execute_process(COMMAND "${FOLDER}/bin/lsc" --version OUTPUT_VARIABLE out COMMAND_ERROR_IS_FATAL ANY)
 if(NOT out STREQUAL "lsc ${VERSION}\n")

@@ -61,7 +61,8 @@ std::vector<std::string> with_front(const std::string& file, std::vector<std::st
 
 } // namespace
 
-TEST_CASE("--pick on a plant prints the module with its production, place and generation") {
+TEST_CASE(
+    "the option --pick on a plant prints the module with its production, place and generation") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -81,7 +82,7 @@ TEST_CASE("--pick on a plant prints the module with its production, place and ge
     CHECK(at(1.2, 3.0).lines == std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("--pick on a moving plant uses its pose") {
+TEST_CASE("the option --pick on a moving plant uses its pose") {
     const ScratchFolder folder;
     const std::string file = folder / "cross.lsys";
     write_text(file, kCross);
@@ -105,7 +106,7 @@ TEST_CASE("--pick on a moving plant uses its pose") {
     CHECK(picked(with_front(file, windy), pixel(0.0, 4.6)).lines.at(0) == "nothing");
 }
 
-TEST_CASE("--pick with --why prints the text of lsc trace") {
+TEST_CASE("the option --pick with --why prints the text of lsc trace") {
     const ScratchFolder folder;
     const std::string file = folder / "bud.lsys";
     write_text(file, "#n = 2;\n"
@@ -146,7 +147,7 @@ TEST_CASE("--pick with --why prints the text of lsc trace") {
           std::vector<std::string>{"nothing"});
 }
 
-TEST_CASE("--why at a moment of growth traces the word of that moment") {
+TEST_CASE("the option --why at a moment of growth traces the word of that moment") {
     const ScratchFolder folder;
     const std::string file = folder / "two.lsys";
     write_text(file, "#n = 3;\n#w : !(0.4) A;\n#up : A : step() < steps() - 1 : F(2) A;\n");
@@ -162,7 +163,7 @@ TEST_CASE("--why at a moment of growth traces the word of that moment") {
     CHECK(prints("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
 }
 
-TEST_CASE("--pick on a forest prints the branch and its number of instances") {
+TEST_CASE("the option --pick on a forest prints the branch and its number of instances") {
     const ScratchFolder folder;
     const std::string file = folder / "bush.lsys";
     write_text(file, "#n = 4;\n#set names letters;\n#set angle 25;\n#set width 0.3;\n#w : A;\n"
@@ -262,7 +263,7 @@ TEST_CASE("invalid arguments of --pick and --colours are reported") {
     CHECK(message_of({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") !=
           std::string::npos);
     CHECK(
-        message_of({plant, "--pick", "3", "--screenshot", "a.png"}).find("no pixel of a picture") !=
+        message_of({plant, "--pick", "3", "--screenshot", "a.png"}).find("not a pixel of a picture") !=
         std::string::npos);
     CHECK(message_of({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
               .find("outside of the picture of 32 x 24 pixels") != std::string::npos);

@@ -169,11 +169,11 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
 void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material) {
     const MaterialKey& key = *entry.key;
     if (entry.values.count != key.count) {
-        resolution_.diagnostics.add(DiagnosticCode::BadMaterial, entry.span,
-                                    entry.values.count == 0
-                                        ? fmt::format("`{}` takes {}", key.name, key.wanted)
-                                        : fmt::format("`{}` takes {}; found {}", key.name, key.wanted,
-                                                      counted(entry.values.count, "value")));
+        resolution_.diagnostics.add(
+            DiagnosticCode::BadMaterial, entry.span,
+            entry.values.count == 0 ? fmt::format("`{}` takes {}", key.name, key.wanted)
+                                    : fmt::format("`{}` takes {}; found {}", key.name, key.wanted,
+                                                  counted(entry.values.count, "value")));
         return;
     }
     const SetValue first = resolution_.ast.set_values[entry.values.first];

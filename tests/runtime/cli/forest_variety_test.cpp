@@ -57,7 +57,7 @@ std::pair<int, std::string> shape_of(const LscRun& run) {
 
 } // namespace
 
-TEST_CASE("--variety chooses heroes that give the requested number of different trees") {
+TEST_CASE("the option --variety chooses heroes that give the requested number of different trees") {
     for (const std::string name : {"carey-type-0", "carey-type-2"}) {
         const std::vector<std::string> base{sample(name), "--count", "300", "--stats"};
         const LscRun run = forest(base, {"--variety", "0.9"});
@@ -88,7 +88,7 @@ TEST_CASE("if --variety and --memory contradict each other, the message has the 
     CHECK(shape_of(forest(base, {"--memory", memory})).first >= 270);
 }
 
-TEST_CASE("--variety is refused for a system without chance") {
+TEST_CASE("the option --variety is refused for a system without chance") {
     const ScratchFolder folder;
     write_text(folder / "fixed.lsys", "#n = 3; #w : A; #p : A : * : F[+A][-A];");
     const LscRun run = forest({folder / "fixed.lsys"}, {"--variety", "0.5", "--stats"});

@@ -240,6 +240,8 @@ TEST_CASE("long runs of modules that nothing rewrites keep their parameters") {
     builder.production(GENERATE("p : A(x) : * : A(x+1) d", "p : A(x) : x < 9 : A(x+1) d"));
     const std::string word = derived_every_way(builder.build(), 1, 0);
     const bool is_as_expected = word == next;
+    if (!is_as_expected)
+        UNSCOPED_INFO(word.substr(0, 200) << "\n" << next.substr(0, 200));
     CHECK(is_as_expected);
 }
 

@@ -30,7 +30,7 @@ TEST_CASE("the help of lsview names options as they are written") {
     CHECK(help.find("m/s2 (9.81 on Earth)") != std::string::npos);
 }
 
-TEST_CASE("--version --verbose of lsview adds how it was built") {
+TEST_CASE("the option --version --verbose of lsview adds how it was built") {
     CHECK_FALSE(parsed<PrintText>({"--version"}).with_build);
     CHECK(parsed<PrintText>({"--version", "--verbose"}).with_build);
     CHECK(parsed<PrintText>({"-v", "--version"}).with_build);
