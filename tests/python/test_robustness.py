@@ -163,7 +163,7 @@ class Crashes(unittest.TestCase):
                 self.run_and_end(f"{setup} threading.Thread(target={work}, daemon=True).start(); time.sleep(0.3)")
 
     def test_exit_with_values(self):
-        self.run_and_end(f"import lsys; w = lsys.compile(text={TREE!r}).derive(); c = w.codes; i = iter(w); next(i)")
+        self.run_and_end(f"import lsys; w = lsys.compile(text={ENDLESS!r}).derive(9); c = w.codes; i = iter(w); next(i)")
 
 
 if __name__ == "__main__":
