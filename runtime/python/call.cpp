@@ -62,12 +62,31 @@ bool is_main_thread() {
     return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
+void wait_for_end() {
+    for (;;) {
+        std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+}
+
+void wait_for_end_if_ending() {
+#if PY_VERSION_HEX >= 0x030D0000
+    const bool is_ending = Py_IsFinalizing() != 0;
+#else
+    const bool is_ending = _Py_IsFinalizing() != 0;
+#endif
+    if (is_ending || Py_IsInitialized() == 0) {
+        wait_for_end();
+    }
+}
+
 lsys::FileContents read_by(const py::function& read, const std::string& path) {
-    const py::gil_scoped_acquire lock;
     try {
         const py::object result = read(path);
         if (result.is_none()) {
             return {false, {}, "no such file or directory"};
+        }
+        if (!py::isinstance<py::bytes>(result) && !py::isinstance<py::str>(result)) {
+            throw py::type_error("read_file returns bytes, text or None");
         }
         return {true, result.cast<std::string>(), {}};
     } catch (py::error_already_set& error) {
@@ -139,11 +158,12 @@ lsys::MeshOptions mesh_options(const std::string& method,
 
 lsys::FileReceiver receiver_of(const py::function& receive) {
     return [function = receive.ptr()](const lsys::FilePiece& piece) {
-        const py::gil_scoped_acquire lock;
-        const py::object go_on = py::reinterpret_borrow<py::function>(function)(
-            py::str(piece.name.data(), piece.name.size()),
-            py::bytes(piece.bytes.data(), piece.bytes.size()), piece.is_last);
-        return go_on.is_none() || py::bool_(go_on);
+        return with_lock([&] {
+            const py::object go_on = py::reinterpret_borrow<py::function>(function)(
+                py::str(piece.name.data(), piece.name.size()),
+                py::bytes(piece.bytes.data(), piece.bytes.size()), piece.is_last);
+            return go_on.is_none() || py::bool_(go_on);
+        });
     };
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <cxxabi.h>
 #include <exception>
 #include <lsys/export.h>
 #include <lsys/grammar.h>
@@ -64,6 +65,44 @@ struct CallOptions {
 /// Reports the warnings as warnings of Python.
 void warn(const lsys::Messages& messages);
 
+/// Blocks the thread if the interpreter has ended or is ending: it takes no lock any more, and the
+/// process ends soon.
+void wait_for_end_if_ending();
+/// Blocks the thread for good.
+[[noreturn]] void wait_for_end();
+
+/// Calls `work` with the interpreter's lock. CPython ends a thread that asks for the lock while the
+/// interpreter ends by unwinding its stack, which C++ code does not survive: the thread waits instead.
+template <typename Work>
+auto with_lock(const Work& work) {
+    wait_for_end_if_ending();
+    try {
+        const py::gil_scoped_acquire lock;
+        return work();
+    } catch (const abi::__forced_unwind&) {
+        wait_for_end();
+    }
+}
+
+/// Gives up the interpreter's lock until the end of the scope.
+class Unlocked {
+public:
+    Unlocked() : state_(PyEval_SaveThread()) {}
+    ~Unlocked() {
+        wait_for_end_if_ending();
+        try {
+            PyEval_RestoreThread(state_);
+        } catch (const abi::__forced_unwind&) {
+            wait_for_end();
+        }
+    }
+    Unlocked(const Unlocked&) = delete;
+    Unlocked& operator=(const Unlocked&) = delete;
+
+private:
+    PyThreadState* state_;
+};
+
 /// Runs `work(project)` without the lock of the interpreter. If called on the main thread of Python,
 /// another thread does the work, while the main thread handles Ctrl-C.
 template <typename Work>
@@ -78,19 +117,21 @@ auto run(const CallOptions& options, const Work& work) {
     if (!options.read_file.is_none()) {
         const auto read = options.read_file.cast<py::function>();
         project.host.read_file = [read = read.ptr()](const std::string& path) {
-            return read_by(py::reinterpret_borrow<py::function>(read), path);
+            return with_lock(
+                [&] { return read_by(py::reinterpret_borrow<py::function>(read), path); });
         };
     }
     if (!options.progress.is_none()) {
         project.host.progress = [report = options.progress.ptr()](const lsys::Progress& progress) {
-            const py::gil_scoped_acquire lock;
-            const py::object go_on = py::reinterpret_borrow<py::function>(report)(
-                progress.generation, progress.generations, progress.modules);
-            return go_on.is_none() || py::bool_(go_on);
+            return with_lock([&] {
+                const py::object go_on = py::reinterpret_borrow<py::function>(report)(
+                    progress.generation, progress.generations, progress.modules);
+                return go_on.is_none() || py::bool_(go_on);
+            });
         };
     }
     if (!is_main_thread()) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         return work(project);
     }
     std::optional<Result> result;

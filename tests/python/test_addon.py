@@ -79,7 +79,7 @@ class Addon(unittest.TestCase):
                 with self.assertRaisesRegex(compiler.CompilerError, "unknown name `lengt`"):
                     work()
             with open(path, "w", encoding="ascii") as file:
-                file.write("#n = 40; #w : A(1); #p : A(x) : * : A(x*{1, 2}) F A(x);")
+                file.write("#n = 30; #w : A(1); #p : A(x) : * : A(x*{1, 2}) F A(x);")
             with self.assertRaisesRegex(compiler.CompilerError, "stopped after 0.2 s"):
                 self.module.write(["export", path], path + ".glb", 0.2)
         for arguments, text in ((["--sides"], "no value"), (["sides"], "is none"), (["--lots", "1"], "unknown option")):

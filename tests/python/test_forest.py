@@ -242,7 +242,7 @@ class Memory(unittest.TestCase):
             with open("/proc/self/statm", encoding="ascii") as file:
                 return 4096 * int(file.read().split()[1])
 
-        word = lsys.compile(text="#n = 23; #w : A(1); #p : A(x) : * : A(x*{0.9, 1.1}) F;"
+        word = lsys.compile(text="#n = 24; #w : A(1); #p : A(x) : * : A(x*{0.9, 1.1}) F;"
                                  "#q : F : * : F F;").derive()
         self.assertGreater(len(word), 10_000_000)
         before = memory()

@@ -21,7 +21,7 @@ import lsys
 
 TREE = ("#n = 4; #param ratio 0.6 {0, 1}; #set angle 25; #w : !(0.3) F(3) X;"
         "#p : X : * : !(0.08) F(0.6) [ + X ] /(120) [ & X ] /(120) [ ^ X ];")
-ENDLESS = "#n = 60; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});"
+ENDLESS = "#n = 30; #w : A(1); #p : A(x) : x > 0 : A(x + 0.5) A(x*{0.9, 1.1});"
 FILES = {"tree.lsys": TREE, "part.lsys": '#include "tree.lsys";'}
 
 
@@ -163,7 +163,7 @@ class Crashes(unittest.TestCase):
                 self.run_and_end(f"{setup} threading.Thread(target={work}, daemon=True).start(); time.sleep(0.3)")
 
     def test_exit_with_values(self):
-        self.run_and_end(f"import lsys; w = lsys.compile(text={TREE!r}).derive(); c = w.codes; i = iter(w); next(i)")
+        self.run_and_end(f"import lsys; w = lsys.compile(text={ENDLESS!r}).derive(9); c = w.codes; i = iter(w); next(i)")
 
 
 if __name__ == "__main__":
