@@ -262,9 +262,8 @@ TEST_CASE("invalid arguments of --pick and --colours are reported") {
     const std::string plant = sample("abop-1-24a");
     CHECK(message_of({plant, "--pick", "3,3"}).find("add `--screenshot FILE`") !=
           std::string::npos);
-    CHECK(
-        message_of({plant, "--pick", "3", "--screenshot", "a.png"}).find("not a pixel of a picture") !=
-        std::string::npos);
+    CHECK(message_of({plant, "--pick", "3", "--screenshot", "a.png"})
+              .find("not a pixel of a picture") != std::string::npos);
     CHECK(message_of({plant, "--pick", "32,3", "--size", "32x24", "--screenshot", "a.png"})
               .find("outside of the picture of 32 x 24 pixels") != std::string::npos);
     CHECK(message_of({plant, "--pick", "3,3", "--screenshot", "-"}).find("standard output") !=

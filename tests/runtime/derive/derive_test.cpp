@@ -232,7 +232,8 @@ TEST_CASE("long runs of modules that nothing rewrites keep their parameters") {
                                                 : "d";
         const bool is_active = i == 5 || i == 64 || i == 700 || i == 998;
         row += (i == 0 ? "" : " ") + (is_active ? "A(1)" : module);
-        next += (i == 0 ? "" : " ") + (is_active ? "A(2) d" : module);
+        // Words have blanks between bare names only.
+        next += (next.empty() || next.ends_with(')') ? "" : " ") + (is_active ? "A(2)d" : module);
     }
     BytecodeBuilder builder;
     builder.fold = GENERATE(true, false);
@@ -240,8 +241,6 @@ TEST_CASE("long runs of modules that nothing rewrites keep their parameters") {
     builder.production(GENERATE("p : A(x) : * : A(x+1) d", "p : A(x) : x < 9 : A(x+1) d"));
     const std::string word = derived_every_way(builder.build(), 1, 0);
     const bool is_as_expected = word == next;
-    if (!is_as_expected)
-        UNSCOPED_INFO(word.substr(0, 200) << "\n" << next.substr(0, 200));
     CHECK(is_as_expected);
 }
 
