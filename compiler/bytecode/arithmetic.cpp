@@ -8,8 +8,8 @@ namespace lsys::arithmetic {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRadian = 180.0 / std::numbers::pi;
+constexpr double kDegree = std::numbers::pi / 180.0; // in radians
+constexpr double kRadian = 180.0 / std::numbers::pi; // in degrees
 
 float rounded(double x) {
     return static_cast<float>(x);

@@ -47,8 +47,8 @@ void add_forest_mesh(CLI::App& app, ForestFileOptions& options);
 
 /// An option by its name without dashes and its value, empty for a flag: {"lods", "6"}.
 using NamedOption = std::pair<std::string, std::string>;
-/// Options of the file `output`, with those of their preset. Error: an unknown option or an invalid
-/// value.
+/// Options of the file `output`, including the options of its preset. Error: an unknown option or
+/// an invalid value.
 [[nodiscard]] Result<PlantFileOptions> parse_plant_files(const std::string& output,
                                                          const std::vector<NamedOption>& options);
 [[nodiscard]] Result<ForestFileOptions> parse_forest_files(const std::string& output,

@@ -50,7 +50,7 @@ random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, C
 /// The result of rewriting a word once, or its error, as comparable values.
 struct Rewritten {
     std::optional<Stop> stop;
-    std::uint64_t fault = 0;
+    std::uint64_t fault = 0; // position of the error, if `stop` is Diagnosed
     std::vector<Code> codes;
     std::vector<float> parameters;
     std::vector<lsys::Origin> origins;

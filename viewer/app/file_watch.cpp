@@ -127,7 +127,7 @@ struct FileWatch::State {
         }
     }
 
-    /// Reports changes, unless a file has been missing for a short time only.
+    /// Reports changes; waits while a changed file is missing for less than `options.missing`.
     void report(Clock::time_point now) {
         std::vector<std::string> names;
         Clock::time_point first = Clock::time_point::max();

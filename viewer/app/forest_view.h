@@ -1,5 +1,5 @@
 // ForestView: the state of a window with a forest, without the window. Watches the scene, its
-// grammars and their includes; forests are made on another thread and swapped between two pictures.
+// grammars and their includes; forests are made on another thread and swapped between two frames.
 #pragma once
 
 #include "viewer/app/file_watch.h"

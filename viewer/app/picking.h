@@ -48,7 +48,7 @@ struct Description {
                                             const ViewOptions& options,
                                             const Project& project);
 
-/// The text of `lsc trace` about a module that describe() has found, with the same `document` and
+/// The text of `lsc trace` about a module found by describe(), which had the same `document` and
 /// `options`. `colour`: with SGR codes.
 [[nodiscard]] Outcome<std::string> trace_picked(const PickedModule& module,
                                                 TraceScope scope,

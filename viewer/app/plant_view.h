@@ -1,5 +1,5 @@
 // PlantView: the state of a window with a plant, without the window. Watches files; plants are made
-// on other threads and swapped between two pictures. Every call needs a current OpenGL context.
+// on other threads and swapped between two frames. Every call needs a current OpenGL context.
 #pragma once
 
 #include "runtime/pipeline/value_edits.h"

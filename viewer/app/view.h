@@ -43,7 +43,7 @@ public:
     View& operator=(const View&) = delete;
     virtual ~View() = default;
 
-    /// Takes finished work and requests work for changed settings, between two pictures. Returns
+    /// Takes finished work and requests work for changed settings, between two frames. Returns
     /// whether messages changed.
     virtual bool update() = 0;
     /// Draws unless nothing changed. Returns whether it drew.

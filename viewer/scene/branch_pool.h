@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] std::span<const PoolBranch> branches() const { return branches_; }
     [[nodiscard]] std::size_t tree_count() const { return trees_.size(); }
-    [[nodiscard]] std::uint64_t used() const { return used_; }
+    [[nodiscard]] std::uint64_t used() const { return used_; } // branches
     /// Ranges written since the last take_written().
     [[nodiscard]] std::vector<PoolSpan> take_written();
     /// Ranges of all trees in the pool.

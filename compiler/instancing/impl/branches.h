@@ -27,10 +27,10 @@ struct BranchKind {
     std::uint32_t first_site = 0;
     std::vector<std::uint32_t> formals; // formals used in the branch, ascending
     std::vector<std::uint32_t> locals;  // local values used in the branch, ascending
-    /// Whether its drawing depends on the vertical: by tropism or an operation that
-    /// DependsOnVertical, in the branch itself or after rewriting.
+    /// Whether the drawing of the branch depends on the vertical: by tropism or an operation with
+    /// the trait DependsOnVertical, in the branch itself or after rewriting.
     bool depends_on_vertical = false;
-    /// Whether a production that its modules can reach is stochastic or draws a random number.
+    /// Whether a production that the branch can reach is stochastic or draws a random number.
     bool is_random = false;
 };
 

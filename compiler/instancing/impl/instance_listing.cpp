@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// By production: its weight divided by the sum of the weights of its group. That is its
-    /// probability if there are no conditions. NaN if a weight of the group is not constant.
+    /// Weight of each production divided by the sum of the weights of its group: the probability
+    /// if there are no conditions. NaN if a weight of the group is not constant.
     [[nodiscard]] std::vector<double> probabilities() const {
         std::vector<double> sums(program_.context_group_count, 0.0);
         for (const Production& production : program_.productions) {

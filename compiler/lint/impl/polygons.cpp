@@ -202,7 +202,7 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        // The only word with more `}` than `{` may end the polygon of the only one with more `{`.
+        // If one word alone has more `{` and one alone more `}`, the second may end the polygon.
         if (opened != closed && !(open_words_ == 1 && end_words_ == 1)) {
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);

@@ -29,7 +29,7 @@ private:
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;
     [[nodiscard]] std::uint32_t written_length(const ProgramWord& word,
-                                               const ProgramModule& module) const;
+                                               const ProgramModule& module) const; // of the name
 
     struct Spelling {
         std::uint32_t length = 0; // of the name, in bytes

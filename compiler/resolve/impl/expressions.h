@@ -42,7 +42,7 @@ class ExpressionResolver {
 public:
     ExpressionResolver(Resolution& resolution, ValueBuilder& values, ConstantTable& constants);
 
-    /// Begins a statement: clears formals, local values and reported names; numbers draws from 0.
+    /// Begins a statement: clears formals, local values, reported names and the draw counter.
     void begin_statement();
     /// Adds a formal of the current production; `where` is its place in messages. Returns false if
     /// the name already is a formal.

@@ -25,8 +25,8 @@ struct TextModule {
 
 struct TextRule {
     const CareyRule* rule = nullptr;
-    std::vector<TextModule> left;
-    std::vector<TextModule> right;
+    std::vector<TextModule> left;  // modules of rule->left
+    std::vector<TextModule> right; // modules of rule->right
 };
 
 class ParameterWalk {

@@ -10,8 +10,8 @@ namespace lsys {
 
 namespace {
 
-/// The parameter counts that a turtle symbol has in the axiom and the successors; if it does not
-/// occur there, its count in the head.
+/// Parameter counts of a turtle symbol in the axiom and the successors; if it occurs in neither,
+/// its count in the head of the rule.
 std::vector<std::uint32_t> counts_of(const HoudiniSymbol& symbol, std::uint32_t in_head) {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t k = 0; k <= HoudiniSymbols::kMaxParameters; ++k) {

@@ -69,8 +69,8 @@ public:
     void open() { ++depth_; }
     /// Returns true if more modules follow.
     bool close();
-    void begin_tail() { tail_ = true; }
-    /// Ends the condition at a `=`; returns true if modules follow.
+    void begin_tail() { tail_ = true; } // of a rule: its condition or probability
+    /// Ends the tail at a `=` outside of parentheses; returns true if modules follow.
     bool end_tail();
     void end_line();
 

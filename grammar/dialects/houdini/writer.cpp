@@ -237,7 +237,7 @@ HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
     return made;
 }
 
-/// Random angles of `~`, drawn when the module is written.
+/// Random ranges of the three turns of `~`, drawn when the derivation writes the module.
 std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
                                                    const HoudiniScope& scope) {
     const SourceSpan span = module.symbol;

@@ -6,9 +6,9 @@
 
 namespace lsys {
 
-/// Appends all segments; nothing may be in `builder` before. Each plant is one closed surface,
-/// subdivided MeshOptions::subdivisions times less the level. Texture coordinates: u goes from 0 to
-/// 1 and back around a branch, v down along it. The builder's status tells whether all fit.
+/// Appends all segments; `builder` must be empty. Each plant is one closed surface, subdivided
+/// `subdivisions` - `level` times, fields of MeshOptions. Texture coordinates: u goes from 0 to 1
+/// and back around a branch, v down along it. The builder's status tells whether all segments fit.
 void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys
