@@ -333,7 +333,7 @@ Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
     }
     diagnostic.help.emplace_back(
         is_branch ? "close each branch in the successor that opens it"
-                  : "let as many `{` as `}` stand before each place of the word");
+                  : "give each `}` a `{` of its own earlier in the word, or remove it");
     return diagnostic;
 }
 

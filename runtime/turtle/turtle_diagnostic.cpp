@@ -40,7 +40,7 @@ Wording wording_of(TurtleFaultKind kind) {
         return {DiagnosticCode::StrayVertex, "is a vertex outside of any polygon", ""};
     case TurtleFaultKind::EndOutside:
         return {DiagnosticCode::UnbalancedPolygon, "ends a polygon that nothing begins",
-                "let as many `{` as `}` stand before each place of the word"};
+                "give each `}` a `{` of its own earlier in the word, or remove it"};
     case TurtleFaultKind::FewCorners:
         return {DiagnosticCode::SmallPolygon,
                 "ends a polygon of fewer than three vertices, which is not drawn", ""};
