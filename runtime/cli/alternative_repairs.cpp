@@ -101,6 +101,10 @@ bool is_before_number(std::string_view text, std::size_t place) {
            ((text[next] >= '0' && text[next] <= '9') || text[next] == '.');
 }
 
+bool is_bracket(char c) {
+    return std::string_view("()[]{}").find(c) != std::string_view::npos;
+}
+
 bool is_number_part(char c) {
     return (c >= '0' && c <= '9') || c == '.';
 }
@@ -121,7 +125,38 @@ void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>&
     }
 }
 
-std::vector<std::string> bracket_repairs(std::string_view broken) {
+/// Adds the texts without the word before or after a missing comma, if it is one character, which
+/// may have been typed by mistake.
+void add_without_letters(const StatementRepair& repair, std::vector<std::string>& texts) {
+    const std::string_view text = repair.broken;
+    const std::size_t before = repair.place;
+    const std::size_t after = text.find_first_not_of(" \t\r\n", before);
+    const auto remove = [&](std::size_t at) {
+        const bool is_alone = is_word(text[at]) && (at == 0 || !is_word(text[at - 1])) &&
+                              (at + 1 == text.size() || !is_word(text[at + 1]));
+        if (is_alone) {
+            texts.emplace_back(text);
+            texts.back().erase(at, 1);
+        }
+    };
+    if (before > 0) {
+        remove(before - 1);
+    }
+    if (after != std::string_view::npos) {
+        remove(after);
+    }
+}
+
+/// Whether a digit may have been typed as the parenthesis at `at`: as `)` after a digit, `/(6))`, or
+/// as `(` between blanks, `a - ( - b`.
+bool may_be_digit(std::string_view text, std::size_t at) {
+    const char before = at == 0 ? ' ' : text[at - 1];
+    const char after = at + 1 == text.size() ? ' ' : text[at + 1];
+    return (text[at] == ')' && is_number_part(before)) ||
+           (text[at] == '(' && before == ' ' && after == ' ');
+}
+
+std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single) {
     constexpr std::string_view kOpening = "([{";
     constexpr std::string_view kClosing = ")]}";
     std::vector<std::string> texts;
@@ -145,8 +180,18 @@ std::vector<std::string> bracket_repairs(std::string_view broken) {
         if (at == broken.size()) {
             break;
         }
-        // Removing an opening bracket is tried only after an equal one.
-        const bool is_doubled = at > 0 && broken[at - 1] == broken[at];
+        const bool is_pair = at + 1 < broken.size() && broken[at] != broken[at + 1] &&
+                             is_bracket(broken[at]) && is_bracket(broken[at + 1]);
+        if (is_pair) {
+            add(at, 2, std::string{broken[at + 1], broken[at]});
+        }
+        // Removing an opening bracket is tried only after an equal one or before nothing.
+        const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
+        const bool is_doubled = (at > 0 && broken[at - 1] == broken[at]) ||
+                                next == std::string_view::npos || broken[next] == ';';
+        if (is_single && may_be_digit(broken, at)) {
+            add(at, 1, "1");
+        }
         if (broken[at] == ')' || broken[at] == '}' ||
             ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
             add(at, 1, "");
@@ -184,8 +229,9 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
             texts.back().insert(repair.place, " * ");
         }
         add_joined_numbers(repair, texts);
+        add_without_letters(repair, texts);
     } else {
-        texts = bracket_repairs(repair.broken);
+        texts = bracket_repairs(repair.broken, repair.is_single);
     }
     const bool is_balanced = has_balanced_modules(repair.repaired);
     std::set<std::string> trees;

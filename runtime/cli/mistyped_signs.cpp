@@ -61,6 +61,12 @@ std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) 
                                    : without.find_last_not_of(kSignBlanks, added.begin - 1);
     if (before != std::string::npos) {
         add(before);
+        // The same sign before this character may have been exchanged with it.
+        if (before > 0 && without[before - 1] == sign) {
+            std::string exchanged = without;
+            std::swap(exchanged[before - 1], exchanged[before]);
+            texts.push_back(std::move(exchanged));
+        }
     }
     const std::size_t after = without.find_first_not_of(kSignBlanks, added.begin);
     if (after != std::string::npos) {

@@ -18,8 +18,9 @@ struct AddedText {
 /// The one character other than blanks that a repair adds; '\0' if it adds none or several.
 [[nodiscard]] char added_sign(std::string_view added);
 
-/// The texts in which the sign of `added` replaces a character next to it. A sign with blanks on its
-/// sides is not returned if all others of the text have none, and vice versa.
+/// The texts in which the sign of `added` replaces a character next to it, or in which an equal sign
+/// changes places with the character before the added one. A replacing sign with blanks on its sides
+/// is not returned if all others of the text have none, and vice versa.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
 } // namespace lsys::lsc

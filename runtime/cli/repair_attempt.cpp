@@ -39,10 +39,15 @@ void append_record(const Diagnostic& diagnostic,
     render(record, sources, options, out);
 }
 
-/// Whether a fix removes one character of a text, or replaces it by something else than a sign. The
-/// character may have been typed in place of any other. One that is doubled is typed too often.
+/// Whether a fix removes one character of a text, replaces it by something else than a sign, or
+/// exchanges two: `=>` may be `>=` or `==`. A character may have been typed in place of any other;
+/// one that is doubled is typed too often.
 bool may_be_slip(std::string_view text, const Edit& edit) {
     const std::uint32_t at = edit.span.begin;
+    if (edit.replacement.size() == 2 && edit.span.end - at == 2 &&
+        edit.replacement[0] == text[at + 1] && edit.replacement[1] == text[at]) {
+        return true;
+    }
     if (edit.span.end - at != 1 || kBlankSigns.find(text[at]) != std::string_view::npos) {
         return false;
     }

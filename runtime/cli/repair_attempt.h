@@ -81,7 +81,8 @@ private:
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
-    [[nodiscard]] bool has_alternative(const StatementKey& key, const AppliedFix& fix) const;
+    [[nodiscard]] bool
+    has_alternative(const StatementKey& key, const AppliedFix& fix, bool is_single) const;
     [[nodiscard]] bool may_be_mistyped(const AppliedFix& fix) const;
     [[nodiscard]] std::set<DiagnosticCode> codes_of_single_mistakes() const;
     [[nodiscard]] std::optional<CompiledText> compile_other(const std::string& path,

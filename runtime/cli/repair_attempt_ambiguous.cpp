@@ -45,7 +45,8 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
         // Several repairs of one statement count as ambiguous, because combinations are not
         // compared.
         if (candidate != fixes.end() &&
-            (fixes.size() > 1 || ++compared > kMaxCompared || has_alternative(key, *candidate))) {
+            (fixes.size() > 1 || ++compared > kMaxCompared ||
+             has_alternative(key, *candidate, single.contains(candidate->code)))) {
             keys.insert(key);
             continue;
         }
@@ -114,8 +115,11 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     });
 }
 
-/// Whether an alternative is as plausible as the applied fix.
-bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& fix) const {
+/// Whether an alternative is as plausible as the applied fix. `is_single`: of a mistake that is made
+/// once.
+bool RepairAttempt::has_alternative(const StatementKey& key,
+                                    const AppliedFix& fix,
+                                    bool is_single) const {
     const EditedFile& file = files_.at(key.first);
     const TextPlace before = file.statements()[key.second];
     const std::optional<TextPlace> now = place_after_fixes(key);
@@ -128,6 +132,7 @@ bool RepairAttempt::has_alternative(const StatementKey& key, const AppliedFix& f
     const std::string_view text = source->text();
     StatementRepair repair;
     repair.code = fix.code;
+    repair.is_single = is_single;
     repair.broken =
         std::string_view(file.original()).substr(before.begin, before.end - before.begin);
     repair.repaired = text.substr(now->begin, now->end - now->begin);

@@ -42,6 +42,10 @@ TEST_CASE("an added sign has the same blanks as others of the text") {
     CHECK(others("#n = 3 ;\n#w : F A", ";", "\n").size() == 1);
 }
 
+TEST_CASE("an equal sign before the last character may have been exchanged with it") {
+    CHECK(others("#w : F;`", ";", "\n") == std::vector<std::string>{"#w : F;;\n", "#w : F`;\n"});
+}
+
 TEST_CASE("adjacent equal signs are no alternative") {
     CHECK(others("#w : F;", ";", "\n").empty());
 }
