@@ -160,7 +160,7 @@ TEST_CASE("the option --why at a moment of growth traces the word of that moment
     };
     CHECK(prints("F(2) at position 1 of generation 1, written by `up`"));
     CHECK(prints("F(2) at position 1 of generation 2, written by `up`"));
-    CHECK(prints("steps() - 1            3 - 1 = 2")); // the whole derivation has 3 generations
+    CHECK(prints("steps() - 1   3 - 1 = 2")); // the whole derivation has 3 generations
 }
 
 TEST_CASE("the option --pick on a forest prints the branch and its number of instances") {
