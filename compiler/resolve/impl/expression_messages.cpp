@@ -394,8 +394,11 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
     if (attempted_.defines(text) || files_missing_ || resolution_.options.part) {
         return;
     }
+    // The name in the source may be shorter than `text`, which has no characters beyond ASCII.
+    const std::string_view source = resolution_.sources.text(expression.span());
+    const std::size_t length = std::min(source.find_first_of(" \t\r\n(/"), source.size());
     const SourceSpan name{expression.file, expression.begin,
-                          expression.begin + static_cast<std::uint32_t>(text.size())};
+                          expression.begin + static_cast<std::uint32_t>(length)};
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownFunction, name,
                                                     fmt::format("unknown function `{}`", text));
     if (formal_of_[index_of(function)] != kNone ||
