@@ -1,4 +1,4 @@
-// What libc++ 13 of Emscripten 3.1.6 lacks of C++20 and the project uses: std::bit_cast and algorithms of ranges. The
+// Parts of C++20 that are missing in libc++ 13 of Emscripten 3.1.6: std::bit_cast and algorithms of ranges. The
 // toolchain web.cmake includes this before every source; newer versions of libc++ have all of it.
 #pragma once
 

@@ -8,7 +8,7 @@
 namespace lsys {
 
 [[nodiscard]] std::string dump_program(const Program& program, const Names& names);
-/// The same text without the names of productions, which change no word: equal for programs that
+/// dump_program() without names of productions, which change no word: equal for programs that
 /// derive the same words.
 [[nodiscard]] std::string dump_without_labels(const Program& program, const Names& names);
 

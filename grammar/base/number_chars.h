@@ -39,7 +39,7 @@ std::to_chars_result number_to_chars(char* first, char* last, Number value) {
 #endif
 }
 
-/// The same without an exponent.
+/// Shortest text of a number without an exponent.
 template <std::floating_point Number>
 std::to_chars_result number_to_fixed_chars(char* first, char* last, Number value) {
 #if LSYS_PORTABLE_CHARS
