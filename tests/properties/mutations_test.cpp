@@ -356,14 +356,15 @@ TEST_CASE("a repaired grammar equals the original") {
     CHECK(census.total().wrong == 0);
     CHECK(census.total().unfinished == 0);
     // Changes with only one plausible repair are repaired. Where a `;` is missing, the character
-    // before it may be a mistyped `;`, as the last digit of a number may.
+    // before it may be a mistyped `;`, as the last digit of a number may. After a digit, the second
+    // `)` may be a mistyped digit.
     struct Repaired {
         const char* kind;
         std::uint32_t least_tenths;
     };
     for (const Repaired& wanted :
          {Repaired{"`;` removed", 6}, Repaired{"`;` doubled", 9}, Repaired{"`#` removed", 9},
-          Repaired{"blank after `#`", 9}, Repaired{"`:` doubled", 9}, Repaired{"`)` doubled", 9}}) {
+          Repaired{"blank after `#`", 9}, Repaired{"`:` doubled", 9}, Repaired{"`)` doubled", 5}}) {
         const Count count = census.count(wanted.kind);
         INFO(wanted.kind);
         CHECK(count.tried > 0);
