@@ -8,8 +8,8 @@ namespace lsys::arithmetic {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0; // in radians
-constexpr double kRadian = 180.0 / std::numbers::pi; // in degrees
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 float rounded(double x) {
     return static_cast<float>(x);
@@ -54,7 +54,7 @@ float sine(float degrees) {
     case 3:
         return -1.0F;
     default:
-        return rounded(std::sin(angle * kDegree));
+        return rounded(std::sin(angle * kRadiansPerDegree));
     }
 }
 
@@ -69,7 +69,7 @@ float cosine(float degrees) {
     case 2:
         return -1.0F;
     default:
-        return rounded(std::cos(angle * kDegree));
+        return rounded(std::cos(angle * kRadiansPerDegree));
     }
 }
 
@@ -84,21 +84,21 @@ float tangent(float degrees) {
     case 3:
         return -HUGE_VALF;
     default:
-        return rounded(std::tan(angle * kDegree));
+        return rounded(std::tan(angle * kRadiansPerDegree));
     }
 }
 
 float arc_sine(float x) {
-    return rounded(std::asin(wide(x)) * kRadian);
+    return rounded(std::asin(wide(x)) * kDegreesPerRadian);
 }
 float arc_cosine(float x) {
-    return rounded(std::acos(wide(x)) * kRadian);
+    return rounded(std::acos(wide(x)) * kDegreesPerRadian);
 }
 float arc_tangent(float x) {
-    return rounded(std::atan(wide(x)) * kRadian);
+    return rounded(std::atan(wide(x)) * kDegreesPerRadian);
 }
 float arc_tangent2(float y, float x) {
-    return rounded(std::atan2(wide(y), wide(x)) * kRadian);
+    return rounded(std::atan2(wide(y), wide(x)) * kDegreesPerRadian);
 }
 float exponential(float x) {
     return rounded(std::exp(wide(x)));

@@ -50,7 +50,7 @@ random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, C
 /// The result of rewriting a word once, or its error, as comparable values.
 struct Rewritten {
     std::optional<Stop> stop;
-    std::uint64_t fault = 0; // position of the error, if `stop` is Diagnosed
+    std::uint64_t error_position = 0; // if `stop` is Diagnosed
     std::vector<Code> codes;
     std::vector<float> parameters;
     std::vector<lsys::Origin> origins;
@@ -77,7 +77,7 @@ Rewritten rewritten(const Bytecode& bytecode,
         result.stop = derivation.step();
     }
     if (result.stop == Stop::Diagnosed) {
-        result.fault = derivation.error().position;
+        result.error_position = derivation.error().position;
     }
     const lsys::Word& last = derivation.word();
     for (std::uint64_t i = 0; i < last.module_count(); ++i) {

@@ -55,7 +55,7 @@ PoolSpan BranchPool::add(std::uint32_t tree, std::span<const PoolBranch> branche
     std::copy(branches.begin(), branches.end(),
               branches_.begin() + static_cast<std::ptrdiff_t>(span.first));
     trees_.emplace(tree, Entry{span, frame_});
-    used_ += count;
+    used_branches_ += count;
     if (!written_.empty() && written_.back().first + written_.back().count == span.first) {
         written_.back().count += count;
     } else {
@@ -93,7 +93,7 @@ std::map<std::uint32_t, PoolSpan> BranchPool::spans() const {
 }
 
 void BranchPool::release(const PoolSpan& span) {
-    used_ -= span.count;
+    used_branches_ -= span.count;
     auto at = free_.emplace(span.first, span.count).first;
     if (const auto next = std::next(at);
         next != free_.end() && at->first + at->second == next->first) {

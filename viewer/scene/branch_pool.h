@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] std::span<const PoolBranch> branches() const { return branches_; }
     [[nodiscard]] std::size_t tree_count() const { return trees_.size(); }
-    [[nodiscard]] std::uint64_t used() const { return used_; } // branches
+    [[nodiscard]] std::uint64_t used_branches() const { return used_branches_; }
     /// Ranges written since the last take_written().
     [[nodiscard]] std::vector<PoolSpan> take_written();
     /// Ranges of all trees in the pool.
@@ -72,7 +72,7 @@ private:
 
     std::uint32_t capacity_;
     std::uint64_t frame_ = 0;
-    std::uint64_t used_ = 0;
+    std::uint64_t used_branches_ = 0;
     std::vector<PoolBranch> branches_;
     std::unordered_map<std::uint32_t, Entry> trees_;
     std::map<std::uint32_t, std::uint32_t>

@@ -56,7 +56,7 @@ inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
     const Spelling& spelling = spellings_[static_cast<std::size_t>(module.symbol)];
     std::uint32_t name = spelling.length;
     if (!program_.written_names.empty()) {
-        name = written_length(word, module);
+        name = name_length_in_source(word, module);
     } else if (spelling.may_be_quoted && text_[module.begin] == '`') {
         name += kQuotes;
     }
@@ -67,8 +67,8 @@ inline std::uint32_t PlaceWriter::length_of(const ProgramWord& word,
 }
 
 /// Length of the name as its file spells it, in bytes.
-std::uint32_t PlaceWriter::written_length(const ProgramWord& word,
-                                          const ProgramModule& module) const {
+std::uint32_t PlaceWriter::name_length_in_source(const ProgramWord& word,
+                                                 const ProgramModule& module) const {
     const SourceSpan span =
         module_name_span(sources_, word.file, module.begin,
                          names_.text(program_.symbol(module.symbol).name), program_.written_names);

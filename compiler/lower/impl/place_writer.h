@@ -28,8 +28,9 @@ private:
     [[nodiscard]] bool move_to(std::uint32_t offset);
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;
-    [[nodiscard]] std::uint32_t written_length(const ProgramWord& word,
-                                               const ProgramModule& module) const; // of the name
+    [[nodiscard]] std::uint32_t
+    name_length_in_source(const ProgramWord& word,
+                          const ProgramModule& module) const; // of the name
 
     struct Spelling {
         std::uint32_t length = 0; // of the name, in bytes

@@ -18,15 +18,15 @@ namespace {
 /// A symbol and its number of parameters.
 using Form = std::pair<char32_t, std::size_t>;
 
-struct TextModule {
+struct PlacedModule {
     Form form;
     SourceSpan span; // with the parameters
 };
 
-struct TextRule {
+struct RuleWithModules {
     const CareyRule* rule = nullptr;
-    std::vector<TextModule> left;  // modules of rule->left
-    std::vector<TextModule> right; // modules of rule->right
+    std::vector<PlacedModule> left;  // modules of rule->left
+    std::vector<PlacedModule> right; // modules of rule->right
 };
 
 class ParameterWalk {
@@ -41,7 +41,7 @@ public:
                 enqueue_all(modules_of(setting.value));
             }
         }
-        for (const TextRule& rule : rules_) {
+        for (const RuleWithModules& rule : rules_) {
             enqueue_all(rule.right);
         }
     }
@@ -50,7 +50,7 @@ public:
         LeftParameters found;
         found.counts_by_rule.resize(rules_.size());
         while (!forms_.empty()) {
-            const TextModule module = forms_.back();
+            const PlacedModule module = forms_.back();
             forms_.pop_back();
             for (std::size_t i = 0; i < rules_.size(); ++i) {
                 if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
@@ -66,8 +66,8 @@ public:
     }
 
 private:
-    std::vector<TextModule> modules_of(SourceSpan text) {
-        std::vector<TextModule> modules;
+    std::vector<PlacedModule> modules_of(SourceSpan text) {
+        std::vector<PlacedModule> modules;
         const bool is_valid = read_letter_modules(text, quiet_, [&](const LetterModule& module) {
             const std::string_view arguments = context_.sources.text(module.arguments);
             const auto count =
@@ -76,25 +76,25 @@ private:
                     : static_cast<std::size_t>(std::ranges::count(arguments, ',')) + 1;
             modules.push_back({{module.character, count}, join(module.span, module.arguments)});
         });
-        return is_valid ? modules : std::vector<TextModule>();
+        return is_valid ? modules : std::vector<PlacedModule>();
     }
 
-    static bool ends_in(const std::vector<TextModule>& left, char32_t symbol) {
+    static bool ends_in(const std::vector<PlacedModule>& left, char32_t symbol) {
         return !left.empty() && left.back().form.first == symbol &&
                std::ranges::all_of(
-                   left, [](const TextModule& module) { return module.form.second == 0; });
+                   left, [](const PlacedModule& module) { return module.form.second == 0; });
     }
 
-    void enqueue(const TextModule& module) {
+    void enqueue(const PlacedModule& module) {
         if (module.form.second != 0 && enqueued_.insert(module.form).second) {
             forms_.push_back(module);
         }
     }
 
-    void enqueue_all(const std::vector<TextModule>& modules) {
+    void enqueue_all(const std::vector<PlacedModule>& modules) {
         for (std::size_t i = 0; i < modules.size(); ++i) {
             enqueue(modules[i]);
-            for (const TextRule& rule : rules_) {
+            for (const RuleWithModules& rule : rules_) {
                 if (modules[i].form.second != 0 && matches(rule.left, modules, i)) {
                     note(rule, modules[i]);
                 }
@@ -104,8 +104,8 @@ private:
 
     /// Whether `left` matches the modules up to `last`, so that the parameters of `last` follow the
     /// match.
-    static bool matches(const std::vector<TextModule>& left,
-                        const std::vector<TextModule>& modules,
+    static bool matches(const std::vector<PlacedModule>& left,
+                        const std::vector<PlacedModule>& modules,
                         std::size_t last) {
         if (!ends_in(left, modules[last].form.first) || left.size() > last + 1) {
             return false;
@@ -113,12 +113,12 @@ private:
         const auto begin = modules.begin() + static_cast<std::ptrdiff_t>(last + 1 - left.size());
         return std::equal(
             left.begin(), left.end() - 1, begin,
-            [](const TextModule& a, const TextModule& b) { return a.form == b.form; });
+            [](const PlacedModule& a, const PlacedModule& b) { return a.form == b.form; });
     }
 
     /// Hands the parameters of a module to the last symbol of the rule's right side. Reports and
     /// returns false if that symbol cannot have parameters.
-    bool follow(const TextRule& rule, const TextModule& module) {
+    bool follow(const RuleWithModules& rule, const PlacedModule& module) {
         if (takes_parameters(rule)) {
             enqueue({{rule.right.back().form.first, module.form.second}, module.span});
             return true;
@@ -137,7 +137,7 @@ private:
 
     /// Whether the last module of the right side can take the parameters: it has none of its own
     /// and is not a bracket, `.` or `#`.
-    static bool takes_parameters(const TextRule& rule) {
+    static bool takes_parameters(const RuleWithModules& rule) {
         if (rule.right.empty() || rule.right.back().form.second != 0) {
             return false;
         }
@@ -146,7 +146,7 @@ private:
                std::string_view("[]{}.#").find(static_cast<char>(symbol)) == std::string_view::npos;
     }
 
-    void note(const TextRule& rule, const TextModule& module) {
+    void note(const RuleWithModules& rule, const PlacedModule& module) {
         if (!takes_parameters(rule)) {
             return; // follow() reports the error
         }
@@ -160,7 +160,7 @@ private:
         note.help.emplace_back("a symbol that no rule rewrites keeps its parameter");
     }
 
-    [[nodiscard]] std::string text_of(const TextRule& rule) const {
+    [[nodiscard]] std::string text_of(const RuleWithModules& rule) const {
         return shown(without_blanks(context_.sources.text(rule.rule->left)) + "=" +
                      without_blanks(context_.sources.text(rule.rule->right)));
     }
@@ -168,9 +168,9 @@ private:
     const ParseContext& context_;
     Diagnostics ignored_;
     ParseContext quiet_;
-    std::vector<TextRule> rules_;
+    std::vector<RuleWithModules> rules_;
     std::set<Form> enqueued_;
-    std::vector<TextModule> forms_; // enqueued and not followed yet
+    std::vector<PlacedModule> forms_; // enqueued and not followed yet
 };
 
 } // namespace

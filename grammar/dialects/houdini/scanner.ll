@@ -79,7 +79,7 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
 "<"                                   { return Token::TOK_LESS; }
 ">"                                   { return Token::TOK_GREATER; }
 "="                                   { return Token::TOK_EQUALS; }
-":"                                   { BEGIN(EXPRESSION); session.begin_tail(); return Token::TOK_COLON; }
+":"                                   { BEGIN(EXPRESSION); session.begin_condition(); return Token::TOK_COLON; }
 ","                                   { return Token::TOK_COMMA; }
 [\xC2-\xF4][\x80-\xBF]+|[^ \t\r\n()<>=:,] { return Token::TOK_SYMBOL; }
 }
@@ -114,7 +114,7 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
 "%"                                   { return Token::TOK_MODULO; }
 "^"                                   { return Token::TOK_POWER; }
 "="                                   {
-    if (session.end_tail()) {
+    if (session.end_condition()) {
         BEGIN(MODULES);
     }
     return Token::TOK_EQUALS;

@@ -50,18 +50,18 @@ std::uint32_t HoudiniSession::length_of_key(std::string_view text) {
 
 bool HoudiniSession::close() {
     depth_ -= depth_ != 0 ? 1U : 0U;
-    return depth_ == 0 && !tail_;
+    return depth_ == 0 && !in_condition_;
 }
 
-bool HoudiniSession::end_tail() {
-    const bool ended = tail_ && depth_ == 0;
-    tail_ = tail_ && !ended;
+bool HoudiniSession::end_condition() {
+    const bool ended = in_condition_ && depth_ == 0;
+    in_condition_ = in_condition_ && !ended;
     return ended;
 }
 
 void HoudiniSession::end_line() {
     depth_ = 0;
-    tail_ = false;
+    in_condition_ = false;
 }
 
 ForeignId HoudiniSession::add_node(ForeignKind kind,

@@ -69,9 +69,9 @@ public:
     void open() { ++depth_; }
     /// Returns true if more modules follow.
     bool close();
-    void begin_tail() { tail_ = true; } // of a rule: its condition or probability
-    /// Ends the tail at a `=` outside of parentheses; returns true if modules follow.
-    bool end_tail();
+    void begin_condition() { in_condition_ = true; } // of a rule: its condition or probability
+    /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules follow.
+    bool end_condition();
     void end_line();
 
     // For the parser.
@@ -90,8 +90,8 @@ private:
     std::uint32_t size_ = 0;
     std::uint32_t at_ = 0;
     SourceSpan last_;
-    std::uint32_t depth_ = 0; // open parentheses
-    bool tail_ = false;       // in a condition or probability
+    std::uint32_t depth_ = 0;   // open parentheses
+    bool in_condition_ = false; // in a condition or probability
     bool wants_modules_ = false;
     std::uint32_t line_node_ = 0; // first node of the line
 };

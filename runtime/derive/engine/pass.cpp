@@ -116,9 +116,9 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     make_chunks(word);
     mask_.prepare(plan_, contexts());
 
-    const std::uint64_t parallel = plan_.has_batched() ? kMinSharedWord : kMinParallelCount;
+    const std::uint64_t min_shared_count = plan_.has_batched() ? kMinSharedWord : kMinParallelCount;
     by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
-                 (workers_.count() == 1 || word.count < parallel);
+                 (workers_.count() == 1 || word.count < min_shared_count);
     if (by_census_) {
         take_census(word);
     } else {

@@ -319,7 +319,7 @@ TEST_CASE("spans of a pool never overlap and are reused") {
             used += count;
         }
         REQUIRE(end <= lod.pool().branches().size());
-        REQUIRE(used == lod.pool().used());
+        REQUIRE(used == lod.pool().used_branches());
         max_used = std::max(max_used, used);
         for (const BranchEntry branch : lists.branches) {
             REQUIRE(branch.slot() < end);
@@ -342,7 +342,7 @@ TEST_CASE("a full pool evicts unused spans, then refuses new ones") {
     CHECK(pool.take_written() == std::vector<PoolSpan>{{0, 8}, {0, 4}});
     pool.begin_frame(0);
     pool.begin_frame(0);
-    CHECK(pool.used() == 0);
+    CHECK(pool.used_branches() == 0);
     CHECK(pool.add(4, std::vector<PoolBranch>(10)) == PoolSpan{0, 10});
     CHECK(pool.add(5, std::vector<PoolBranch>(11)).count == 0);
 }
