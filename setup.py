@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The Python module lsys for pip, built by CMake. pyproject.toml has its description."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Writes shaders as string literals into a C++ source file, so that lsview needs no shader files.
 # Usage: cmake -D OUTPUT=F.cpp -D "SHADERS=A.glsl;B.glsl" -P EmbedShaders.cmake
 set(text "// Written by EmbedShaders.cmake.\n#include \"viewer/gl/impl/program.h\"\n\nnamespace lsys::view {\n\n")

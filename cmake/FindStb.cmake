@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Finds the headers of https://github.com/nothings/stb (Debian: libstb-dev) for `#include <stb/...>`.
 # Target: stb::stb, without a library to link.
 find_path(STB_INCLUDE_DIR stb/stb_perlin.h)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Finds the headers of https://github.com/marzer/tomlplusplus (Debian: libtomlplusplus-dev) for
 # `#include <toml++/toml.h>`. Target: toml::headers, without a library to link, because the compiled library of the
 # package throws exceptions.

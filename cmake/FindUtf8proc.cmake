@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Finds the library https://github.com/JuliaStrings/utf8proc (Debian: libutf8proc-dev). Target: utf8proc::utf8proc.
 find_path(UTF8PROC_INCLUDE_DIR utf8proc.h)
 find_library(UTF8PROC_LIBRARY utf8proc)

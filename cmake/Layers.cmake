@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Every library, named by its folder, and the folders that the library may include. The build links libraries by
 # this table (LsysTargets.cmake), and the test of include rules reads it (tests/layering/check_includes.cmake).
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 add_custom_target(generated_sources COMMENT "Scanners and parsers") # clang-tidy needs these files
 
 # lsys_add_grammar(TARGET FOLDER): runs Bison on parser.yy and Flex on scanner.ll of FOLDER, and adds the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Two interface targets that every target of the project links: lsys_options has the compiler options,
 # lsys_warnings the warnings. The functions below make libraries.
 

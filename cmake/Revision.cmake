@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Writes the commit of the sources, for `lsc --version --verbose`, and its date, for man pages: in a repository from
 # git, else from packaging/revision.txt, which `git archive` fills. An unchanged file keeps its time.
 # Usage: cmake -D SOURCE=... -D HEADER=revision.h -D DATE=date.txt -P Revision.cmake

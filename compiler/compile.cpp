@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/compile.h"
 
 #include "compiler/bytecode/verify.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The entry point of the compiler: Ast to Program to Bytecode.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parts of C++20 that are missing in libc++ 13 of Emscripten 3.1.6: std::bit_cast and algorithms of ranges. The
 // toolchain web.cmake includes this before every source; newer versions of libc++ have all of it.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # WebAssembly by Emscripten of Debian (emscripten): programs for Node.js, with the files of the machine. Packages come
 # from scripts/cross-packages web.
 set(LSYS_EMSCRIPTEN /usr/share/emscripten)

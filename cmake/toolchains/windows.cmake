@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Windows on x86-64 by MinGW-w64 of Debian (g++-mingw-w64-x86-64-posix). The programs need no library but those of
 # Windows. Packages come from scripts/cross-packages windows; Wine runs tests.
 set(CMAKE_SYSTEM_NAME Windows)

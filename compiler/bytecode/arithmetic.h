@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The arithmetic of expressions (docs/language.md section 4). Every value is an IEEE binary32. The
 // operators + - * / and sqrt round correctly; other functions and powers are computed in binary64
 // and rounded once. Constant folding and evaluation use these functions, so both give the same

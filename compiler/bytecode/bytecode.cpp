@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/bytecode.h"
 
 #include "compiler/bytecode/impl/bytecode_contents.h"

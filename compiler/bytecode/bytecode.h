@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytecode: a compiled L-system, the contract of compiler and runtime. Made by compiler/lower or
 // read from a .lsb file; the runtime sees nothing else of the compiler. It is self-contained,
 // immutable and passes verify().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Curves: functions through points, monotone between them (docs/language.md section 4.7).
 #pragma once
 

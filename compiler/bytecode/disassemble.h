@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The text listing of Bytecode: `lsc dump --stage bytecode`. Precondition: verify() accepts it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Distributions (docs/language.md section 4.8). Each random number is computed from one draw in
 // [0, 1).
 #pragma once

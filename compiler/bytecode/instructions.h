@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads instructions one by one; opcodes.def defines their encoding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The one interpreter of expressions: a stack machine over instructions whose values and arithmetic
 // are defined by a Domain. Numbers evaluate an expression. Approximations of numbers (known or not,
 // constant or affine, monotone or not) find properties of its result before its inputs are known:

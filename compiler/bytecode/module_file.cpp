@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The layout of a .lsb file. Numbers are little-endian; f32 is the bits of an IEEE binary32.
 //
 //   offset  size

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The .lsb file: Bytecode as little-endian bytes with magic, version, sizes and a checksum; the
 // .cpp draws the layout. Reading checks everything, trusts no size and ends with verify().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes of a whole system, set by `#set`: the table settings.def as a struct. Shared by
 // Program and Bytecode. Stages after the resolver read these fields and no characters or keywords.
 #pragma once

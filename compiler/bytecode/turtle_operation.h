@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The operations of the turtle: turtle_operations.def as an enum and a table. Code that
 // distinguishes operations reads a column of the table; no other list of operations exists.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Verification of Bytecode: every index in range, stacks balanced, operands of the right kind,
 // formals numbered in order, folded constants finite, rules and groups dense. Debug builds verify
 // emitted bytecode; a loaded file is always verified. Verified bytecode runs without more checks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/condition_grid.h"
 
 #include "compiler/bytecode/arithmetic.h"

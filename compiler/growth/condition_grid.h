@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parameter space of a module cut into cells in which no condition of a set changes its truth:
 // evaluating the conditions at one point of each cell decides them everywhere. Exact for binary32,
 // since cuts lie between neighbouring numbers. Conditions may compare a parameter, or a monotone

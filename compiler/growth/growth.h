@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The growth of words without a derivation: counts of modules per generation by the growth matrix
 // (Rozenberg & Salomaa 1980; ABOP 1.9) over classes of modules that are rewritten alike. Counts are
 // exact if every class has one outcome, else they are bounds. Used by the checks, by `lsc stats`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The productions of each symbol and of each stochastic group, and the relevant parameters: those
 // that a condition reads, and those from which successors compute relevant parameters.
 #pragma once

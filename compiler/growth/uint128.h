@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uint128: an unsigned integer of 128 bits in standard C++, for counts that outgrow 64 bits.
 // Addition, subtraction and multiplication wrap; the checked forms return nothing instead.
 #pragma once

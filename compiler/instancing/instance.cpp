@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/instancing/instance.h"
 
 #include "compiler/instancing/impl/branches.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Instancing (docs/language.md section 9): from a checked Program to the bytecode of its instanced
 // system, and the list of the productions of that system.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lint/checks.h"
 
 #include "compiler/lint/impl/lints.h"

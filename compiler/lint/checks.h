@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The checks of a Program: the rules of docs/language.md that need the whole program, and lints for
 // likely mistakes. Each check is one function in a file of its own; checks.cpp lists them.
 // Checks run in the order of that list, after lowering, so that they can also read the bytecode.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lower/lower.h"
 
 #include "compiler/bytecode/distributions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Program to Bytecode: symbols and constant modules become codes, words become templates,
 // expressions become instructions. The tables have the order that bytecode.h describes.
 #pragma once

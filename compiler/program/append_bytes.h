@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Builds a hash table key from the bytes of several values.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of a compilation, for every step from the Ast to the Bytecode.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/program/message_words.h"
 
 #include "grammar/base/number_chars.h"

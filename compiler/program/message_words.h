@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words of messages about modules and numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/program/module_text.h"
 
 #include <cstdint>

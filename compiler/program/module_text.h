@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the end of a module in the source text, since a Program stores only the begin.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/program/program.h"
 
 namespace lsys {

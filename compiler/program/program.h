@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Program: the resolved system. Names are symbols, constants are values, conditions and
 // probabilities are separate, joined names are split. Made by resolve/ from an Ast, changed by
 // instancing/, lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.

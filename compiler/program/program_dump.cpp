@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/program/program_dump.h"
 
 #include "compiler/bytecode/distributions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The text form of a Program: `lsc dump --stage program`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/profiles.h"
 
 #include "grammar/base/contract.h"

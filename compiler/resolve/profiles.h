@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The turtle profiles of docs/language.md section 7 as data: the commands of each profile, whose
 // names are in turtle_profiles.def. Read where symbols are made and by the checks; the runtime sees
 // operations only.

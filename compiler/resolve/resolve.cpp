@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/resolve.h"
 
 #include "compiler/resolve/impl/attempts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The resolution: Ast to Program. Applies the rules of docs/language.md about names, numbers and
 // the form of productions; compiler/lint has the rules about whole programs.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiles a text from memory and lists its mistakes as data, as an editor would.
 // Usage: diagnostics < FILE
 #include <iostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A forest in the buffers of a renderer: vertices and indices of each mesh, a matrix for each
 // instance, and the list of draws for glMultiDrawElementsIndirect.
 // Usage: instance_buffer FILE COUNT

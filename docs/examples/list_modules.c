@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* The C interface: derives a word and lists its modules; then counts the triangles of its plant.
  * Usage: list_modules FILE */
 #include <lsys.h>

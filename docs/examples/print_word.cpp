@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiles a grammar and prints its word. Usage: print_word FILE [GENERATIONS]
 #include <cstdlib>
 #include <iostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* Grows trees at places of its own, prints their draws, and writes them as a file.
  * Usage: save_forest GRAMMAR OUTPUT */
 #include <lsys.h>

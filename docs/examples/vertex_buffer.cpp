@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes a plant into a vertex buffer and an index buffer, laid out as a renderer wants them.
 // Usage: vertex_buffer FILE
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/ast.h"
 
 #include "grammar/base/contract.h"

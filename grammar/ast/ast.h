@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ast: the syntax tree of a grammar, made by the parser and read by the resolver.
 // Nodes lie in vectors and refer to each other by typed ids. Children precede their parents, so a
 // pass over a vector visits leaves first and needs no recursion. Statements of included files stand

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/ast_builder.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/ast_dump.h"
 
 #include "grammar/base/number_chars.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The text form of an Ast, for `lsc dump --stage ast`: one statement per line, modules as written,
 // expressions in prefix notation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/include_chain.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // IncludeChain: the files from the root to the innermost #include, and all files read so far.
 // Decides whether one more file may be included.
 #pragma once

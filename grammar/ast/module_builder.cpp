@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The module lists of AstBuilder. A run of names is one token and is split here: the hot loop of
 // the front end, since an axiom may have a hundred million modules.
 #include "grammar/ast/ast_builder.h"

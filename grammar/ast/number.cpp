@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/number.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Number literals: text to binary32, correctly rounded. Used by the scanner and, for plain
 // arguments, by AstBuilder.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inputs and outputs of every front end. Front ends read no files; the host supplies included files
 // through FileLoader.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/reports.h"
 
 #include "grammar/base/text_form.h"

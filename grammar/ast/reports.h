@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Diagnostics of AstBuilder and the scanner.
 #pragma once
 

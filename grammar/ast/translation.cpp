@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/translation.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Translation: a grammar of another dialect as .lsys text, with the source span of each part. Made
 // by the front ends of other dialects and parsed by the .lsys front end with places of the original
 // file, so that diagnostics point there. `lsc import` writes the text.

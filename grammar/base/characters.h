@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Classes of ASCII characters, independent of the locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ChunkedVector<T>: an append-only sequence in blocks of fixed size. Growing moves and copies no
 // elements, because files may have a hundred million modules.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Confusables (Unicode TS 39): characters that look like an ASCII character and stand in its place
 // in text copied from PDF files and word processors.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Assertions about this program, never about an author's input.
 // LSYS_CHECK is always on: a failure prints the place and the values and ends the process.
 // LSYS_DCHECK is for costly checks, in debug builds only.

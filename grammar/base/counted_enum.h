@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Enums and structs with their numbers of enumerators and fields as constants, for tables, range
 // checks and file versions.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A number with its unit, as messages and dumps write it: `1 rule`, `2 rules`.
 #pragma once
 

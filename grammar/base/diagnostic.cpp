@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/diagnostic.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Diagnostics: messages to the author of a grammar, as data. Checks append them; the renderer
 // prints them as frames, lines or JSON. They hold no line numbers, no colours and no text of the
 // file.

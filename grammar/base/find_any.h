@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Search for the first of a few characters.
 #pragma once
 

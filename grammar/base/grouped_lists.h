@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lists of numbers by key in one array, made by a counting sort.
 #pragma once
 

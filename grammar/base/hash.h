@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hash functions, none of them for security. Their constants are part of files, pictures and
 // printed numbers and must not change: checksums of .lsb and state files (combine, combine_bytes,
 // finish), bark and leaf textures, positions of trees, ground noise, digests of forests and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/local_values.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where local values stand in a production (docs/language.md section 4.5).
 #pragma once
 

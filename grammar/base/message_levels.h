@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which diagnostics are errors, warnings or hidden: the options --allow, --warn and --deny, and the comments
 // `/* lsc: allow CODE */` of grammars. Errors stay errors.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/names.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Interned names: equal ids mean equal texts, so later stages compare ids. Made by the front ends,
 // read by all later stages of a compilation.
 #pragma once

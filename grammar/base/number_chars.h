@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers as characters, by std::from_chars and std::to_chars. The only place that calls them for
 // floating-point numbers: where the standard library lacks those (libc++), impl/portable_chars.h
 // gives the same values and the same characters.

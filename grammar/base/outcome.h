@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outcome<T>: a value or the reason for its absence, with the messages of the step. Returned by
 // every step of the pipeline, which may end by mistakes of the author, the environment, a limit or
 // the user. Result<T> is for a single failure of the environment without diagnostics.

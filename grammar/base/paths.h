@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Paths of files as text: UTF-8 with `/` between the names. On Windows a path that a user gives may
 // also have backslashes and the letter of a drive.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Result<T>: a value or a failure of the environment (a missing file, a full disk, a damaged module
 // file, a file larger than the memory limit). Mistakes of authors are Diagnostics.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/source.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Source text and places in it. A SourceMap owns the files of a compilation; all stages name places
 // as SourceSpan, a file and two byte offsets. Only the renderer computes lines, columns, tabs and
 // widths of characters.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stage of a derivation that applies a production.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/synonyms.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether the bytes of a file are text. UTF-16 and binary files get one message instead of one for
 // each byte that is illegal in a grammar.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/utf8.h"
 
 #include "grammar/base/contract.h"

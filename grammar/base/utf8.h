@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Code points of UTF-8 text, one at a time. The text may be any bytes; a byte that is not part of a
 // valid sequence counts as one character.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/dialect.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Dialects: the formats in which grammars are written, how the dialect of a file is recognised, and
 // the front ends of foreign ones, which translate a file to .lsys text (grammar/ast/translation.h).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/other_language.h"
 
 #include "grammar/base/characters.h"

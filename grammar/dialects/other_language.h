@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Recognition of files whose text is in another language than their name says: a cpfg model, JSON
 // or Markdown named `.lsys`. They get one message, which names the language, instead of one for
 // each line.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The formatter of `lsc fmt`: one statement per line; neighbouring statements and the comments
 // after them aligned in columns; line ends between modules, comments and single blank lines kept;
 // long lines broken. It works on tokens, so it keeps the meaning of a file, and it is idempotent.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/format/tokens.h"
 
 #include "grammar/format/impl/lexemes.h"

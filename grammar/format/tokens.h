@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tokens of a file as text, for `lsc dump --stage tokens`: place, kind and text of each token
 // and comment.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/parse.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The .lsys front end: text to Ast.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The .lsys front end with a form of module names that replaces the `#set names` of the file.
 #pragma once
 

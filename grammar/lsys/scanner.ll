@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The tokens of .lsys files. Positions are byte offsets of the scanned text; Flex holds a copy of it. A run of
    module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an axiom may have a hundred
    million modules. No long pattern contains NUL, at which Flex rescans the token from its start. Mistakes are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Diagnostics as text: frames for people, lines for editors, JSON for tools. The only code that
 // knows lines, columns, tab stops and widths of characters.
 #pragma once

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the sessions of "Five minutes" of README.md with installed programs and compares what they print.
 
 Commands of programs that are not named are left out, and so are windows. Usage: read-me.py README.md PROGRAM...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Debian packages by CPack: `cpack` in the build folder, or scripts/package.
 set(LSYS_MAINTAINER "The lsc authors <lsc@example.org>" CACHE STRING "Maintainer of the Debian packages")
 set(LSYS_DEBIAN_REVISION "1" CACHE STRING "Revision of the Debian packages, after the version")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "packaging/pages/completion.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "packaging/pages/command_text.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line of a program as data, read from its CLI11 tree. Man pages and completions of shells are
 // written from it, so they name the commands, options and values that the program takes.
 #pragma once

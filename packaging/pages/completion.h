@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Completions of shells: scripts that offer commands, options, values and files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the man pages and completions of lsc: lsc_pages FOLDER DATE VERSION.
 #include "packaging/pages/lsc_values.h"
 #include "packaging/pages/write_pages.h"

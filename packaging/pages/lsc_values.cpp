@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "packaging/pages/lsc_values.h"
 
 #include "packaging/pages/write_pages.h"

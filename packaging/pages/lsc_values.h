@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line of lsc as data, with words and extensions for completion.
 #pragma once
 

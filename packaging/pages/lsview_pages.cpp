@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the man page and completions of lsview: lsview_pages FOLDER DATE VERSION.
 #include "packaging/pages/write_pages.h"
 #include "viewer/app/options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "packaging/pages/manual_page.h"
 
 #include <fmt/format.h>

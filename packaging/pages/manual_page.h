@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Man pages in the language of man(7), from the texts of --help.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Runs a writer of pages with the date of the commit.
 file(READ "${DATE}" date)
 string(STRIP "${date}" date)

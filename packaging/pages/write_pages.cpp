@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "packaging/pages/write_pages.h"
 
 #include "grammar/base/diagnostic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the man pages and the completions of a program into folders as they are installed:
 // man/NAME.1, bash/NAME, zsh/_NAME, fish/NAME.fish.
 #pragma once

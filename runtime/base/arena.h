@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Arena: anonymous memory, mapped from the system, that grows without keeping its contents and is
 // never initialised. Holds the words of a derivation and tables by module.
 #pragma once

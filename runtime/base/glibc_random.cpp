@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/glibc_random.h"
 
 namespace lsys {

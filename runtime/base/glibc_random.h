@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GlibcRandom: the numbers of glibc's rand(), an additive feedback generator of 31 words, r[i] =
 // r[i - 31] + r[i - 3] modulo 2^32, of which the upper 31 bits are returned. Its first words come
 // from the multiplicative generator 16807 modulo 2^31 - 1, and the first 310 sums are discarded.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/grey_map.h"
 
 #include "runtime/base/png_samples.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GreyMap: a picture of one channel, such as heights of a terrain or densities of a forest. Row 0
 // lies at the lowest Z and column 0 at the lowest X, so the picture shows the ground from above.
 #pragma once

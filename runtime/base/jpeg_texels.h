@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Texels of JPEG files (ITU-T T.81), read by stb_image without SIMD instructions, so that a file
 // decodes to the same bytes on every machine.
 #pragma once

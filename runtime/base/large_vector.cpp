@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/large_vector.h"
 
 #include "runtime/platform/memory.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LargeVector: a std::vector for millions of items. Large blocks are on huge pages, on which fresh
 // memory is two to five times as fast to write. resize() leaves items of trivial types
 // uninitialised, so that they are written once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Limits of a run, and the report of a run that reached one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Conversion of exceptions for missing memory into a value. Within a library std::bad_alloc and
 // std::length_error may be thrown anywhere; its public functions that build large results catch
 // both here and return a status instead (runtime/README.md, "Memory").

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Samples of PNG files (W3C, "Portable Network Graphics Specification", third edition, 2025), read
 // and written by libpng for maps and textures.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/random.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Arithmetic of sizes that stays at the maximum of the type instead of wrapping.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/size_text.h"
 
 #include <fmt/format.h>

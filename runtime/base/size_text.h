@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers and sizes in messages.
 #pragma once
 

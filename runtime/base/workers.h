@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Workers: a team of threads. Work is divided into numbered pieces; results never depend on which
 // thread takes which piece.
 #pragma once

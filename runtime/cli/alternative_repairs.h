@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Alternative repairs of a statement with a missing, doubled or mistyped bracket or comma. The
 // repair that the parser proposes is certain only if no alternative is as plausible.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chooses the fixes for one round of `lsc check --fix`, and applies them to texts.
 #pragma once
 

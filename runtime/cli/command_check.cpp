@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "grammar/base/counted_text.h"
 #include "runtime/cli/commands.h"

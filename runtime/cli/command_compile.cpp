@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"

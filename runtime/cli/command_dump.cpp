@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/disassemble.h"
 #include "compiler/instancing/instance.h"
 #include "compiler/program/program_dump.h"

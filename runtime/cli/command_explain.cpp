@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/diagnostic.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/explanations.h"

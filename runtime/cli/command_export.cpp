@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/export_stats.h"

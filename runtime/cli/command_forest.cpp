@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/export/export_forest.h"

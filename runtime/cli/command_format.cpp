@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"

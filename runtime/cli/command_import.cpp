@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 #include "grammar/format/format.h"

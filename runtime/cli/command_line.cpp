@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/command_line.h"
 
 #include "grammar/base/diagnostic.h"

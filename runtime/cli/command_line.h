@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line of lsc, parsed into the options of one command.
 #pragma once
 

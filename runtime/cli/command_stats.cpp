@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/growth.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/commands.h"
 #include "runtime/cli/progress.h"
 #include "runtime/pipeline/grammar.h"

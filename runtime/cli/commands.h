@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The functions of the commands: each overload of run_command(), in command_<name>.cpp, runs a
 // command and returns its exit status.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/derivation_report.h"
 
 #include "runtime/pipeline/plant.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Messages and exit status of a derivation that a command runs itself.
 #pragma once
 

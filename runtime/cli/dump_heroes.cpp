@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/dump_heroes.h"
 
 #include "compiler/instancing/instance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsc dump --stage heroes` and `--stage cache`: the words of the hero plants of an instanced
 // system, and the branches recorded from them (docs/language.md section 9).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/dump_word.h"
 
 #include "grammar/base/counted_text.h"

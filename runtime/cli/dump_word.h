@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The derived word as text: `lsc dump --stage word`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // EditedFile: a file during `lsc check --fix`; maps places of the edited text to statements of the
 // original.
 #pragma once

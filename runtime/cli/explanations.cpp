@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/explanations.h"
 
 namespace lsys::lsc {

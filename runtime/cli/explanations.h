@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The explanations of diagnostics, grammar/explanations.md, compiled into the program. Used by `lsc
 // explain` and the test that runs all examples.
 #pragma once

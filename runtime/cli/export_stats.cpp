@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/export_stats.h"
 
 #include "runtime/derive/runtime_diagnostic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The statistics of `lsc export --stats`.
 #pragma once
 

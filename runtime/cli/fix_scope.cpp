@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/fix_scope.h"
 
 #include "runtime/pipeline/grammar.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The files that `lsc check --fix` may write.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/fixes.h"
 
 #include "runtime/cli/repair_attempt.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsc check --fix`: applies the certain fixes of a grammar and its included files in memory until
 // none is left. Rules that keep the meaning intended by the author:
 //

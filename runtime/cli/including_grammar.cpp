@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/including_grammar.h"
 
 #include "grammar/base/paths.h"

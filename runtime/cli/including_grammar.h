@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds a grammar that includes a file, which shows that the file is only a part of a grammar.
 #pragma once
 

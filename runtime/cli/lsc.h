@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The program `lsc` as a function with arguments, streams and exit status, for in-process tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/lsc.h"
 #include "runtime/program/process.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/mistyped_signs.h"
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Signs that a repair adds may have been typed as another character: `F A` before the next
 // statement lacks its `;`, unless `A` is a mistyped `;`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/module_lines.h"
 
 #include <algorithm>

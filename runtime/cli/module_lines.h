@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A word as text with the origin of each module, one module per line.
 #pragma once
 

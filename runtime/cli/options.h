@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The options of each command, one struct per command. Made by command_line.cpp.
 #pragma once
 

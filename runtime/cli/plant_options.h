@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the options of grow_plant() from the options of a command.
 #pragma once
 

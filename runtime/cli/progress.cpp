@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/progress.h"
 
 #include <fmt/format.h>

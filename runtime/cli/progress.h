@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A progress bar on a terminal for derivations of more than one second. Any thread may update it,
 // but never two at once.
 #pragma once

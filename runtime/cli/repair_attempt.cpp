@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/repair_attempt.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // RepairAttempt: one attempt of `lsc check --fix`. Finds doubtful statements, whose repair is wrong
 // or ambiguous; fixes.cpp repeats the attempt without them.
 #pragma once

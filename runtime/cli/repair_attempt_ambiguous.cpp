@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // RepairAttempt::ambiguous_statements(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
 #include "runtime/cli/alternative_repairs.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/unified_diff.h"
 
 #include <fmt/format.h>

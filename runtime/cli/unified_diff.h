@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Unified diff of two texts: the lines that differ, with context, as `diff -u` writes and `patch`
 // reads them.
 #pragma once

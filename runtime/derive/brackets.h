@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Brackets of words and templates: whether every `]` has its `[`, and every `}` its `{`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/derive.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Derivation: from Bytecode to words, generation by generation (docs/language.md sections 4 to 6).
 // The result depends on bytecode, seed and number of generations alone, not on threads or chunks.
 #pragma once

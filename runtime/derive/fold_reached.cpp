@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/fold_reached.h"
 
 #include "runtime/derive/engine/eval.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Folds the modules that a derivation can reach. If modules have few different tuples of arguments,
 // as in most published systems (lengths that grow by a factor per generation, counters that run
 // down), a module with its arguments becomes one code. Words then store no parameters, conditions

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/interpretation.h"
 
 #include "runtime/derive/engine/levels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Interpretation: applies the productions of `#interpret` to a derived word in passes, and gives the
 // modules to draw to a sink. No word of a pass is stored.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/origin.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Origin: the place in the program that wrote a module of a word. A module keeps its origin until
 // it is rewritten. Derivations keep origins on request (DeriveOptions::origins); the turtle gives
 // each segment, object and polygon the origin of the module that drew it.

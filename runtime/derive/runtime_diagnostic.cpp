@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/runtime_diagnostic.h"
 
 #include "compiler/bytecode/distributions.h"

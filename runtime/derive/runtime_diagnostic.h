@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Messages to the grammar's author about errors and limits of a derivation. Made from a
 // RuntimeError or LimitReport and the bytecode alone, so that they are the same for a source file
 // and for a .lsb file.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Layout, little-endian, without gaps:
 //   0  magic "lsystate"
 //   8  version            u32    12  bytecode version    u32

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // State files: derivations saved before their end (`--save-state`, `--from`). A file holds the
 // digest of the program, seed, number of generations, age and word, with magic, versions and a
 // checksum; state_file.cpp shows the layout.

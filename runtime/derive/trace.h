@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trace: explains how one step of a derivation rewrote some modules. A direct evaluator follows
 // docs/language.md sections 5 and 6 sentence by sentence, without the tables of engine/, and
 // compares each successor with the successor that the engine wrote.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/word_text.h"
 
 #include "grammar/base/names.h"

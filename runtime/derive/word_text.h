@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A word as text (docs/language.md section 10), which parses again as the axiom of the same file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Export: writes a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a
 // sink in pieces and in order, large arrays straight from memory; no file is held in memory as a
 // whole. Input are the results of make_mesh() and the turtle; the command line owns the files.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/export_forest.h"
 
 #include "grammar/base/contract.h"

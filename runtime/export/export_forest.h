@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Export of forests: trees as instances of shared surfaces, as nodes, or as one mesh. Bytes go to a
 // sink in pieces; memory holds only some trees of one cell of the ground. Metres, +Y up. The same
 // forest gives the same bytes, for any number of threads.

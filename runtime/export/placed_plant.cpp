@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/placed_plant.h"
 
 #include "runtime/meshing/mesh_film.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The place of a plant in a file: its pivot at the origin, lengths in the unit of the file. Used by
 // the command line between drawing and export.
 #pragma once

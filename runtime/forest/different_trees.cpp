@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/different_trees.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The number of distinct shapes among the trees of a forest.
 #pragma once
 

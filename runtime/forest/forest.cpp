@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/forest.h"
 
 #include "grammar/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forest: species with their instance caches, and trees as small records. Branches of a tree are
 // computed on demand and not stored.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/instance_cache.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // InstanceCache: the branches of a few hero plants of an instanced system. Any number of distinct
 // plants can be assembled from them (Kenwood, Gain and Marais 2014; docs/language.md section 9). An
 // instance is a part of the common skeleton of the heroes with an entry, and exits where other

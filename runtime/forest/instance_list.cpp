@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/instance_list.h"
 
 #include "runtime/base/out_of_memory.h"

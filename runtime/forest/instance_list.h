@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // InstanceList: all branch instances of a forest as one array, grouped by mesh for renderers. Made by
 // make_instance_list(); used by the public library.
 #pragma once

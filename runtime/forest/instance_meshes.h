@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // InstanceMeshes: the surfaces of the instances of a cache. The common skeleton of the heroes is
 // meshed once; an instance is a list of triangles of this mesh, so nested instances share vertices.
 // Made by make_instance_meshes(); used by exporters and viewers of forests.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/instance_skeleton.h"
 
 #include <iterator>

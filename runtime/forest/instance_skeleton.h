@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The skeleton of one instance of a cache, with segments numbered from 0.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tree: a plant of a forest as a small record. Its shape is a function of the record, the instance
 // cache of its species and the key of the forest (docs/language.md section 9). A forest is an array
 // of trees.

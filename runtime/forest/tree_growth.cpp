@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/tree_growth.h"
 
 #include <cstddef>

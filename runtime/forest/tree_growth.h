@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trees of a growing forest between two consecutive years.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/forest/tree_heights.h"
 
 #include "runtime/base/workers.h"

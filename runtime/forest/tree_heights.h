@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights of the trees of a forest: measures trees that are assembled from instances, and computes
 // the scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
 // after the placement. A height depends only on the cache, the key of the forest and the tree.

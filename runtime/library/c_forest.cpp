@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C interface of files and forests.
 #include "runtime/library/impl/c_interface.h"
 

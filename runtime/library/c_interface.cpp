@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C interface, on top of the C++ one. No exception passes it.
 #include "runtime/library/impl/c_interface.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/export.h"
 
 #include "grammar/base/paths.h"

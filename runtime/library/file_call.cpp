@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/library/impl/file_call.h"
 
 #include "runtime/library/impl/call.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "compiler/growth/growth.h"
 #include "runtime/library/impl/call.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/source.h"
 #include "runtime/library/impl/message_data.h"
 #include "runtime/program/console.h"

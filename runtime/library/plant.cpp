@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/turtle_operation.h"
 #include "grammar/base/paths.h"
 #include "runtime/base/workers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <lsys/api.h>
 
 namespace lsys::v0 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/word_text.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"

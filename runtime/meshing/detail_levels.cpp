@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/detail_levels.h"
 
 #include "runtime/base/out_of_memory.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // DetailLevels: a chain of meshes of one plant, each with a half to a third of the triangles of the
 // one before, down to kMinDetailTriangles. The first steps have fewer sides and joints
 // (MeshOptions::level); coarser levels leave out whole twigs and leaves and enlarge the others; the

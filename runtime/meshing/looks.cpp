@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/looks.h"
 
 #include "runtime/meshing/impl/linear_textures.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Looks: the appearance of colour indexes that have a `#material` (docs/language.md section 7.7),
 // with its pictures read. Made by the pipeline; meshers give it to materials.
 #pragma once

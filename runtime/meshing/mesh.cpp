@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/mesh.h"
 
 #include "runtime/base/out_of_memory.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mesh: triangles made from a skeleton. Arrays of vertices are parallel. Triangles are
 // counter-clockwise seen from outside. Metres, right-handed, +Y up; v of texture coordinates goes
 // down, as in glTF.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // MeshFilm: successive frames of a growing plant as morph-target shapes. Frames with the same
 // triangles and materials are one shape, whose vertices move; a frame that differs in these begins
 // another shape. Made by MeshFilmBuilder; written by runtime/export as morph targets.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The segment, object or polygon of a skeleton to which a triangle of its mesh belongs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/mesh.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/shapes.h"
 
 #include "runtime/meshing/impl/surfaces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The object library as meshes of unit size along +Y from the origin (docs/language.md section 7):
 //
 //   LEAF        length 1, width 0.5; upper side +Z, the tip and the edges bent

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/texture.h"
 
 #include "grammar/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Textures: pictures of materials, computed or read from files. Computed ones are equal on every
 // machine and near white, to be multiplied by the colour of a material. Used by exporters and
 // viewers.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/jpeg_texels.h"
 #include "runtime/base/png_samples.h"
 #include "runtime/meshing/texture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/triangle_list.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TriangleList: the compressed indices of a mesh, three per triangle. Regular triangles are stored
 // as bands between rings, and as fans. Plain indices of a tube take as much memory as its positions
 // and normals; bands take some bytes per axis. This saves time, because writing memory is most of

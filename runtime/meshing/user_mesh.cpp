@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/user_mesh.h"
 
 #include "grammar/base/hash.h"

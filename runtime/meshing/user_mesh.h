@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes of `#object X "leaf.obj"`: Wavefront OBJ, its geometry (v, vt, vn, f) and the names
 // of its materials (mtllib, usemtl). Other lines are skipped. The resulting mesh has unit normals,
 // valid indices, no triangle without area, and v that goes down.

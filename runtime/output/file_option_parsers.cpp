@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/file_option_parsers.h"
 
 #include "runtime/meshing/detail_levels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of files of plants and forests: added to a command line, or parsed from names and values for
 // the public library.
 #pragma once

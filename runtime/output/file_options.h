@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of files of plants and forests: one struct for each. Made by file_option_parsers.h from
 // texts; read by plant_files.h and forest_files.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The output of a forest, and its options that conflict.
 #include "runtime/output/forest_files.h"
 #include "runtime/output/surface_options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/lod_files.h"
 
 #include "grammar/base/paths.h"

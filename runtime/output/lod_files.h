@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of levels of detail: their names, the distance and screen coverage at which a level is shown,
 // and the list of the files as JSON, which the importers in scripts/engines read.
 #pragma once

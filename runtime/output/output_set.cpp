@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/output_set.h"
 
 #include <filesystem>

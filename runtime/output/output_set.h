@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The files that a command or call writes together: on disk, all of them appear or none; a receiver
 // gets them in order.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of files of plants that conflict.
 #include "runtime/output/plant_files.h"
 #include "runtime/output/surface_options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/plant_files.h"
 
 #include "grammar/base/paths.h"

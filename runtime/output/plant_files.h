@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes a plant as files: one, or one for each level of detail or frame, with the pictures,
 // materials and buffers beside it. Used by `lsc export` and the public library.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/counted_text.h"
 #include "runtime/derive/runtime_diagnostic.h"
 #include "runtime/meshing/mesh_film.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/presets.h"
 
 #include <fmt/format.h>

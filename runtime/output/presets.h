@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Presets: sets of options for the program that will read a file. A preset only adds options to the
 // command line: options given by the user have priority.
 #pragma once

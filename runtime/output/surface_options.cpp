@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/output/surface_options.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks options of mesh files that only some formats accept.
 #pragma once
 

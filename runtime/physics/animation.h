@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
 // polygons move rigidly with their parent segment; without a parent they stand still. With the
 // ground, no end of an object and no corner that is above y = 0 at rest is below y = 0 in a frame:

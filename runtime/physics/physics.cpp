@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spring-joint physics of plants: Crankshaw 2019, chapter 6, after Barron, Sorge and Davis 2001,
 // "Real-time procedural animation of trees". As in both works, a segment turns about its base against
 // a spring and a damper, moved by weight and wind, and carries its children. Differences:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The physics of a plant: every segment of a skeleton is a rigid body on a spring joint at its
 // base (Crankshaw 2019, chapter 6, after Barron et al. 2001), bent by its weight and by wind.
 // Metres, kilograms, seconds, radians. Made from the skeleton at rest; gives bent skeletons.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
 // derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints and w . G w of the
 // weight, which has no coupling between bodies (see impl/joints.cpp). G is -m g y about the level

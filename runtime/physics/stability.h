@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stability: whether a plant bears its own weight, and the stiffness or width that it needs for this.
 // For reports and warnings; the simulation does not use it.
 #pragma once

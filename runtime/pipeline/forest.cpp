@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/forest.h"
 
 #include "compiler/instancing/instance.h"

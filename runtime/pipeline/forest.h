@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws the
 // heroes of each species, and places the trees.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/forest_growth.h"
 
 #include "runtime/pipeline/step.h"

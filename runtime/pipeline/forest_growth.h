@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestGrowth: computes a forest at any moment of its growth. With domination a forest grows by
 // years; with other placements, whose trees have stages, a year is one stage.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/forest_lods.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestLods: a forest of whole heroes, in which each tree has the level of detail for its distance
 // from a viewpoint. Each level of a species becomes a species of its own, so that writers of forests
 // need no code for levels. Made by make_forest_lods(); used by the command line.

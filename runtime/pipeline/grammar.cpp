@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/grammar.h"
 
 #include "compiler/bytecode/module_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grammar: a file as checked bytecode. Reads the file and its includes, parses and compiles them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/growth_forecast.h"
 
 #include "compiler/growth/growth.h"

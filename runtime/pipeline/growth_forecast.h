@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Predictions of word sizes before deriving: limits that words will exceed, and numbers of modules.
 // Exact, except expect_modules(). Programs of more than 10,000 productions have no predictions,
 // which would be slow.

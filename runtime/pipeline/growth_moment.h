@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GrowthMoment: a time between two generations of a plant or two years of a forest.
 #pragma once
 

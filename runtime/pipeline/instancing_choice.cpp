@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/instancing_choice.h"
 
 #include "grammar/base/counted_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chooses heroes, rho and cache cap for a wanted share of different trees in limited memory
 // (`--variety`, `--memory`).
 #pragma once

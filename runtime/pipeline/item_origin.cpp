@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/item_origin.h"
 
 #include "runtime/base/out_of_memory.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the module of a word that drew a segment, object or polygon of its plant, and the production
 // that wrote this module. Derives the word again, since a plant stores neither.
 #pragma once

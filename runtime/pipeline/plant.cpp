@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/plant.h"
 
 #include "runtime/derive/fold_reached.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plant: derives and draws a compiled grammar as a skeleton, and meshes it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/plant_growth.h"
 
 #include "grammar/base/contract.h"

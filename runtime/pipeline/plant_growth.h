@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantGrowth: computes a plant at any moment between its generations. Derives forwards and stores
 // the skeletons of two generations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Project: input that all steps of the pipeline share: the host, which reads files and shows
 // progress, and the limits of a run.
 #pragma once

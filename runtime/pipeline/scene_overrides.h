@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SceneOverrides: values of a command line or a window that replace those of a scene. Unset fields
 // keep the scene's value.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/setting_controls.h"
 
 #include "compiler/bytecode/settings.h"

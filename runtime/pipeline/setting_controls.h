@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SettingControl: a setting of a grammar with its value and its range, for widgets.
 #pragma once
 

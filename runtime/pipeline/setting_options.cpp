@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/setting_options.h"
 
 #include "compiler/compile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Values of `#set` from options: each pair of key and text becomes a statement in a file of its
 // own, so that diagnostics have places.
 #pragma once

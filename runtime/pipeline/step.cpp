@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/step.h"
 
 #include "runtime/pipeline/grammar.h"

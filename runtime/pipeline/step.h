@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Step: a pipeline call in progress. Collects the messages of the call and makes its Outcome.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Durations for statistics of a run.
 #pragma once
 

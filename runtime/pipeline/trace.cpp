@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/trace.h"
 
 #include "grammar/base/contract.h"

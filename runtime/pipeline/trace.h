@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trace: explains how modules of one generation were rewritten, and from which modules they derive.
 // Derives a word, then traces the next step with the StepTracer of runtime/derive, whose result is
 // compared with the word that the engine writes.

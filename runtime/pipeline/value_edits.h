@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes values that a user has set, in a window or on a command line, into the text of a .lsys
 // grammar. All other bytes stay unchanged.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/domination.h"
 
 #include "runtime/placement/impl/check_options.h"

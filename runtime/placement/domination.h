@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Domination: simulates a forest that grows and thins itself, year by year, after Deussen et al. 1998,
 // "Realistic modeling and rendering of plant ecosystems", section 4.1. Every plant has a growing
 // circle of influence. If two circles overlap, the weaker plant is dominated: it grows less, and dies

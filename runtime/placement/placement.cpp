@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/placement.h"
 
 #include "runtime/placement/domination.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Placement: the trees of a forest, with position, species, scale and yaw. Every draw for a tree is
 // a function of the forest's key and the tree's number, so results are the same for any number of
 // threads and on any machine. runtime/placement/README.md describes each method.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Memory limits of containers: the control groups (cgroups) of Linux, as files of proc/ and sys/.
 #pragma once
 

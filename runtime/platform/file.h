@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of the system: opening, attributes, renaming. Names are UTF-8. Functions that may fail return
 // a Reason or a value with one, without a text: callers write the messages.
 #pragma once

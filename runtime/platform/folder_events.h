@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FolderEvents: waits for changes of the entries of folders, with inotify on Linux. Other systems
 // report no changes: callers compare stamps of files (file.h) at intervals.
 #pragma once

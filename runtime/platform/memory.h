@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Memory of the system: reserved pages, huge pages, and the amounts that the machine and the process
 // have.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The process and its environment: arguments, standard streams, terminal, and requests to end it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/arguments.h"
 
 #include "grammar/base/names.h"

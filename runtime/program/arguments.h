@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Values of options: numbers, sizes, definitions. Error messages state the allowed values.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/build_info.h"
 
 #include "runtime/base/workers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The build of the program, for `--version --verbose`.
 #pragma once
 

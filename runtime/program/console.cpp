@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/console.h"
 
 #include "grammar/rendering/render_diagnostic.h"

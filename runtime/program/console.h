@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Console: the only output of programs. Results go to standard output, messages to standard error
 // in the format of the options. The public library collects messages instead.
 #pragma once

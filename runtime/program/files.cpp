@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/files.h"
 
 #include "grammar/base/paths.h"

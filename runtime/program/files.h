@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading and writing of whole files. A file is written under a temporary name and renamed when it
 // is complete. `-` is standard input or output. Errors name the file unless noted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/host.h"
 
 #include "runtime/pipeline/grammar.h"

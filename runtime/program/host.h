@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The host of the pipeline in a program: files on disk, standard input, Ctrl-C.
 #pragma once
 

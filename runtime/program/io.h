@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Streams and state of the process, passed to programs so that tests run them in-process.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/memory_size.h"
 
 #include "runtime/platform/cgroup.h"

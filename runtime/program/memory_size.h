@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The memory of the machine or container, for the default of --max-memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The options that decide how messages are printed.
 #pragma once
 

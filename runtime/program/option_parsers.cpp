@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/option_parsers.h"
 
 #include "grammar/base/diagnostic.h"

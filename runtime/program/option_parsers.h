@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options shared by several commands, and the parsers of their values.
 #pragma once
 

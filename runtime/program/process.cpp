@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/process.h"
 
 #include "runtime/platform/process.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The process of a program: streams, terminal and signals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Limits of a run, from the options of commands that compile or derive.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/temporaries.h"
 
 #include "runtime/platform/file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of the temporary files of this process. Output registers them; the signal handlers of
 // process.cpp remove the files.
 #pragma once

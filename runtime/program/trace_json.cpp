@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/trace_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Traces as text for people and as JSON for tools: docs/trace.md describes both.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/counted_text.h"
 #include "grammar/rendering/render_diagnostic.h"
 #include "runtime/derive/word_text.h"

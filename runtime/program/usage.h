@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Results of a command line that runs no command. Not part of option_parsers.h, because that header
 // includes CLI11, which takes seconds to compile and which code that uses options does not need.
 #pragma once

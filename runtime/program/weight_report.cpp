@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/weight_report.h"
 
 #include <fmt/format.h>

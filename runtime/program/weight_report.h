@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reports on a plant under its weight: the table of `lsc stats --gravity`, and the warning of `lsc`
 // and `lsview` that a plant falls, with the widths or the stiffness with which it would stand.
 #pragma once

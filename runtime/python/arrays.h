@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Arrays of the library as arrays of numpy: read-only views that keep their owner alive.
 #pragma once
 

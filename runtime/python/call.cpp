@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/python/call.h"
 
 namespace lsys_python {

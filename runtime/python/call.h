@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A call of the library from Python: its options, the interpreter's lock, Ctrl-C, exceptions and
 // warnings.
 #pragma once

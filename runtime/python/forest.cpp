@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forests and their instances for Python.
 #include "runtime/python/arrays.h"
 #include "runtime/python/call.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Messages and grammars for Python.
 #include "runtime/python/call.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words for Python.
 #include "runtime/python/arrays.h"
 #include "runtime/python/call.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/scene/painting.h"
 
 #include "grammar/base/diagnostic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Painting: trees that a user has added to a forest, and trees that a user has erased. Part of a
 // scene; applied to the placed trees.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/scene/scene.h"
 
 #include "runtime/scene/impl/document.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene: the contents of a scene file: a ground, species, and the placement of their plants. A
 // scene file is TOML; samples/scenes/README.md lists its keys. Made by parse_scene(), then changed
 // by options of a command line. Callers open the files that a scene names.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/terrain/region.h"
 
 #include <fmt/format.h>

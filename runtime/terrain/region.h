@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Region: an axis-aligned rectangle of the ground, in metres. Half open, so that adjacent regions
 // share no point.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/terrain/terrain.h"
 
 #include "runtime/base/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Terrain: the ground of a forest. One function gives its height to placement, meshes and picking,
 // so that trees stand on the drawn ground. Metres, +Y up.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/growth.h"
 
 #include "runtime/turtle/impl/correspondence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SkeletonGrowth: interpolates a plant between two generations. New parts grow from size 0, parts
 // that are no longer drawn shrink to size 0, and other parts move from their old pose to the new
 // one. Made by runtime/pipeline from drawings of two words whose modules were followed

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sizes of a drawn plant: the widths of the pipe model and a height in metres (docs/language.md
 // section 7.5). Both change a skeleton after the turtle, widths first, and before all steps that
 // read metres: physics, meshing, placement.

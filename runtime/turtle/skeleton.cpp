@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/skeleton.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skeleton: the drawing of the turtle, without surfaces. Segments, objects and polygons are in the
 // order of drawing, so that a parent comes before its children. Metres, kilograms, right-handed
 // axes, +Y up. A frame is the unit quaternion that takes the turtle's axes at the start (right +X,

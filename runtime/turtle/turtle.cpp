@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/turtle.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The turtle: reads modules of a derived word in order and draws the skeleton (docs/language.md
 // section 7). No character has a meaning here: the compiler gives each symbol its operation. State
 // is in double precision, so that the frame stays orthonormal through ten million rotations and a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Faults of a drawing as messages to the grammar's author.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Imports a forest of lsc into Blender from the command line, without installing the add-on.
 
     blender --python scripts/blender/import_forest.py -- forest.glb [--save forest.blend]

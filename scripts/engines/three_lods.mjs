@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shows the levels of detail of a plant in three.js: a plugin of GLTFLoader for the files of
 // `lsc export -o tree.glb --lods N`, whose node has MSFT_lod and MSFT_screencoverage.
 //

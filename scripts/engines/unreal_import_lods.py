@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Imports the levels of detail of a plant as one static mesh of Unreal Engine 5.
 
 In the console of the editor: py unreal_import_lods.py tree.lods.json /Game/Trees

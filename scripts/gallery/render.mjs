@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Renders GLB files to PNG with three.js in headless Chromium, one picture per file.
 // Usage: node render.mjs SIZE FILE.glb=OUT.png[,az=DEGREES][,el=DEGREES][,at=SECONDS] ...
 // az turns the camera about the plant from the front, el raises the camera, at is the time of an animation.

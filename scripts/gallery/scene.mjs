@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One plant in daylight on level ground, or a plane drawing in front of a light wall.
 import * as THREE from 'three';
 import { GLTFLoader } from '/node_modules/three/examples/jsm/loaders/GLTFLoader.js';

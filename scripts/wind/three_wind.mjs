@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wind for plants of `lsc export --wind-data` in three.js. README.md has the formulas.
 //
 //     const { scene } = await new GLTFLoader().loadAsync('tree.glb');

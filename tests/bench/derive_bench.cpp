@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares derivation with hand-written programs for the same systems (tests/bench/limits.h), and
 // measures whole runs of `lsc`, in one run on one machine. Prints a table, and with
 // --benchmark_out=FILE writes the JSON of Google Benchmark. Asserts nothing about time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hand-written programs, each for one L-system: an upper bound of the speed that a general program
 // can reach on the machine. Each derives into the buffers of the caller and returns the number of
 // modules. tests/README.md names the systems W1 to W6.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shared helpers of the benchmarks: time, medians, and grammars compiled from text. A mistake in a
 // grammar ends the program.
 #pragma once

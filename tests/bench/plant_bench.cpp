@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares turtles and tubes with hand-written programs for the same words (tests/bench/limits.h),
 // in one run on one machine. Values are million vertices per second, the best of some runs; each
 // run gets fresh memory from the system and frees it after the measurement. `lines` are the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares whole runs of `lsc`, from start to exit, with a C++ program that prints one line and is
 // linked in the same way. The programs run alternately, so that a slow moment of the machine affects
 // all of them. Prints a table of medians. Asserts nothing about time.

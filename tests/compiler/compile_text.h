@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parses and compiles grammars from text, for tests of diagnostics and their places.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inputs so large that a quadratic step would exceed the time limit, yet small enough for every
 // test run.
 #include "tests/compiler/compile_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A small Bytecode that uses every table: the result of lowering
 //   #define s {1, 2};
 //   #ignore : f;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks that every diagnostic has an explanation, in order, and that the examples give the
 // diagnostics of their sections.
 #include "grammar/base/diagnostic.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Installs the add-on in Blender from its zip and uses it. Usage: addon_in_blender.py ROOT LSC FOLDER
 
 ROOT: the source tree. Starts Blender on itself with folders of its own; exit status 77 where there is none.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Has Blender's own importer of glTF read a forest, and prints seconds, memory and the box of its trees as JSON.
 
 Usage: blender --background --factory-startup --python box_in_blender.py -- FILE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares compressed glTF files with the plain file of the same plant, by the accessors of
 // glTF-Transform.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Counts the draw calls and triangles of a GLB in a viewer that makes no levels of detail: one call for each primitive
 // of each node of the scene, instanced or not. Usage: node count_draws.mjs FILE [MAX_CALLS MAX_TRIANGLES]
 // Fails if a count is above its limit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads an instanced forest by readers of other projects: branches, triangles and bounds in world
 // space.
 

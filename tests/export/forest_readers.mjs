@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a forest with each reader in JavaScript and prints seconds and memory of reading, number of
 // instances, and the bounding box of the trees by the positions and matrices of the reader. Pictures
 // are not decoded, because Node has no browser to do it.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Has Blender import files of write_forest by the add-on. Usage: import_forest_in_blender.py SCRIPT FOLDER
 
 Starts Blender on itself; exit status 77 where there is none.

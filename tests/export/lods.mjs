@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tests the plugin for three.js of scripts/engines with levels of detail in one file.
 // Usage: node lods.mjs MODULES PLUGIN FILE.glb FILE.lods.json
 // The list has the triangles and the distance of each level.

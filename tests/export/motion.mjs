@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares an animated glTF file with the frames of the same motion, one PLY each.
 
 /// Vertices of a binary PLY as lsc writes it: positions and normals first.

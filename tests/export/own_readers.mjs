@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Readers of OFF+, of the part of USDA that lsc writes, and of USDZ archives. They are written from
 // the specifications of the formats.
 

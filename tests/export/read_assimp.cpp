@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads exported files with assimp and compares them, triangle by triangle, with the PLY of the
 // same name, whose plain binary layout is read here. Usage: read_assimp FOLDER
 //

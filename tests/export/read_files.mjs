@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks exported files with readers in JavaScript. Usage:
 //   node read_files.mjs MODULES (validator | three | compressed | motion | growth | obj | svg | off+ | usda |
 //                              usdz | usd-three | usd-motion | tinyusdz |

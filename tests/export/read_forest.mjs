@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Measures time and memory of readers of other projects for a forest, and checks that each has all
 // trees and their bounding box. Usage: node read_forest.mjs MODULES LSC [--times N] [--levels]
 // [--assimp READ_ASSIMP] [--blender BLENDER] FOREST...

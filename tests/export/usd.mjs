@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Readers of USD from other projects: three.js, with motion, and tinyusdz.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';

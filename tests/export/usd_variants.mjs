@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Variants in USD: levels of detail and values of a parameter. Compares tinyusdz, which composes
 // variants, and three.js, which ignores them, with a separate file of each variant. The maple has
 // six levels. Usage: node usd_variants.mjs MODULES LSC FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes a small forest in every format and variant. Usage: write_forest FOLDER
 // Two species, one of two stages, on a hilly ground. facts.json in the folder has its counts and
 // bounds, measured on the same forest as one mesh (baked.ply); counts.txt has a line

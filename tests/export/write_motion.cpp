@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exports plants that move, by `lsc export --frames`: each as one file of every format that holds
 // motion, and as a PLY for each frame. Usage: write_motion FOLDER. FOLDER/counts.txt gets a line `NAME
 // FRAMES FPS METRES` for each plant. METRES: max vertex error of a reduced skeleton; 0 if every

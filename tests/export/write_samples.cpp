@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER.
 // FOLDER/counts.txt gets a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants are exported
 // at the last generation with at most kMaxVertices vertices.

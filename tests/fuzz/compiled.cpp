@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/fuzz/compiled.h"
 
 #include "compiler/bytecode/verify.h"

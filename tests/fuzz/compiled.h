@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compilation of a text for the fuzz targets; no files are read.
 #pragma once
 

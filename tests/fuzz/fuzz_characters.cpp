@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text with characters beyond ASCII to word. A few characters are inserted into the text, at places
 // that depend on the text alone: typographic characters, letters, invisible characters and damaged
 // UTF-8. Output written without an error may contain none of them where a character has a meaning.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text to word: for any bytes, the compiler returns diagnostics or bytecode that verifies, and the
 // bytecode derives under small limits.
 #include "compiler/bytecode/verify.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text to text: for every text that parses, formatting is idempotent, and its output parses.
 #include "grammar/format/format.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytes to word: a .lsb is refused, or it verifies and derives under small limits. The checksum is
 // corrected first, so that the other checks of reader and verifier are reached.
 #include "compiler/bytecode/disassemble.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs a fuzz function over the files named on the command line, and over every prefix of the short
 // ones.
 #include <cstddef>

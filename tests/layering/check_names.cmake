@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Fails if two headers define a class, struct or enumeration with one name in one namespace, a violation of the
 # one-definition rule that compilers do not report. Usage: cmake -D ROOT=<folder> -P check_names.cmake
 file(GLOB_RECURSE headers RELATIVE "${ROOT}"

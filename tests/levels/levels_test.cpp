@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Levels of detail of samples: each has fewer triangles than the previous one and looks like the
 // plant at its distance. The test draws its own pictures, with opacity and without light.
 #include "runtime/meshing/detail_levels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of levels of detail: one glTF with MSFT_lod, or a file for each level and a list of them.
 #include "tests/support/lsc_run.h"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Compares the functions that the shared library exports with a list. A removed function or a changed
 # signature breaks programs that are already linked: increase the version of the library (SOVERSION),
 # then copy the new list. Usage: cmake -D LIBRARY=... -D NM=... -D EXPECTED=... -D ACTUAL=...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files and forests of liblsys, used only by its public headers.
 #include <catch2/catch.hpp>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Installs the library into a folder, builds the examples against it, by find_package and by
 # pkg-config, and runs them. Usage: cmake -D BUILD=... -D EXAMPLES=... -D SAMPLES=... -D FOLDER=...
 # -D COMPILER=... -D LIBRARY_FOLDER=lib -P installed.cmake

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // liblsys, used only by its public headers.
 #include <catch2/catch.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Citations of documents in sources, scripts and documents: `docs/language.md section 5` names an
 // existing file and one of its sections.
 #include "tests/manual/markdown.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/manual/commands.h"
 
 #include "runtime/cli/command_line.h"

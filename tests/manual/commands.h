@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Commands in documents: parsed as by a shell, run in-process.
 #pragma once
 

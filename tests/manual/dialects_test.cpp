@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares the manual of dialects with the table of dialects.
 #include "grammar/dialects/dialect.h"
 #include "tests/manual/markdown.h"

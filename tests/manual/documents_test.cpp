@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // docs/documents.md: every feature of the documents has a row, and its commands print the output
 // given after them.
 #include "tests/manual/commands.h"

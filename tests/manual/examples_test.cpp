@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every block of a document that begins with ```lsys ARGUMENTS is a grammar: `lsc ARGUMENTS` on it
 // must succeed, write nothing to standard error, and print the ```text block that follows, if there
 // is one.

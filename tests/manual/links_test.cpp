@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Links of documents: the files, folders and headings that they name exist. Lines of prose in
 // README.md and docs/ are short enough to be read in any editor.
 #include "tests/manual/markdown.h"

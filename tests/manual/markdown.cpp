@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/manual/markdown.h"
 
 #include <algorithm>

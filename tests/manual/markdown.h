@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The documents of the project, and the parts of Markdown that the tests read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Terminal sessions in documents. A block ```console is a session: lines that begin with "$ " are
 // commands, followed by their output. Blocks ```sh have commands without output; only their options
 // are checked.

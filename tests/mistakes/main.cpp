@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tests_mistakes [--bless] [FILTER...]: runs the mistakes of mistakes.tsv and compares the messages
 // with the golden files beside them. tests_mistakes --grades: checks the means of grades.tsv against
 // the floors of floors.tsv.

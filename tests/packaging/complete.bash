@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Completes command lines with the scripts for bash, as bash calls them. Usage: complete.bash FOLDER, which has bash/lsc
 # and, if lsview is built, ../lsview/bash/lsview.
 set -euo pipefail

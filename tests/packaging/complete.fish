@@ -1,4 +1,5 @@
 #!/usr/bin/env fish
+# SPDX-License-Identifier: MIT
 # Completes command lines in fish. Usage: complete.fish FOLDER, which has lsc.fish.
 source $argv[1]/lsc.fish
 set -g scratch (mktemp -d)

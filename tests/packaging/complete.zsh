@@ -1,4 +1,5 @@
 #!/usr/bin/env zsh
+# SPDX-License-Identifier: MIT
 # Completes command lines in an interactive zsh. Usage: complete.zsh FOLDER, which has _lsc.
 emulate -L zsh
 zmodload zsh/zpty

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Installs into a folder and compares the list of files with installed.list. Documents and samples are compared with
 # the folders they come from. Usage: cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D VERSION=... -P installed.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Man pages and completions: they have every command, option and value of the command line.
 #include "packaging/pages/completion.h"
 #include "packaging/pages/lsc_values.h"

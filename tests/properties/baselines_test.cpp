@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The benchmark systems W1 to W6: counts of modules and of each symbol, and digests, as computed by
 // several independent programs.
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exported forests: counts, limits, and equal bytes for any number of threads.
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares trees from instance caches with plants derived and drawn without instancing.
 #include "runtime/derive/word_text.h"
 #include "tests/support/forest.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Properties of the formatter for every grammar, tested on samples and random grammars, unchanged and
 // with a random layout. Formatting again changes nothing, and the syntax tree stays the same.
 #include "grammar/ast/ast_dump.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares meshes of trees assembled from instances with meshes of plants that were derived, drawn
 // and meshed without instancing.
 #include "runtime/forest/instance_meshes.h"

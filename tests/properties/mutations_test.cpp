@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tests `lsc check --fix`: one token or character of a correct grammar is changed, as by a typing
 // mistake, and the result is repaired. If the repaired text compiles, it must be the original
 // grammar; if more than one repair is possible, none may be applied.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Properties that hold for every grammar, tested on the samples of the gallery.
 #include "grammar/lsys/parse.h"
 #include "runtime/pipeline/grammar.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares heights of trees of a forest with the highest points of the same trees, expanded one by
 // one.
 #include "runtime/forest/tree_heights.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares the turtle with a slow, direct implementation of docs/language.md section 7: rotation
 // matrices in long double over the text of the word, sharing no code with the runtime.
 #include "tests/support/lsc_run.h"

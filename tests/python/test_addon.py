@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The add-on for Blender grows the same plants by the module as by the program.
 
 Usage: python3 test_addon.py LSC SAMPLES ADDON [unittest options], with the module on PYTHONPATH.

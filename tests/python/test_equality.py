@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Words, skeletons and meshes of the module equal those of `lsc`, bit for bit, for every grammar of the
 samples and of tests/ui that derives.
 

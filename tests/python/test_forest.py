@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Forests, their instances and files of the module, and files of plants.
 
 Usage: python3 test_forest.py LSC SAMPLES [unittest options], with the module on PYTHONPATH.

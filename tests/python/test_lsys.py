@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The Python module, compared with the program `lsc` and tested alone.
 
 Usage: python3 test_lsys.py LSC SAMPLES [unittest options], with the module on PYTHONPATH.

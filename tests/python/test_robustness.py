@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """No leak and no crash of the module: exceptions in callbacks, an interpreter that ends in the middle, many
 threads, many mistakes. Run with libasan (scripts/nightly python), the bytes of its heap are counted; else
 the memory of the process.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The type stubs of the module have its names and signatures.
 
 Usage: python3 test_stubs.py [unittest options], with the module on PYTHONPATH.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Makes a wheel of the sources without a network, installs it in a new environment and runs a recipe.
 # Usage: cmake -D PYTHON=... -D SOURCE=... -D FOLDER=... -P wheel.cmake
 function(run)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/build.h"
 
 #include "tests/reference/print.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Short ways to write a grammar of reference/grammar.h by hand, for tests. In texts of letters, as
 // in published systems, every character is a module and blanks do not separate names.
 

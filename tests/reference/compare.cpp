@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/compare.h"
 
 #include "grammar/base/paths.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares `lsc` with the oracle: writes the files of a case into a temporary folder, runs the
 // program in-process and compares every generation as text.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 1,000 random grammars, and edge cases that random grammars do not reach, must be derived by `lsc`
 // exactly as by the oracle.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/compile_case.h"
 
 #include "compiler/compile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A random grammar as bytecode, compiled in memory.
 #pragma once
 

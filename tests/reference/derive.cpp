@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/derive.h"
 
 #include "tests/reference/evaluate.h"

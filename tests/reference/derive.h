@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The oracle: derives a grammar by following sections 4 to 6 of the language reference sentence by
 // sentence. A word is a vector of modules with their names as text; every step looks at every
 // production for every module. Slow on purpose: the runtime is tested against it, so it must be

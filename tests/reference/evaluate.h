@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The arithmetic of section 4 of the language reference, one operation at a time. Every value is a
 // binary32; the functions that are not `+ - * / sqrt` are computed in binary64 and rounded once.
 

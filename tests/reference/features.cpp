@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/features.h"
 
 #include "tests/reference/evaluate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The features of the language that a generated case exercises: a feature of a production counts
 // only if the production was applied. generator_test.cpp checks that every feature is frequent
 // enough.

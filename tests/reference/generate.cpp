@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/generate.h"
 
 #include "tests/reference/features.h"

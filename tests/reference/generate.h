@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random grammars with all features of the language, one for every test seed. They are legal, their
 // words stay small, and most of their productions are applied. A few of them end in a run-time
 // error.

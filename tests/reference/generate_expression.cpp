@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/generate_expression.h"
 
 #include <algorithm>

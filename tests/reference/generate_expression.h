@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random legal expressions of section 4 of the language reference: constant parts are finite, no
 // divisor is a constant zero, constant ranges have their bounds in order.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The statements of a random grammar: files that include each other, settings, constants, axiom and
 // productions. generate.h chooses the number of generations.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/generate_plan.h"
 
 #include "tests/reference/spelling.h"

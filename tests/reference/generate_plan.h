@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The plan of a random grammar: its modules, its features and their frequencies.
 
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/generate_productions.h"
 
 #include <algorithm>

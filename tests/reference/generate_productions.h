@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random productions: bundles of them with one predecessor and one pair of contexts, whose
 // conditions and probabilities together are legal, and the modules of successors and of the axiom.
 

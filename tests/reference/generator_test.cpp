@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks that the random grammars exercise every feature.
 
 #include "tests/reference/features.h"

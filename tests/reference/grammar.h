@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grammar as plain data, statement by statement. The generator of random grammars and
 // hand-written tests make it, the oracle (derive.h) reads it and the printer (print.h) writes it as
 // text. It shares no code with the compiler, so that both cannot have the same mistake. Order

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Matching of predecessors and contexts over branches: section 5 of the language reference.
 
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Derives random grammars with every way to split a derivation: threads, chunks of a few modules,
 // streaming. The words of the oracle are so small that `lsc` itself never splits them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/print.h"
 
 #include "tests/reference/random.h"

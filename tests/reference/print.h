@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text from the data of the oracle: a grammar as .lsys files in any legal layout, and a word in the
 // form of section 10 of the language reference.
 

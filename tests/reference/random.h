@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random numbers of the generator and the printer of random grammars: consecutive Philox words, so
 // that a seed gives the same grammar with every standard library and on every machine.
 

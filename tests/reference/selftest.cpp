@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks the oracle against independent results: published vectors, words derived by hand in the
 // literature, and counts by other programs.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spelling of the parts of a grammar: names, numbers, expressions, and joined names. The printer
 // (print.h) puts blanks and comments between the tokens made here.
 

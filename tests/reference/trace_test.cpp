@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Traces of all modules of random grammars: each successor must equal the modules that the runtime
 // wrote.
 #include "runtime/derive/derive.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skeletons for tests of physics and export.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grammars of other dialects: words have the lengths that the programs of the dialects give, and
 // the output of `lsc import` derives equal words.
 #include "grammar/dialects/dialect.h"

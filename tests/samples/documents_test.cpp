@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Systems from the literature behind the language and its dialects: words, counts and probabilities
 // that the texts print, or that follow from the texts.
 #include "tests/support/lsc_run.h"

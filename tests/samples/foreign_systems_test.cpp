@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grammars of other programs: the imported grammar derives the same word as the original.
 #include "tests/support/lsc_run.h"
 

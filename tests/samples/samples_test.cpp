@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The first lines of each sample of the gallery are true.
 #include "tests/support/lsc_run.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sample scenes and their grammars have no mistakes, and each scene has about the number of
 // trees that its options suggest.
 #include "runtime/base/grey_map.h"

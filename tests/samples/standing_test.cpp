@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tests that the plants of the gallery stand under their weight.
 #include "runtime/physics/physics.h"
 #include "runtime/physics/stability.h"

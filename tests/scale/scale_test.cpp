@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs `lsc` as a child on one extreme input and checks how it ends. Usage: scale_test LSC CASE
 // FOLDER.
 #include <cstdint>

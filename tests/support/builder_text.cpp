@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/builder_text.h"
 
 #include "compiler/bytecode/arithmetic.h"

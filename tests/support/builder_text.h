@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parser of the short texts of BytecodeBuilder: modules, productions, and expressions compiled to
 // instructions. A mistake in a text ends the test program.
 #pragma once

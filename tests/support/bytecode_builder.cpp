@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/bytecode_builder.h"
 
 #include "compiler/bytecode/instructions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytecode from short texts for unit tests, without the front end and the compiler. Modules,
 // expressions and productions look as in the language; names are identifiers or single characters,
 // and blanks separate them.

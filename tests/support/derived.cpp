@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/derived.h"
 
 #include "runtime/derive/fold_reached.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Derived words as text, by all methods of the runtime: any number of threads, any size of chunks,
 // stored or streamed, with or without folding of reachable modules. All words must be equal.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/forest.h"
 
 #include "runtime/derive/derive.h"

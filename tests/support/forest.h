@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Instance caches and trees from grammar texts, for tests of instancing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In-process runs of `lsc`, and helpers of their tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Invariants of all meshes, and sizes for comparison.
 #pragma once
 

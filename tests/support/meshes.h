@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small handmade meshes, for tests of mesh readers.
 #pragma once
 

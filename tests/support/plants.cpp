@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/plants.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skeletons for tests, and the coverage of pictures by meshes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A golden case: a grammar with its runs in the first lines and its diagnostics in annotations.
 // tests/README.md describes the form.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/ui_runner.h"
 
 #include "grammar/base/paths.h"

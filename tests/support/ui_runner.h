@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs golden cases in-process and compares their output with the files beside them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/viewer/drawn_ground.h"
 
 #include <glm/common.hpp>

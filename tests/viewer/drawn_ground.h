@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The surface of the ground that the shader draws, computed on the CPU.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The default picture of a forest: trees are visible, with contrast, on grounds from 0.1 to 100 km.
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"

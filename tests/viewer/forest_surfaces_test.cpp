@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Picture files on the ground, on meshes and on polygons of forests, drawn and exported.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"

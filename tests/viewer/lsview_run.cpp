@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/viewer/lsview_run.h"
 
 #include "viewer/app/lsview.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsview` run in-process by tests.
 #pragma once
 

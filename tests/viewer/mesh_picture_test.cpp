@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The picture of a mesh file is found, shown, exported, and watched for changes.
 #include "runtime/meshing/texture.h"
 #include "runtime/program/host.h"

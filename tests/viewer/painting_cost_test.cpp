@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cost of a painted tree in a small and in a large forest: bytes uploaded to the device, and
 // memory. The test counts every allocation by `new` in its program.
 #include "runtime/placement/placement.h"

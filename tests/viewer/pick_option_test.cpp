@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsview --pick` and `--colours`: the text about the part of the plant at a pixel.
 #include "runtime/program/host.h"
 #include "tests/viewer/lsview_run.h"

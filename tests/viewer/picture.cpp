@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/viewer/picture.h"
 
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads PNG files of tests and compares pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares pictures of lsview with stored pictures that were checked by eye. With LSYS_BLESS=1 in the
 // environment, the drawn pictures are stored instead: look at them before committing.
 #include "tests/viewer/lsview_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/viewer/wood.h"
 
 #include "tests/support/forest.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wood: a small forest, for tests of draw lists and pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/controls.h"
 
 #include <glm/geometric.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controls: mouse and keyboard input to changes of a view.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/file_watch.h"
 
 #include "runtime/platform/file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FileWatch: reports changes of files. Watches folders by events of the system, so that files
 // replaced by editors are seen, and polls times and sizes, for file systems without events.
 #pragma once

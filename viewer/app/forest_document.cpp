@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_document.h"
 
 #include "runtime/pipeline/instancing_choice.h"

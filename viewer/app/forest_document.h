@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestDocument: a scene and its forest, from file to meshes.
 #pragma once
 

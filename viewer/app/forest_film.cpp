@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_film.h"
 
 #include "runtime/base/out_of_memory.h"

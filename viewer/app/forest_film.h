@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestFilm: makes moments of a forest's growth on a thread of its own, for a window that plays it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestLoader: makes forests on a thread of its own, a LatestRequestWorker.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_painting.h"
 
 #include "runtime/program/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestPainting: painting of the forest in the window. Finds the ground under the mouse, keeps
 // unsaved changes across reloads, and writes them to the scene file.
 #pragma once

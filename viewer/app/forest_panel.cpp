@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_panel.h"
 
 #include "viewer/app/widgets.h"

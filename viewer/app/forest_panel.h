@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Panel of a forest: its sources and its painting.
 #pragma once
 

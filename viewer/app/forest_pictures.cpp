@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_pictures.h"
 
 #include "runtime/pipeline/forest_growth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes pictures of a forest without a window.
 #pragma once
 

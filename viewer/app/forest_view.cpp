@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/forest_view.h"
 
 #include "runtime/pipeline/forest.h"

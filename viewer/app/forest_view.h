@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestView: the state of a window with a forest, without the window. Watches the scene, its
 // grammars and their includes; forests are made on another thread and swapped between two frames.
 #pragma once

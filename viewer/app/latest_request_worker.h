@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LatestRequestWorker: handles requests on a thread of its own. A new request replaces a pending
 // one; a running one is cancelled when it takes long.
 #pragma once

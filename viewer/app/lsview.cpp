@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/lsview.h"
 
 #include "runtime/base/out_of_memory.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The `lsview` program as a function, so that tests run it in-process with the arguments, streams
 // and exit status of the executable.
 #pragma once

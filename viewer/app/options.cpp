@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/options.h"
 
 #include "runtime/pipeline/forest.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/panels.h"
 
 #include "viewer/app/forest_panel.h"

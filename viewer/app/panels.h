@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Panels and overlays over the picture.
 #pragma once
 

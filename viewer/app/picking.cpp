@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/picking.h"
 
 #include "grammar/base/counted_text.h"

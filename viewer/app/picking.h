@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Picking: description of the part of a plant or forest that a pixel shows, as lines of text, and
 // the trace of the module that drew it. Renderer::pick() finds the part; the production that wrote
 // it and the trace are found by deriving again, on threads of their own in a window.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/picture_series.h"
 
 #include "grammar/base/hash.h"

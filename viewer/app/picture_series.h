@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PictureSeries: pictures written by a run, one or a numbered series, with their times.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/pictures.h"
 
 #include "runtime/physics/physics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes pictures of a plant without a window.
 #pragma once
 

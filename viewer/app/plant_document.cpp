@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/plant_document.h"
 
 #include "runtime/pipeline/step.h"

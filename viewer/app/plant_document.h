@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantDocument: a grammar and its plant, from file to triangles.
 #pragma once
 

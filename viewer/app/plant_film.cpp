@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/plant_film.h"
 
 #include "runtime/base/out_of_memory.h"

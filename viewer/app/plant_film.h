@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantFilm: makes moments of a plant's growth on a thread of its own, for a window that plays it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantLoader: makes plants on a thread of its own, a LatestRequestWorker.
 #pragma once
 

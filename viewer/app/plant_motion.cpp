@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/plant_motion.h"
 
 #include "runtime/base/out_of_memory.h"

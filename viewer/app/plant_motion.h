@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantMotion: simulates a plant under gravity and wind on a thread of its own. Steps the physics
 // with the clock and meshes the plant as fast as the results are taken.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/plant_panel.h"
 
 #include "grammar/base/counted_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Panel of a plant: its numbers and settings.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/plant_view.h"
 
 #include "runtime/pipeline/stopwatch.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantView: the state of a window with a plant, without the window. Watches files; plants are made
 // on other threads and swapped between two frames. Every call needs a current OpenGL context.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/recorded_host.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Host that records the files requested from it, to watch them.
 #pragma once
 

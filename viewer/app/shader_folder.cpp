@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/shader_folder.h"
 
 #include "runtime/program/files.h"

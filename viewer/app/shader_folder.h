@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sources of shaders: a folder, or the texts embedded in the program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/styled_text.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/view.h"
 
 #include "runtime/meshing/texture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // View: common state of plant and forest views: last picture, messages, shaders. Every call needs a
 // current OpenGL context.
 #pragma once

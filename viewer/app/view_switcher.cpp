@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/view_switcher.h"
 
 #include "runtime/pipeline/forest.h"

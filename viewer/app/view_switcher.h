@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Widgets shared by panels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/app/window_run.h"
 
 #include "runtime/program/files.h"

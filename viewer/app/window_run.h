@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Main loop of the window.
 #pragma once
 

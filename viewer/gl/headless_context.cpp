@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/headless_context.h"
 
 #include <fmt/format.h>

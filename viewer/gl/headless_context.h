@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // HeadlessContext: an OpenGL 4.5 core context without a window, on machines with or without a
 // display. Tried in turn: EGL without a surface, EGL on a device, a hidden window.
 #pragma once

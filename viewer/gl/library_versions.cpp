@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/library_versions.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Versions of the libraries of window and drawing, for `lsview --version --verbose`.
 #pragma once
 

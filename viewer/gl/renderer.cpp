@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/renderer.h"
 
 #include "viewer/gl/impl/forest_pass.h"

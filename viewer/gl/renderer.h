@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Renderer: draws plants and forests. The interface of viewer/gl, the only code that knows OpenGL.
 // Every call needs a current context.
 #pragma once

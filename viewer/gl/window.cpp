@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/window.h"
 
 #include <fmt/format.h>

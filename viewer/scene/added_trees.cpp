@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/added_trees.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AddedTrees: trees added to a forest after it was sorted into cells, for example by painting. They
 // lie in square cells of their own; adding one costs the same for any number of trees.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/branch_colours.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours that distinguish the branches of a forest by id, age or hero (docs/language.md section
 // 9). Branches of one value have one colour in every forest and on every machine.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/branch_pool.h"
 
 #include "runtime/forest/instance_meshes.h"

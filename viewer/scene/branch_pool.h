@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // BranchPool: branches of near trees in one array, mirrored on the device. The branches of a tree
 // are contiguous and keep their place until the tree is forgotten.
 #pragma once

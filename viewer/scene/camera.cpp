@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/camera.h"
 
 #include "grammar/base/number_chars.h"

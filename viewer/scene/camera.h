@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Camera: viewpoint of a picture. Metres, right-handed, +Y up. Converts to one line of text and
 // back without loss.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/forest_lod.h"
 
 #include <glm/common.hpp>

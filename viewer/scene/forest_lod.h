@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestLod: level of detail of each tree of a forest for a camera. Trees lie in square cells of
 // the ground; each tree in view is in one LOD band, by its height in the picture:
 //   near     branches of the finest level

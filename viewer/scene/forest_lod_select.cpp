@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestLod::select(): finds the LOD band of each tree of a picture.
 #include "viewer/scene/forest_lod.h"
 #include "viewer/scene/impostor_plan.h"

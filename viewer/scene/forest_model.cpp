@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/forest_model.h"
 
 #include "grammar/base/hash.h"

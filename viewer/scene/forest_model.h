@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestModel: geometry of a forest for drawing: the branches of each stage of each species as
 // meshes of several levels of detail, and the sizes of its trees.
 #pragma once

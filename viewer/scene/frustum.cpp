@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/frustum.h"
 
 #include <glm/geometric.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Frustum: the part of the world that a camera sees.
 #pragma once
 

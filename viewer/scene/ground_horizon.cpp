@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/ground_horizon.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GroundHorizon: occlusion by the ground. Stores, for directions around the eye, how steeply the
 // drawn ground rises up to each distance. Conservative: everything it reports as hidden is
 // invisible. No OpenGL.

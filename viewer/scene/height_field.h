@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // HeightField: grid of ground heights for ray casting. A cell is two triangles, split along the
 // diagonal from its lowest x and z. A pyramid of max heights skips cells below the ray (Tevs, Ihrke
 // and Seidel 2008, "Maximum mipmaps"): no ridge is missed, and the time grows with the logarithm of

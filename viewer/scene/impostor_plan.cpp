@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/impostor_plan.h"
 
 #include "grammar/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ImpostorPlan: contents of the impostor atlas. Each form has impostors of single trees and, for
 // the horizon, of a cluster: a cell full of trees. ImpostorAtlas draws them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/impostor_texels.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ImpostorTexels: texels of impostors on the CPU: mip levels and empty borders.
 #pragma once
 

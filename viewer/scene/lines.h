@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lines: skeleton and turtle path as coloured lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/painter.h"
 
 #include "runtime/base/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Painter: adds and removes trees by hand, with undo and redo. Cost grows with the changed trees,
 // not with the forest.
 #pragma once

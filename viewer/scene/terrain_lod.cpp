@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/terrain_lod.h"
 
 #include "runtime/base/workers.h"

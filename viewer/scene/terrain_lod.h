@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TerrainLod: patches of the ground and their level of detail for a camera (CDLOD, Strugar 2010,
 // "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps"). The ground is an
 // unbounded quadtree. Each level has a height grid around the camera, twice as coarse as the level

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Blending of LOD bands by dithering: each band draws a range of the pixels: BlendRange in C++.
 
 // Dither threshold of a pixel of the picture, 0 to 1; thresholds of neighbours lie far apart (Jimenez

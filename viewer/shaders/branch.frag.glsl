@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 #ifdef BLENDS
 #include "blend.glsl"

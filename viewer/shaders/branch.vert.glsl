@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 #include "forest.glsl"
 // Materials; the C++ side is gl/impl/forest_buffers.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 // Trees, branches and forms; the C++ side is gl/impl/forest_buffers.cpp.
 struct Branch {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uniforms shared by all shaders; the C++ side is FrameBlock in gl/impl/frame_block.h.
 layout(std140, binding = 0) uniform FrameBlock {
     mat4 view_projection;

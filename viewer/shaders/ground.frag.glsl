@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 layout(location = 0) uniform vec4 disc;
 layout(location = 1) uniform float grid_step; // m, between the lines of the grid

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 layout(location = 0) uniform vec4 disc; // centre, m; radius
 out vec3 world_position;

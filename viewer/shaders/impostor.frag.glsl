@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots of linear RGB; opacity
 layout(binding = 4) uniform sampler2DArray normals; // normal (2 channels), depth, translucency

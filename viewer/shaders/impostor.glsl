@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "forest.glsl"
 // Layout of the impostor atlas; the C++ side is gl/impl/impostor_atlas.h.
 const int kYaws = 8;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 #include "impostor.glsl"
 layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; }; // opaque box of each tile

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 in vec4 line_colour;
 out vec4 colour;
 void main() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 layout(binding = 1) uniform sampler2D base_texture;
 layout(binding = 2) uniform sampler2D normal_texture;

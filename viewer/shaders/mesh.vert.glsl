@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 layout(binding = 1) uniform sampler2D base_texture;
 layout(location = 1) uniform ivec4 kind;
 in vec2 uv;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec2 texture_coordinate;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 in vec3 view_ray;
 out vec4 colour;

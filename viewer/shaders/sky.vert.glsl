@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "frame.glsl"
 out vec3 view_ray;
 void main() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 #ifdef PICTURE
 layout(binding = 3) uniform sampler2D colours;

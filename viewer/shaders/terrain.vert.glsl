@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "light.glsl"
 // CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels

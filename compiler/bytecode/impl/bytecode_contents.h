@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contents of a Bytecode, described once. describe() hands every field to a stream, in the
 // order of a .lsb file; the writer and the reader of module_file.cpp, the digest of bytecode.cpp
 // and the range checks of verify.cpp are streams.

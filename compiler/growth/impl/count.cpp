@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/growth.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Multiply-add of counts: the inner step of the growth analysis, fast while counts are below 2^128.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Growth over very many generations by powers of the growth matrix, for programs of few classes.
 // Powers are made by repeated squaring.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/impl/growth_totals.h"
 
 #include "compiler/growth/impl/count_math.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sharper bounds if modules have several outcomes: the min and max size of the whole word of each
 // generation, computed backwards. The min size of a module after g generations is the min, over its
 // outcomes, of the sum of the sizes of the outcome's modules after g - 1 generations. Modules of a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The min, max and expected number of modules of each class in a word, generation by generation. A
 // GrowthWalk holds the counts of one generation; advance() computes the counts of the next.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/impl/known_values.h"
 
 #include "compiler/bytecode/arithmetic.h"

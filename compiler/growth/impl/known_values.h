@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Evaluation of expressions before a derivation, where some values are known and others are not.
 // Used by the growth analysis and by the checks of conditions. A known result is exactly the value
 // that the runtime computes.

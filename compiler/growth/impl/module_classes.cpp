@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/impl/module_classes.h"
 
 #include "compiler/growth/condition_grid.h"

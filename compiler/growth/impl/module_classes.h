@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Classes of modules that are rewritten alike, which the growth analysis counts instead of modules.
 // A class is a code and the known values of its relevant parameters (production_index.h). If a
 // condition reads the parameter of A, A(12) and A(11) are two classes; F(2) and F(2.2) are one

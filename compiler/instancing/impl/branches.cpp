@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/instancing/impl/branches.h"
 
 #include "compiler/program/append_bytes.h"

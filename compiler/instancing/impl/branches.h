@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The valid branches of a system. Instancing records such a branch once and reuses the record in
 // place of equal branches (docs/language.md section 9; Kenwood, Gain and Marais 2014, "Efficient
 // procedural generation of forests", J. WSCG 22(1), as implemented by Carey 2019).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/instancing/impl/instancing_pass.h"
 #include "compiler/program/module_text.h"
 

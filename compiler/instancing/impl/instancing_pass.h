@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The instanced system of Kenwood, Gain and Marais 2014 (docs/language.md section 9): each valid
 // branch is recorded, or with probability rho replaced by a recorded branch.
 #pragma once

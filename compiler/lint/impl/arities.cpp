@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Modules with a number of parameters that no production rewrites, although productions rewrite
 // modules of the same name with another number of parameters.
 #include "compiler/lint/impl/module_use.h"

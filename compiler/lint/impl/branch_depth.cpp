@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Brackets that only balance across productions: one production leaves a branch open that another
 // closes. For each module and all generations, a fixed point over the productions bounds the number
 // of brackets left open by the words that the module becomes, and the lowest bracket depth within

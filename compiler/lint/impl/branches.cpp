@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Brackets that do not balance within the axiom or a successor.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `==` and `!=` on values that may differ by rounding. Each value has a Level. Exact: computed from
 // whole numbers, halves, quarters ... by + - * and similar operations. Literal: a constant that is
 // only passed on, so it equals itself. Computed: everything else.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Conditions that always or never hold, and pairs of conditions that both exclude or both include a
 // single value.
 #include "compiler/lint/impl/lints.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Productions and contexts that name the module `%`, which cuts off a branch. Cuts are made before
 // matching, so these patterns never match. In turtle profiles with another meaning of `%` it is an
 // ordinary module, and nothing is reported.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Productions whose predecessor or context never occurs in any word.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grammars that are meant to draw but draw nothing in the requested generations.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

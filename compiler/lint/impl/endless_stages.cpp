@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Modules that #decompose or #interpret replace without end, which a run reports as an error only
 // after the last pass. Decided without parameter values, as a greatest fixed point: a module is
 // endless if some production always matches it and every production that may match it writes an

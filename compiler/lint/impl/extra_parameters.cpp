@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Turtle commands with more parameters than the turtle reads: `+(1, 2)`. Modules that productions
 // rewrite may have more.
 #include "compiler/lint/checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Modules that mean something else in other programs: quotation marks around a word, a decimal comma,
 // a width as the second parameter of `F`.
 #include "compiler/lint/impl/lints.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stochastic alternatives that name their parameters differently.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words that exceed the limit, or stop changing, before the requested generation.
 #include "compiler/growth/growth.h"
 #include "compiler/lint/impl/lints.h"

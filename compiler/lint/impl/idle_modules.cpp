@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Modules that are never rewritten and never drawn, and objects for modules that never occur.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contexts that name an ignored module, which never match since matching skips such modules.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lint/impl/module_use.h"
 
 #include "compiler/lint/impl/lints.h"

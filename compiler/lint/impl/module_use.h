@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The use of each symbol of a program, shared by the checks of modules. Made once by
 // check_module_use().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lint/impl/places.h"
 
 #include "compiler/program/module_text.h"

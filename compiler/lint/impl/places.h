@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Places that a Program does not store, found again in the source text for messages.
 #pragma once
 

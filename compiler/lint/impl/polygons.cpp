@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Polygons: the axiom and every successor have as many `{` as `}`; `.` only occurs within a
 // polygon, and a polygon has at least three vertices. In profile `carey` polygons do not nest.
 #include "compiler/lint/impl/lints.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A probability without effect, because its production is the only choice.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The probabilities of stochastic alternatives without conditions sum to 1 (docs/language.md
 // section 5). With conditions the sum depends on the matching alternatives, so weights are
 // normalised at run time. With `weights any` all weights are normalised at run time, and their sum

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lint/impl/reachable.h"
 
 #include "grammar/base/grouped_lists.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The modules that can occur in a word and the productions that can be used, decided from names,
 // numbers of parameters and contexts. Conditions count as true unless they are the constant 0, so
 // modules that are not reachable here never occur.

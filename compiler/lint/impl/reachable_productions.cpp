@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Productions that are never used because earlier ones match first, and duplicate conditions.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two productions that are meant to put branches on opposite sides by `/` and `\`. These modules
 // roll, so both branches point the same way. With the turtle of Crankshaw's thesis `/` and `\`
 // pitch, as in its equation 2.11.

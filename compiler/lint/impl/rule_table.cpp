@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lint/impl/rule_table.h"
 
 #include "compiler/lint/impl/places.h"

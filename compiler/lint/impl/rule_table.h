@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The truth of the conditions of the productions of one module over all values of its parameters.
 // Shared by the checks for gaps, overlaps and unused productions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Suspicious arguments of turtle commands: an angle in radians, a negative width, a part of a colour
 // that is not from 0 to 1.
 #include "compiler/lint/impl/lints.h"

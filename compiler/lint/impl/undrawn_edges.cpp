@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edge rewriting in which one of two edges is never drawn: Sierpinski's gasket written with `F` and
 // `X`, where only `F` draws. Edges differ from growing tips of plants by their productions, which
 // are mirror images of each other and have no brackets.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Constants that nothing uses, and parameters that no production of a module reads.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lower/impl/code_emitter.h"
 
 #include "compiler/bytecode/instructions.h"

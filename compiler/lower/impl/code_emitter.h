@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Translates expressions to instructions: writes Bytecode::instructions, sites and site_ranges.
 // Used by lower().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lower/impl/module_folder.h"
 
 #include "compiler/program/append_bytes.h"

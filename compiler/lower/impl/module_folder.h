@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Assigns codes to modules with constant arguments, in order of first appearance and as long as the
 // width of a code does not grow.
 #pragma once

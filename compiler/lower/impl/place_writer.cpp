@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/lower/impl/place_writer.h"
 
 #include "compiler/program/module_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes Bytecode::template_places, the places of the modules of axiom and successors. Used by
 // lower().
 #pragma once

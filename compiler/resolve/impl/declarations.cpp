@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/declarations.h"
 
 #include "compiler/resolve/impl/definitions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // #module, #object, #ignore and #consider: properties of modules by name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves #n, #define and #param.
 #pragma once
 

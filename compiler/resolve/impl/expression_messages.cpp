@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The messages of ExpressionResolver.
 #include "compiler/bytecode/distributions.h"
 #include "compiler/resolve/impl/expressions.h"

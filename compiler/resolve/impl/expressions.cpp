@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/expressions.h"
 
 #include "compiler/bytecode/distributions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves expressions of the Ast to values of the Program: names become formals and constants,
 // functions become instructions, constants are folded, ranges numbered. ExpressionPlace decides
 // what an expression may contain.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Texts of the errors of constant folding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves heads of productions, `left < predecessor > right`, to patterns and formals.
 #pragma once
 

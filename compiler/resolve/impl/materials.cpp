@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/materials.h"
 
 #include "compiler/resolve/impl/definitions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves #material: an index, then keys with their values (docs/language.md section 7.7).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/production_classes.h"
 
 #include "grammar/base/hash.h"

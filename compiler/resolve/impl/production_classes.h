@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers rules and groups (docs/language.md section 5). A rule is a set of productions with equal
 // predecessors; a group is a set of productions of a rule with equal contexts. The hash tables
 // store only production numbers and compare the productions in the Program, so that a million

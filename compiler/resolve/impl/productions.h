@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Productions: head, condition, probability and successor, and the rules and groups they form.
 #pragma once
 

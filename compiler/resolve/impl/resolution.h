@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state shared by all parts of the resolution (Ast to Program). One per compilation, owned by
 // resolve().
 #pragma once

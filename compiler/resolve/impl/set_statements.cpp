@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/set_statements.h"
 
 #include "compiler/resolve/impl/definitions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves #set: keys and values to Settings. Modes and profiles affect the reading of all other
 // statements, so they are read first; numbers may use constants and are read in the order of the
 // text.

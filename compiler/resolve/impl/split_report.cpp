@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/split_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Collects the split names of a statement for one warning with one fix.
 #pragma once
 

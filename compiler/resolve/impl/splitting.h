@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Name splitting (docs/language.md section 3): an unknown module name that is a sequence of known
 // names in exactly one way is read as that sequence, `AS(1)` as `A S(1)`. The decision is made
 // after all statements are parsed, from the name, the number of parameters and the file.

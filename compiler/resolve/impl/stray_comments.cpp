@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/stray_comments.h"
 
 #include "grammar/ast/reports.h"

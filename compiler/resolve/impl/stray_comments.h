@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `//` among modules that is meant as a comment (docs/language.md section 1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/symbols.h"
 
 #include "compiler/resolve/profiles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The symbols of a Program by name and number of parameters, in order of first appearance.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The functions of a grammar, #function and #curve: their definitions, and their calls, which are
 // inlined.
 #include "compiler/bytecode/distributions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/values.h"
 
 #include "compiler/bytecode/arithmetic.h"

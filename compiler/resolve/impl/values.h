@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the values of a Program: shares equal literals and folds constants with the arithmetic of
 // the runtime.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/words.h"
 
 #include "compiler/resolve/profiles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Resolves module lists of the axiom and of successors to words of the Program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/impl/portable_chars.h"
 
 #include <fmt/format.h>

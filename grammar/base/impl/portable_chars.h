@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Floating-point numbers as characters without std::from_chars and std::to_chars: fast_float reads
 // them, fmt finds the shortest digits. The results are those of libstdc++ 12; a test compares them.
 #pragma once

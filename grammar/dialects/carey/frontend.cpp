@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // .rules: the rule lists of Carey's forest generator. A header holds the settings of the
 // generator's form; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
 // several symbols, ratios are normalised.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/carey/parameters.h"
 
 #include "grammar/ast/reports.h"

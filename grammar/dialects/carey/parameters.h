@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parameters that stay in the text when a rule of a .rules file replaces the symbol before them:
 // the forest generator replaces text, so the rule `F=FF` turns `F(2)` into `FF(2)`.
 #pragma once

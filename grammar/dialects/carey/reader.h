@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lines of a .rules file: settings of the form, `key: value`, and rules, `left=right:ratio`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the texts of a .rules file as .lsys modules, and reports their mistakes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/curves.h"
 
 #include "grammar/ast/number.h"

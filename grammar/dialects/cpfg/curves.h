@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The functions that authors of cpfg models draw as curves and call by number: `func(3, x)`. A view
 // file beside the L-system lists their files (`function: leaf.func 100`) or a set of them with
 // names (`function set: all.fset`). A curve is a B-spline in the plane with ascending x; the .lsys

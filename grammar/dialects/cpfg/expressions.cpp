@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/expressions.h"
 
 #include "grammar/ast/number.h"

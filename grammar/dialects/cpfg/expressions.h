@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Expressions and statements of cpfg in .lsys. An assignment of a production becomes a local value,
 // an assignment of the header a constant, and `if` chooses among the values of the variables that
 // its blocks assign. Global variables are known if each step adds the same amount to them or

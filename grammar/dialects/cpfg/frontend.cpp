@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cpfg: the L-system files of L-studio and vlab. A label `Lsystem: 1`, header items, the axiom,
 // productions `left < predecessor > right : {statements} condition {statements} --> successor :
 // weight`, then decomposition and homomorphism. A line that begins with a tab continues the line

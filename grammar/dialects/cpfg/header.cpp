@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of modules and the statements before the axiom.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/preprocessor.h"
 
 #include "grammar/ast/include_chain.h"

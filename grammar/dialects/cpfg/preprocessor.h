@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C preprocessor, as far as cpfg files use it: comments, #define with and without parameters,
 // #undef, #include, #if of numbers and names, #ifdef, #ifndef, #else, #endif.
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The tokens of cpfg files, after the preprocessor. Expressions stand within the parentheses of a module, in
    conditions and in statements; elsewhere each character is the symbol of a module. A line that begins with a tab
    continues the line before; line ends within braces do not count. */

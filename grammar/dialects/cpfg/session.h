@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state of one parse of a cpfg file, shared by scanner, parser and writer. Statements lie in a
 // vector, children before parents.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/cpfg/expressions.h"
 

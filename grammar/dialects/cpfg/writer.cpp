@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/writer.h"
 
 #include "grammar/ast/number.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes a parsed cpfg file as .lsys text.
 //
 // Conditions of .lsys draw no random numbers. A random number in a cpfg condition therefore becomes

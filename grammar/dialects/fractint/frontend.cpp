@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // .l collections of Fractint: many systems in a file, each `name { ... }` with an angle, an axiom
 // and rules of one symbol, in any case of letters. Its turtle is the profile `fractint`.
 #include "grammar/ast/reports.h"

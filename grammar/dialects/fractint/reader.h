@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Entries of a Fractint collection, `name { ... }`, and lines of an entry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/fractint/writer.h"
 
 #include "grammar/ast/number.h"

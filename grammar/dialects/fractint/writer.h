@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes an entry of a Fractint collection as .lsys text, and reports its mistakes.
 #pragma once
 

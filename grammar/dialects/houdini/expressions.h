@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Houdini's expressions in .lsys. Equal seeds of `rand` in one rule are one random number.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rule texts of Houdini's L-system node: settings, the premise, then one rule
 // `left<symbol>right:condition=replacement:probability` per line. The turtle is the profile
 // `sidefx`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of HoudiniWriter that writes rules.
 #include "grammar/ast/number.h"
 #include "grammar/dialects/houdini/writer.h"

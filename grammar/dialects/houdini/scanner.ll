@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The tokens of Houdini's rule texts. A line is a setting, the premise or a rule. Expressions stand within
    parentheses and after a `:`; elsewhere every character is a symbol. No pattern that may be long contains NUL. */
 

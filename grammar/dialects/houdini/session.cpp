@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/houdini/session.h"
 
 #include "grammar/dialects/houdini/settings.h"

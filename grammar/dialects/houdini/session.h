@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state of one parse of a Houdini rule text, shared by scanner, parser and writer.
 #pragma once
 

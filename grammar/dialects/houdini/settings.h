@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parameters of Houdini's node that a rule text may give, a line `key: value` each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Properties of each symbol of a Houdini rule text: parameter counts, whether rules rewrite it,
 // whether rules read its age. Houdini uses 0 for omitted parameters; in .lsys, modules with
 // different numbers of parameters are different modules.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes a Houdini rule text as .lsys text, and reports the parts that lsc does not support.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/impl/foreign_expression.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Expressions of other languages as one tree. A parser adds the nodes of its file; a front end adds
 // the equivalent nodes of .lsys and writes them with the place of each part in the original file.
 // Nodes are numbered, children before parents. A local value is one node however often it is read,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Declares recognise_X() and translate_X() for each row of dialects.def; the folder of the dialect
 // defines them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/impl/letter_modules.h"
 
 #include "grammar/ast/reports.h"

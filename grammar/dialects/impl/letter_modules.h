@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Module texts of dialects in which every character is a module: `F[+(30)A]`. Writes them as .lsys
 // modules with `names letters`: letters and known symbols as they are, other characters in back
 // quotes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reader of formats that are lists of lines: `key: value`, `A=B`. Splits a text into pieces, each
 // with its span. The format defines the places of blanks and comments; the front end of a dialect
 // defines the length of a piece and the pieces of a line.

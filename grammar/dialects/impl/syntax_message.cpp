@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/impl/syntax_message.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Messages for syntax errors of a dialect. They name the expected tokens and the one found, or the
 // likely cause: a character that looks like another, a misspelt keyword, or an arrow of another
 // language.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text functions that several front ends use.
 #pragma once
 

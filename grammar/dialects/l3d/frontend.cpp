@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // .l, .l3d and .l++: the texts of L3D and its L+System. Three numbers (generations, angle,
 // thickness in percent), an axiom, lines `key=value`, and a line `@`. Rewriting replaces text, key
 // after key; each generation takes one of the values of a key. L3D stores the derived word as text

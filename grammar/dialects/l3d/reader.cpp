@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/l3d/reader.h"
 
 #include "grammar/dialects/impl/line_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lines of a file of L3D: three numbers, rules `key=value`, axioms, and `@`.
 #pragma once
 

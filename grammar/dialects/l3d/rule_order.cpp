@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/l3d/rule_order.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The note about an L3D file whose order of rules matters: L3D sorts the rules by key, which gives
 // another word than the order of the lines.
 #pragma once

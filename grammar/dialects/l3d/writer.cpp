@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/dialects/l3d/writer.h"
 
 #include "grammar/ast/number.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes texts of a file of L3D as .lsys modules in back quotes, character by character, and warns
 // of quirks of L3D.
 #pragma once

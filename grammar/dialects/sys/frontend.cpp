@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // .sys: the grammars of a forest program of 2005. A header `LSYSTEM`, the number of rules, the
 // axiom, then a line `A R p` for each rule: symbol, replacement, probability. Its turtle is the
 // profile `sys`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/format/impl/columns.h"
 
 #include "grammar/format/impl/lines.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Columns of neighbouring statements: the blanks after each cell that align the next cells. A cell
 // much wider than the others is not aligned.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tokens of a .lsys text without errors, for the formatter, with comments and the blanks before
 // them. Tokens are read one by one, because a text may have a hundred million.
 #pragma once

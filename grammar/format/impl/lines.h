@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the pieces of a statement as lines: keeps the author's line ends, breaks long lines at the
 // best place and indents by the brackets open from earlier lines.
 #pragma once

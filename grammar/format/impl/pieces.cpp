@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/format/impl/pieces.h"
 
 #include "grammar/base/utf8.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of a statement, which contain no line ends: a module with its arguments, or another word
 // with its punctuation. Each piece describes the place before it: blanks, the begin of a cell, the
 // author's line end, a possible line break. Within a piece `^`, `*` and `/` have no blanks around

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/bracket_search.h"
 
 #include "grammar/lsys/impl/lookahead.h"

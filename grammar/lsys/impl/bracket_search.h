@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Searches for brackets in the text around a mistake, without a scan. A search ends after
 // kMaxBracketSearch bytes, because a statement may be as long as a file; the text beyond counts as
 // correct.

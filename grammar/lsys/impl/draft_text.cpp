@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/draft_text.h"
 
 #include "grammar/base/characters.h"

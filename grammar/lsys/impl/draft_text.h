@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The step before the scan of a file: finds pasted text and forms of other languages, reports each
 // once and replaces it by the intended .lsys in a copy of the text, so that it causes no further
 // diagnostics. A replacement has the length of the text that it replaces, so places do not change.

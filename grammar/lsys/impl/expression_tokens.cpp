@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/expression_tokens.h"
 
 #include "grammar/ast/number.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tokens of expressions: numbers, operators, parentheses and two adjacent values. Obvious mistakes
 // are reported and read as meant.
 #pragma once

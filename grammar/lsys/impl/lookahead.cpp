@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/lookahead.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lookahead in the text of a .lsys file without a scan: the next character, the end of a statement.
 // Each takes time linear in the bytes passed and is called once per statement or mistake.
 #pragma once

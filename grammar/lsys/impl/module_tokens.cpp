@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/module_tokens.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tokens of module lists: foreign symbols, back quotes; also quoted file names, control characters
 // and comments.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/normalized_text.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The step before the parse of a file. It reports pasted text and forms of other languages
 // (draft_text.h), invalid UTF-8 and typographic characters, and makes a normalized text with ASCII
 // in their place. Comments and file names do not change.

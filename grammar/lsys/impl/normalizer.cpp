@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/normalizer.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Normalizer: replaces characters beyond ASCII of a file by the text that the author most likely
 // meant.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ParseSession: the state shared by scanner, parser and reports during the parse of one .lsys file.
 // Each included file has its own session; all build the same Ast.
 #pragma once

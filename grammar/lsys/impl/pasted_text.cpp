@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/characters.h"
 #include "grammar/base/synonyms.h"
 #include "grammar/base/utf8.h"

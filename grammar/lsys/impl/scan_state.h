@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state of the .lsys scanner between tokens: its place in the statement. A character is an
 // operator in one part of a statement and a module in another, so the scanner tracks the parts from
 // its own tokens; the parser never switches it. For safe recovery the scanner guarantees three

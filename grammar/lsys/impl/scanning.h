@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scanning: one pass of the scanner over the text of a session, with a parser or without.
 #pragma once
 

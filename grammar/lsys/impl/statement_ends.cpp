@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/statement_ends.h"
 
 #include "grammar/base/characters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The end of statements without `;`, and misplaced `//` comments, which authors know from other
 // languages.
 #pragma once

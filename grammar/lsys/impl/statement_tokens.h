@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tokens at the begin and end of statements and their parts. Mistakes are reported and missing
 // tokens inserted, so that the parser gets complete statements.
 #pragma once

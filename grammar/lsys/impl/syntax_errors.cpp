@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/syntax_errors.h"
 
 #include "grammar/ast/reports.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Syntax errors of the parser as messages in the terms of the language.
 #pragma once
 

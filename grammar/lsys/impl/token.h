@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A token, made by the scanner and read by the parser.
 #pragma once
 

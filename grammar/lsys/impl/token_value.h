@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The semantic value of tokens and symbols: a trivially copyable struct, because the parser moves
 // one in every step.
 #pragma once

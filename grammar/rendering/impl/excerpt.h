@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A part of a source line as a terminal shows it: tabs expanded, invisible characters spelt out,
 // with the column of each byte. For the frames of messages; bounded in size for lines of any
 // length.

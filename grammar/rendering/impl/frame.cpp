@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/rendering/impl/frame.h"
 
 #include "grammar/rendering/impl/excerpt.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The frame of a message: source lines with line numbers and marks under the spans. Used by
 // render_diagnostic.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/rendering/impl/json.h"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A diagnostic as a JSON object, for editors and other tools. Byte offsets count from the
 // start of the file on disk, including a byte order mark, so that edits apply to it directly.
 #pragma once

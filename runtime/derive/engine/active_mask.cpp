@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/active_mask.h"
 
 #include "runtime/derive/engine/instantiate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ActiveMask: two bits per module, 64 modules at a time: whether it may be rewritten, and whether
 // it stores a parameter. Vectors of codes are looked up at once, so that a module that is certain
 // to be copied costs a fraction of a table lookup. A module that only productions with contexts may

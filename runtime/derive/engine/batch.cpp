@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/batch.h"
 
 #include "compiler/bytecode/arithmetic.h"

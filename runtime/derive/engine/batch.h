@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Batches: parameters that need the stack machine, evaluated for 64 modules of a production at
 // once. Each value of the machine is a row of 64 numbers, so an instruction is decoded once per
 // batch and computed with vector instructions. Rows hold the same binary32 values as evaluate() in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chooser: chooses the production that rewrites a module (docs/language.md section 5). Conditions
 // and draws are evaluated only here; the result is a record, which the writing pass reads.
 #pragma once

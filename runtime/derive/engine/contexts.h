@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ContextTables: tables of the next module towards the root and the next module along the axis for
 // each place of a word. A lookup takes constant time, however long a branch or run of ignored
 // modules is. Built per word if an active production has a context. A word without brackets and

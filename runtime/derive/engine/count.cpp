@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/count.h"
 
 #include "runtime/derive/engine/instantiate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The counting pass: the number of modules and parameters that rewriting a range of modules will
 // write, so that every word is sized exactly before threads write disjoint parts of it. Each module
 // whose row is not Fixed gets one record.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks whether productions of a stage still match after its max number of passes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/eval.h"
 
 #include "compiler/bytecode/arithmetic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The general evaluator of conditions and arguments: a stack machine over Bytecode instructions.
 // It evaluates every expression; the common ones have faster forms (shape.h) with equal results.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the module at fault after a pass has failed: a slow walk to the lowest position of the word
 // at which a condition or an argument has no finite value.
 #pragma once

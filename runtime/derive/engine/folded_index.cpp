@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/folded_index.h"
 
 #include "grammar/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FoldedIndex: finds the folded modules of a program by symbol and arguments.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/glibc_rule_draws.h"
 
 #include <algorithm>

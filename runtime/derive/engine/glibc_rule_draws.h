@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GlibcRuleDraws: the draws of `choice generation` under `random glibc`: one call of rand() per
 // rule and generation, in order, whether the rule has a choice or not. Of c alternatives, number rand()
 // mod c is taken.

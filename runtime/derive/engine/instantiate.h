@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The types for which templates of the engine are instantiated: codes C of 1, 2 and 4 bytes,
 // records R of 1 and 4 bytes. INSTANTIATE is a macro with parameters C, or C and R.
 #pragma once

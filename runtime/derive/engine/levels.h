@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Levels: derives a word depth first without storing any word. Each level holds a block of modules
 // of one generation and rewrites it, piece by piece, into the block of the level below. Each level
 // counts its modules, so the position of the next module is known.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Matcher: finds the contexts and formals of one module of a word, to choose a production and to
 // evaluate its arguments. Each thread has its own.
 #pragma once

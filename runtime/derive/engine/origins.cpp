@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/origins.h"
 
 #include "runtime/derive/engine/instantiate.h"

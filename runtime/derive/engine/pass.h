@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Passes: one pass reads a word and writes another, in chunks that any number of threads count and
 // then write; limits are checked in between. A generation is one pass, or one pass per rule.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/plan.h"
 
 #include "grammar/base/contract.h"

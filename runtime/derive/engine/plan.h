@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plan: a program prepared for rewriting; every decision that does not depend on the module is made
 // in advance. Made once per run, when the globals are known; updated for each generation if
 // something depends on step(), and for each rule if a pass rewrites one rule only. Read by the

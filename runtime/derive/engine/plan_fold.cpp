@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Folding: a module with known arguments gets a template of its own in the pool, which holds folded
 // modules. It replaces the template and parameters of the production.
 #include "runtime/derive/engine/plan.h"

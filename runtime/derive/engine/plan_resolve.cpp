@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Activates families: shapes their conditions and arguments, and resolves the rows of their
 // codes.
 #include "grammar/base/contract.h"

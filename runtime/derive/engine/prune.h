@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cuts: a module of the turtle's operation Cut removes the rest of its branch, up to the `]` that
 // closes the branch. Cuts are made at the start of a generation, before anything is matched.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The forms of an expression that need no stack machine, found by abstract interpretation
 // (compiler/bytecode/interpret.h): constants, one parameter times a factor plus an offset, and
 // conjunctions of comparisons of such values, written with && or if(). They yield the same binary32 values as evaluate().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/stage_depth.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The depth to which productions of a stage can nest: one may rewrite what another has written.
 #pragma once
 

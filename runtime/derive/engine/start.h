@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The start of a derivation: drawn constants and the axiom.
 #pragma once
 

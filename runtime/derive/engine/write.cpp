@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/write.h"
 
 #include "runtime/derive/engine/instantiate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The writing pass: writes the modules that the counting pass has counted. The common module costs
 // one row, one entry, one wide store of codes and one of parameters, and no branch.
 #pragma once

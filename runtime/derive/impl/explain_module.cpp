@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/impl/explain_module.h"
 
 #include "runtime/base/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The decision about one module in one pass, read from docs/language.md sections 5 and 6: every
 // production for modules of its name, the choice among several, and the successor.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/impl/traced_expression.h"
 
 #include "compiler/bytecode/arithmetic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Expressions evaluated with the text and the value of each part, for traces.
 #pragma once
 

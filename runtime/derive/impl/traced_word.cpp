@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/impl/traced_word.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TracedWord: a word as input of a trace. It finds modules by position, and neighbours by walking
 // (docs/language.md section 5). Slow and direct; its only table holds the places of parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Base64Writer: writes bytes that arrive in pieces as Base64 (RFC 4648).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bones: a skeleton of few joints that approximates the motion of all segments of a plant. The tree
 // of segments is cut into connected pieces. Each piece has one joint at its base, a child of the
 // joint of the piece that it grows from. Joints turn and do not shift, so that pieces stay joined

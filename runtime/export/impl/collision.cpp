@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/collision.h"
 
 #include "runtime/export/impl/convex_hull.h"

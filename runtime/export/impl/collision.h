@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Collision shapes of a plant: capsules or convex hulls along trunk and boughs, as small meshes in
 // glTF. Engines recognise collision shapes by their names.
 #pragma once

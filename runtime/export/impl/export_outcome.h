@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outcomes of exports that write no file, and their messages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A forest as one mesh: every branch instance gets vertices of its own.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/forest_plan.h"

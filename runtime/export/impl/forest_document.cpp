@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/forest_document.h"
 
 #include "runtime/export/impl/forest_formats.h"

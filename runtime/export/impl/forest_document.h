@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestDocument: the JSON document of a forest in glTF, and the layout of its buffer. Each call of
 // put_members() generates the document again; it is never stored.
 #pragma once

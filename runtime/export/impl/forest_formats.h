@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The writers of forests. Each writes one whole file and may stop early once the PieceWriter has
 // stopped.
 #pragma once

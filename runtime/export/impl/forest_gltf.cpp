@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
 // species share arrays. Each primitive has accessors for a slice of these arrays, because many

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Transforms of instances compressed by EXT_meshopt_compression (Khronos, vendor extension). The
 // filters of this extension are implemented here, because the filters of meshoptimizer round
 // differently on different machines.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/forest_plan.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestPlan: counts the instances in each cell of the ground by expanding all trees once.
 // Transforms are not stored: writers that need transforms expand the trees again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/forest_slices.h"
 
 #include <algorithm>

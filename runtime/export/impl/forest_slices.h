@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Slices: vertices of a surface in an order in which every part of every instance is a run of
 // consecutive vertices, so that each primitive of a file has accessors, bounds and small indices of
 // its own. Made from the lists of triangles of InstanceMeshes; read by the writer of glTF.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/forest/different_trees.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Transforms in the order of a file: cell by cell, group by group. One pass over the trees fills a
 // window of consecutive groups; the pieces of their cells are distributed to threads. A group larger
 // than the window is written without a window, by one pass for each of its three arrays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forests as USD text: a PointInstancer for each species and stage (OpenUSD,
 // "UsdGeomPointInstancer"). Each instance is a prototype with vertices of its own, relative to the
 // frame in which the instance begins: orientations are half floats, and their rounding would

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The writers of formats.def. Each writes one whole file and may stop early once the PieceWriter
 // has stopped. The mesh has at least one triangle and at most as many as the format can count; its
 // optional arrays are empty or complete.

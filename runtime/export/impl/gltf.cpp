@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64 or in
 // a file beside it. A plant is one mesh with a primitive for each part; parts that differ only in
 // colour share one primitive. glTF is in metres and +Y up by definition.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Collision shapes in a glTF file: each has a mesh and a node, which is a child of the node of the
 // plant. Their arrays are two buffer views at the end of the buffer.
 #pragma once

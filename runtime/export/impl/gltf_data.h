@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kinds of arrays in glTF files, and checks of their contents.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_film.h"
 
 #include "runtime/export/impl/gltf_parts.h"

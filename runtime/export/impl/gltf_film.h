@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of a glTF file that shows a film: a node and a mesh for each shape, whose vertices move
 // by morph targets, and an animation that shows one shape at a time (glTF 2.0, sections 3.7.2.2 and
 // 3.11). Target k of a mesh is frame k of its shape; the mesh itself is the last frame.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_items.h"
 
 #include "runtime/meshing/looks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Items of glTF: the numbers of one attribute of one vertex, of full size or quantised
 // (KHR_mesh_quantization). The writers of plants and of forests describe and write their arrays of
 // vertices by these functions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_levels.h"
 
 #include "grammar/base/contract.h"

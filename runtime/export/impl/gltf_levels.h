@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Levels of detail of a plant in one glTF file: the extension MSFT_lod. The writer of single meshes
 // writes each level as a file in memory, and the files are joined.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_motion.h"
 
 #include "runtime/export/impl/gltf_parts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of a glTF file that makes its mesh move: a skin, its joints as nodes, and an animation
 // that rotates and translates each joint (glTF 2.0, sections 3.7.3 and 3.11).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_parts.h"
 
 #include "runtime/export/impl/base64.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parts of glTF that the writers of plants and of forests share. Functions with a JsonWriter write
 // into the document.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_primitives.h"
 
 #include "runtime/export/impl/formats.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has arrays of its
 // own with its bounds, the attributes it needs, and indices of the smallest type possible. Vertices
 // are in the order in which triangles first use them, which suits the vertex caches of GPUs and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_streams.h"
 
 #include "runtime/base/workers.h"

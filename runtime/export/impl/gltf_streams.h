@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GltfStreams: the arrays of a plant in the buffer of a glTF file: as floats and integers of full
 // size, quantised (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A
 // stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_streams(); read by

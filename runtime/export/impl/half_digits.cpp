@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/half_digits.h"
 
 #include "grammar/base/number_chars.h"

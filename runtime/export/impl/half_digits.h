@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // HalfDigits: half floats (IEEE 754, binary16) as text with the fewest digits that read back as the
 // same half float, for arrays of half floats in text formats.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/json_writer.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // JsonWriter: writes a JSON document (RFC 8259) as a stream, without white space. It adds commas and
 // closing brackets, and stores only the open brackets. Used by the writers of glTF and by the
 // statistics of forests.

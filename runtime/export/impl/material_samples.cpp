@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/material_samples.h"
 
 #include "runtime/export/impl/text.h"

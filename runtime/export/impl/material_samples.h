@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The distinct materials of several meshes, as a mesh with one vertex and a part for each material.
 // The writers of materials and find_pictures() read nothing else of a mesh.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, copied at
 // https://paulbourke.net/dataformats/obj/); `Pr` and `norm` are of its extension for physically
 // based rendering (http://exocortex.com/blog/extending_wavefront_mtl_to_support_pbr). v of texture

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/opacity_outline.h"
 
 #include <glm/geometric.hpp>

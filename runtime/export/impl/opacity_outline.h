@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outlines of the opaque parts of a picture, for drawings.
 #pragma once
 

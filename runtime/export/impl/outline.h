@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outlines of objects for drawings: convex hulls of the parts of their shapes. Flat parts (cards)
 // with a picture that has holes are drawn as the outline of its opaque parts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/pictures.h"
 
 #include "runtime/base/workers.h"

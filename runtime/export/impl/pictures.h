@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures: textures of the materials of a file. Readers of glTF multiply a picture by the colour
 // of the material. Many readers of OBJ and USDA take either a picture or a colour, so their
 // pictures contain the colour, one picture for each material.

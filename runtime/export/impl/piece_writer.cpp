@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/piece_writer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PieceWriter: buffers the output of a sink. Small writes are collected into pieces of kPieceBytes;
 // large arrays go to the sink in pieces of this size without a copy. After the sink has returned
 // false, bytes are discarded.

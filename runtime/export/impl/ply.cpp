@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PLY, binary, little endian (Turk, "The PLY polygon file format", 1994). Colours are sRGB; v of
 // texture coordinates goes upwards, as readers of `s` and `t` expect.
 #include "runtime/export/impl/export_outcome.h"

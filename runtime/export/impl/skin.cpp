@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/skin.h"
 
 #include "grammar/base/contract.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skin: the joints that move a mesh by the poses of its segments (linear blend skinning:
 // Magnenat-Thalmann, Laperriere and Thalmann, "Joint-dependent local deformations", Graphics
 // Interface 1988; glTF 2.0, section 3.7.3.3). Joints are not nested but placed in world coordinates,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // STL, binary (3D Systems, "StereoLithography interface specification", 1988): 80 bytes of text,
 // the number of triangles, and 50 bytes for each. Normals of triangles, 0 for triangles without
 // area.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/stored_zip.h"
 
 #include <algorithm>

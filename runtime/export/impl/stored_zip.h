@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // StoredZip: a zip archive without compression, whose entries begin at multiples of 64 bytes
 // (PKWARE, "APPNOTE.TXT - .ZIP file format specification", 6.3.3; OpenUSD, "USDZ file format
 // specification"). Entries have no times but the earliest date that the format can state.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SVG (W3C, "Scalable Vector Graphics 1.1"), where y goes down: the plane z = 0 seen from +Z. Lines
 // have the mean diameter of their segments; a run of segments of equal width and colour is one
 // polyline. Objects and polygons with a picture have its mean colour. Units are metres.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text that several formats share: numbers, and names and comments escaped for their syntax.
 #pragma once
 

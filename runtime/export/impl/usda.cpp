@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // USD as text (OpenUSD, "UsdGeomMesh", "UsdPreviewSurface specification",
 // https://openusd.org/release/): one mesh, its parts as subsets bound to materials; moving plants
 // with a skin; a choice of several meshes as a variant set. v of texture coordinates goes upwards.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parts of USDA that the writers of plants and of forests share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/usda_skin.h"
 
 #include "runtime/export/impl/usda_parts.h"

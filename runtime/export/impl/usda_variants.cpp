@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/usda_variants.h"
 
 #include "grammar/base/characters.h"

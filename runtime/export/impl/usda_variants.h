@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The variants of a USD layer (OpenUSD, "VariantSet"): meshes of levels of detail, or of plants.
 // Readers show one of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/usdz.h"
 
 #include "runtime/export/impl/export_outcome.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // USDZ (OpenUSD, "USDZ file format specification"): an archive of a layer and its pictures.
 #pragma once
 

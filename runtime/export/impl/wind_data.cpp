@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/wind_data.h"
 
 #include <glm/geometric.hpp>

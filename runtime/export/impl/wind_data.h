@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // WindData: vertex attributes with which a shader moves a plant in wind without a skin. A bough is a
 // branch that leaves the trunk, with everything that grows on it. The trunk continues in the
 // thickest branch; among equally thick branches, in the one in fewest brackets.

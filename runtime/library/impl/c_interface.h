@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The handles of the C interface, and the calls that make them.
 #pragma once
 

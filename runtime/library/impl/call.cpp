@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/library/impl/call.h"
 
 #include "grammar/base/message_levels.h"

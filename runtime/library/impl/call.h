@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Call: runs one public function: converts the caller's project to a project of the pipeline, and the
 // outcome of the pipeline to a public outcome.
 #pragma once

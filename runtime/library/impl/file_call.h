@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A public call that writes files: a console that collects its messages, and the files on disk or
 // into a receiver.
 #pragma once

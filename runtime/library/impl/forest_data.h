@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The data behind Forest and Instances of the public headers.
 #pragma once
 

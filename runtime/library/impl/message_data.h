@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The data of the public Messages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* liblsys for C, and for languages that call C: L-systems compiled, derived, drawn and meshed.
  *
  *   - Values are handles. The caller owns each handle that a call returns, and frees it once with

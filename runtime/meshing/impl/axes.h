@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Axes: chains of segments, each of which becomes one tube. An axis goes from a segment to the
 // child that continues it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/axis_levels.h"
 
 #include <glm/geometric.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/axis_reader.h"
 
 #include "runtime/meshing/impl/axis_levels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AxisReader: reads the joints of one axis, ready for rings. It leaves out joints and edges that
 // cannot be drawn, so that later steps need no checks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/bark_noise.h"
 
 #include "grammar/base/hash.h"

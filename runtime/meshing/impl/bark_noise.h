@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Smooth noise on the surface of a tube, after Baele and Warzee, "Real Time L-System Generated
 // Trees Based on Modern Graphics Hardware" (2005): value noise on a lattice of angle and arc
 // length, periodic around the axis, with continuous first derivatives.

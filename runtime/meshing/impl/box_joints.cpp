@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/box_joints.h"
 
 #include "runtime/meshing/impl/box_writer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined at
 // the joints into one closed mesh per plant (docs/documents.md, S: the report on the .sys forest,
 // 2005). Each child grows out of the side of the joint that its heading is nearest to; a side with

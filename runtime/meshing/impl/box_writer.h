@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // BoxWriter: rings of four corners and the faces between them. The mesh is closed once every
 // segment is closed and every side of a joint is divided.
 #pragma once

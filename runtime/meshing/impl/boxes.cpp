@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/boxes.h"
 
 #include "grammar/base/contract.h"

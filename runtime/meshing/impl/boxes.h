@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Boxes joined and smoothed: MeshMethod::Boxes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Catmull-Clark subdivision of closed meshes (Catmull & Clark 1978, "Recursively generated B-spline
 // surfaces on arbitrary topological meshes"), on half-edges whose children are known by their
 // number (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel Catmull-Clark

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/cylinders.h"
 
 #include "runtime/base/workers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One closed truncated cone per segment: MeshMethod::Cylinders, the comparison of Crankshaw 2019.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Unit directions of the corners of regular polygons, as constants: the same bits on every machine,
 // independent of its library's cosine.
 #pragma once

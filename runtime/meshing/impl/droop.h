@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bending of leaves by gravity: each place of the midrib is turned towards the ground, without
 // stretching the leaf. Most of the turn is near the stem.
 #pragma once

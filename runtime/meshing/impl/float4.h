@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Float4: four floats in a SIMD register; a vector of three takes the first three.
 #pragma once
 

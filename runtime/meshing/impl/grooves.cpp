@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/grooves.h"
 
 #include <cmath>

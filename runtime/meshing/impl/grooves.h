@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grooves and ridges along a stem, as a displacement of its surface by texture coordinates (Tobler,
 // Maierhofer and Wilkie, "A multiresolution mesh generation approach to procedural definition of
 // complex geometry", 2002): a wave around the axis whose phase wanders slowly along it, with

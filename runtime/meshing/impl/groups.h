@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Groups: items sorted by key, for meshers that write all items of a kind and material at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/impostor.h"
 
 #include "grammar/base/hash.h"

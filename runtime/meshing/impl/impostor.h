@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. There are
 // three upright directions, 60 degrees apart, and one from above. Each direction has one card, or
 // three cards that each show a third of the depth of the plant. A card is a strip of trapezoids

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/joint_curves.h"
 
 #include "runtime/meshing/impl/axis_levels.h"

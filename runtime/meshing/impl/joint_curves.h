@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Smooth curves through the joints of a run, for MeshOptions::smooth_joints.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/l3d_shapes.h"
 
 #include "runtime/base/glibc_random.h"

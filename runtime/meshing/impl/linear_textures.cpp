@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/linear_textures.h"
 
 #include "runtime/meshing/impl/raster.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LinearTextures: textures of materials with linear colours, for rasterisers. Equal on every
 // machine.
 #pragma once

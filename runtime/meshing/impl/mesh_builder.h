@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // MeshBuilder: the output of all meshers. Vertices go to common arrays in the order of calls,
 // triangles to one part for each material. Limits are checked before memory is taken; after the
 // first failure all calls are refused.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/objects.h"
 
 #include "grammar/base/characters.h"

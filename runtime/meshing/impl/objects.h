@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Objects of the library and of files, placed by the turtle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/polygon_sides.h"
 
 #include "runtime/meshing/impl/directions.h"

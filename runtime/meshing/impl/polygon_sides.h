@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Roundness of regular polygons: measures, and the number of sides for a deviation.
 #pragma once
 

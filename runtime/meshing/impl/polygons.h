@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Polygons of the turtle as flat two-sided surfaces.
 #pragma once
 

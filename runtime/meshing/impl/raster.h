@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rasteriser of triangles by pixel centres, for measuring and baking pictures of a mesh. It uses
 // only additions, multiplications and divisions, so pictures are the same on every machine.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Segments of the rings of tubes, for a skin: a ring at a joint is bound half to the segment before
 // it and half to the segment after it, any other ring to the nearest segment.
 #pragma once

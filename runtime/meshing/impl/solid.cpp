@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/solid.h"
 
 #include "runtime/meshing/impl/solid_shapes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One closed surface around the whole plant: MeshMethod::Solid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts of MeshMethod::Solid: cones with round ends, and triangles with a thickness. Lengths in
 // metres.
 #pragma once

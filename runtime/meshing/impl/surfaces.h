@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parts of shapes: surfaces of revolution about +Y, discs and boxes; normals and tangents.
 #pragma once
 

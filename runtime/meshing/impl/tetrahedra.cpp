@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/tetrahedra.h"
 
 #include "runtime/base/workers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Extracts a surface from a distance function by marching tetrahedra. A cube is divided into
 // tetrahedra, which are bisected at their longest edges (Maubach 1995) until each tetrahedron is
 // small relative to the shapes near it.

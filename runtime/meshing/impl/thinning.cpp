@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/thinning.h"
 
 #include "runtime/base/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Thinning: the order in which a plant loses its parts from level to level, and the skeleton of a
 // level. Remaining parts are enlarged, so that area and mean colour stay (Cook, Halstead, Planck
 // and Ryu, "Stochastic simplification of aggregate detail", ACM TOG 26(3), 2007).

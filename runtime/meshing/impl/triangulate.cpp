@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/triangulate.h"
 
 #include <glm/common.hpp>

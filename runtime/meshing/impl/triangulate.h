@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangulates a flat polygon, concave or not, by ear clipping. Corners are indexed in Morton order,
 // so that an ear is compared only with corners near to it (the method of mapbox/earcut, after Held
 // 2001, "FIST: Fast Industrial-Strength Triangulation of Polygons", section 3.4). A convex polygon

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TubeWriter: writing of rings to the arrays of the mesh.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/impl/directions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TubeTriangles: computes the triangles and the number of vertices of runs before vertices are
 // written. Vertices are numbered in the order in which TubeWriter writes them.
 #pragma once

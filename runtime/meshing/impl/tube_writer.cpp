@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include "runtime/meshing/impl/bark_noise.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TubeWriter: writes the vertices of the rings of runs. The normal is carried from edge to edge by
 // double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
 // ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. The normal

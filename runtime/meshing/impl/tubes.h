@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tubes along axes with shared rings at joints: MeshMethod::Tubes.
 #pragma once
 

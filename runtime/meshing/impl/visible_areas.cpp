@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/visible_areas.h"
 
 #include "runtime/meshing/impl/raster.h"

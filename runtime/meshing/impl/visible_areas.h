@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Visible areas: the parts of a picture that wood and foliage cover, with hidden surfaces removed.
 // Levels of detail keep both areas, and with them the mean colour.
 #pragma once

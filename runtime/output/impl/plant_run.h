@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state shared by all files of a plant, and the steps that its parts share.
 #pragma once
 

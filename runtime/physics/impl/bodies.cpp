@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mass properties after Crankshaw 2019, section 6.2. In this thesis a segment is a cylinder that
 // turns about its end; here it is the truncated cone that is drawn, a cylinder if the radii are
 // equal. The mass is Segment::mass: given by the author, or the volume of the cone times the density.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies: the rigid bodies of a plant at rest, one for each segment with its objects and polygons.
 // Made once by PlantPhysics.
 #pragma once

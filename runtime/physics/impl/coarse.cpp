@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A limp twig loads its branch like a mass at the base of the twig, and a run has the weight of its
 // bodies. So a coarse plant falls like the whole plant, whose Body::moment and contacts with the
 // ground it has.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coarse plants: the thicker branches of a plant, with loads in place of their twigs, cut into
 // rigid runs of segments. A plant that falls is settled in stages, from the coarsest plant to the
 // whole plant; each stage starts from the pose of the stage before.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ground: raises tips to the plane y = 0 that the springs of the ground (joints.cpp) leave below it.
 #pragma once
 

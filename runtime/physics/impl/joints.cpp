@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Computes the velocities at the end of a step by elimination from the tips to the root and back
 // substitution: the articulated-body algorithm (Featherstone 2008, chapter 7) with ball joints, in
 // absolute angular velocities. Time is linear in the number of bodies; no recursion.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/physics/impl/motion.h"
 
 #include "runtime/physics/impl/rotation.h"

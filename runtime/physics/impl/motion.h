@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Motion: positions and velocities of the bodies of a plant, and the forces on them in a step.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rotations in double precision: unit quaternions and rotation vectors (axis times angle in radians).
 // The zero vector converts to exactly the identity, and the identity to exactly the zero vector.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Schedule: divides the bodies of a plant into pieces for threads, depth by depth. The pieces depend
 // only on the plant, so that a sum over pieces is the same for any number of threads.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small matrices of the physics: symmetric matrices (inertia) and matrices stored by rows (couplings).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/impl/drawing_end.h"
 
 #include "runtime/derive/runtime_diagnostic.h"

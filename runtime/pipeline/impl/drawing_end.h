@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reports the end of a derivation and of the drawing of its word to a step, for single plants and
 // for the heroes of forests.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FileBudget: the memory that a run may still use for maps, meshes and pictures, and the pictures
 // decoded so far. One per run; readers of files count it down.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh files of `#object`, with the pictures that their material files name, and the pictures of
 // `#material`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/impl/variety_note.h"
 
 #include "grammar/base/counted_text.h"

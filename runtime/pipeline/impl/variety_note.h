@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The note for a forest in which few trees differ from each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/impl/wanted_module.h"
 
 #include "grammar/base/number_chars.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parses a module that a user selects: `A(3, 0.5)`.
 #pragma once
 

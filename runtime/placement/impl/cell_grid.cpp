@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/impl/cell_grid.h"
 
 #include <fmt/format.h>

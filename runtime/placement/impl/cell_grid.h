@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CellGrid: the squares of an unbounded grid, and unique 32-bit numbers of the places within them. A
 // number contains row, column and place; cells whose numbers would exceed 32 bits are refused.
 #pragma once

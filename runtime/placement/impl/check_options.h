@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks the options of a placement before trees are placed.
 #pragma once
 

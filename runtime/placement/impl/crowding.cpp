@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grid for circles of very different sizes: each plant is listed in every square that the
 // bounding box of its circle touches, so overlapping circles share a square. The area of a square is
 // the ground per plant or the area of the mean box, whichever is larger: there are at most as many

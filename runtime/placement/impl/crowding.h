@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds dominated plants: plants whose circle overlaps the circle of a stronger plant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // DensityCells: a density map on an unbounded grid. A cell is 4 by 4 squares with one place each; a
 // place has a tree if its rank is below the grey value at the place. The 16 ranks of a cell are
 // stratified, one from each sixteenth of [0, 1) in random order, so that all cells of equal grey have

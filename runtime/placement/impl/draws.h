@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random draws of placement, and their purposes. The position is the tree's number, or the cell's
 // number for draws of a cell; runtime/base/random.h defines draws.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // DensityMap: a density map turned into places by error diffusion (Floyd and Steinberg 1976, "An
 // adaptive algorithm for spatial greyscale"), as Deussen et al. 1998, "Realistic modeling and
 // rendering of plant ecosystems", section 4.2, place plants. The region is divided into squares in

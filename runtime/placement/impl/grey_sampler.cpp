@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/impl/grey_sampler.h"
 
 #include <algorithm>

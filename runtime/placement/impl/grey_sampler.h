@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GreySampler: samples a map stretched over a region, whose pixels are rectangles of constant grey.
 // The map is black beyond the region.
 #pragma once

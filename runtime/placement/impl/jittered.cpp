@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Jittered: one place in each square of an unbounded grid (Cook 1986, "Stochastic sampling in
 // computer graphics", section 4.2).
 #include "runtime/placement/impl/cell_grid.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The methods of placement, one per file. Each adds its trees to a placement. The options have been
 // checked and the expected number of trees is within bounds.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PoissonCells: a Poisson disk sample of the whole plane; each region can be computed independently.
 // Each cell of an unbounded grid holds 16 candidates with random ranks. Candidates closer than the
 // spacing are rivals. A round accepts the candidates whose rivals of lower rank have all been

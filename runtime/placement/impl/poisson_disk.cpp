@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). Around a random
 // point of a list of active points, about 30 points are tried in the ring from r to 2r; the first
 // point that is at least r from all others is added to the list, and an active point without success

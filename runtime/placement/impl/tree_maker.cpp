@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/impl/tree_maker.h"
 
 #include "runtime/placement/impl/draws.h"

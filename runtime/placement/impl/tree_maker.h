@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TreeMaker: makes a tree from a place and a number: chooses species, yaw and scale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uniform: place i has draws 0 and 1 at position i as coordinates. A place where no species can
 // live has no tree, so numbers do not depend on the terrain.
 #include "runtime/placement/impl/draws.h"

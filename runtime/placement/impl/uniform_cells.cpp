@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // UniformCells: a Poisson process of constant density, cell by cell (Devroye 1986, "Non-uniform
 // random variate generation", chapter VI.1). The size of cells is chosen for a mean of 16 places per
 // cell. So one table of the Poisson distribution serves every density, and no result depends on the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/folder_events.h"
 
 #include "runtime/platform/file.h"

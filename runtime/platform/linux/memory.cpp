@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/memory.h"
 
 #include <sys/mman.h>

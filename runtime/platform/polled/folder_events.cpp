@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/folder_events.h"
 
 #if LSYS_THREADS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/file.h"
 
 #include "runtime/platform/windows/wide_text.h"

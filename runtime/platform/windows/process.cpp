@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/process.h"
 
 #include "runtime/platform/windows/wide_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/windows/wide_text.h"
 
 #include <windows.h>

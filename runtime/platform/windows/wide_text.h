@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text of the Win32 functions (UTF-16) from and to UTF-8.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """L-systems: compile grammars, derive words, draw and mesh plants.
 
     >>> import lsys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Types of the package lsys. Arrays that are views cannot be written."""
 
 import os

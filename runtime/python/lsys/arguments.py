@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Keyword arguments as options of `lsc export` and `lsc forest`."""
 
 import os

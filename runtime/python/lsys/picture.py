@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Pictures of plants in notebooks, drawn by numpy."""
 
 import struct

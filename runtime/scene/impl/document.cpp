@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/scene/impl/document.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A TOML file as a tree of values with their places in bytes. Keys are in the order of the text.
 #pragma once
 

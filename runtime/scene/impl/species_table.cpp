@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/names.h"
 #include "grammar/base/paths.h"
 #include "runtime/scene/impl/table_reader.h"

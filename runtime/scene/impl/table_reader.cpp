@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/scene/impl/table_reader.h"
 
 #include "runtime/derive/runtime_diagnostic.h"

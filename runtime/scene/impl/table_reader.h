@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TableReader: reads the values of a table of a scene file key by key, reports mistakes in each,
 // and finally reports the keys that were not read.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Readers of the tables of a scene file. After a mistake they continue with the default, so that
 // all mistakes are found at once. `table` is nullptr if the file lacks the table.
 #pragma once

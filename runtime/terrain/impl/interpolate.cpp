@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/terrain/impl/interpolate.h"
 
 #include <algorithm>

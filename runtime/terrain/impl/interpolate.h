@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Interpolates grey values between the centres of pixels. Places beyond the border are clamped to the
 // border.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A regular grid over the ground. Diagonals alternate, so that no direction is favoured.
 #include "runtime/base/workers.h"
 #include "runtime/terrain/terrain.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/actions.h"
 
 #include <algorithm>

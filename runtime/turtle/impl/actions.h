@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Actions of the turtle: the operation of each code of a word, with all constants computed once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/correspondence.h"
 
 #include "grammar/base/contract.h"

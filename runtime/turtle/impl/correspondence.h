@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Correspondence between the drawings of two consecutive generations; growth.h has the rules.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Operations of the turtles of other programs only: Fractint and Houdini.
 #include "runtime/turtle/impl/state.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open polygons: polygons after their `{` and before their `}`. Brackets neither save nor end them.
 // A polygon may begin within another; the corners of all open polygons are on one stack.
 #pragma once

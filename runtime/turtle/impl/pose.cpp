@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/pose.h"
 
 #include <glm/ext/quaternion_double.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state of a Turtle while it draws. The walk over a word is in turtle.cpp, the commands are in
 // commands.cpp.
 #pragma once

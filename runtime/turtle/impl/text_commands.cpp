@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words of L3D: a `(` directly after a command begins the text of its parameter, up to the first
 // `)`. So a command is executed when the next module, or this `)`, is read.
 #include "runtime/turtle/impl/text_commands.h"

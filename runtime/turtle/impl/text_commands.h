@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers in words of L3D, whose parameters are characters in parentheses.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws meadow.png, a map of densities: patches of three sizes, and a path without plants.
 Usage: samples/scenes/meadow/meadow.py      Needs Python alone; draws the same picture each time."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """L-system plants: grows plants and forests in Blender with lsc. See scripts/blender/README.md."""
 
 bl_info = {

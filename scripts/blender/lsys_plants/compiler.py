@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Grows plants by the Python module lsys or, where there is none, by the program lsc; needs no Blender."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Reads GLB and glTF files of lsc into plain arrays; needs no Blender.
 
 A file of a forest is walked as placements: each names a mesh and holds one transform, or one for each instance of

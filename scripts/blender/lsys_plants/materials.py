@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Makes materials of a glTF file that Blender's own importer does not read.
 
 Written for Blender 3.4; what differs in 4.0 to 4.5 follows the release notes of Blender, and was not run there.

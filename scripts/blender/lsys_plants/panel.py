@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Properties, operators and panels of the add-on.
 
 A plant or forest is a collection whose `lsys` settings have a kind; its contents follow the settings.

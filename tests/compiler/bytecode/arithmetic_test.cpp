@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/arithmetic.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/impl/bytecode_contents.h"
 #include "tests/compiler/small_bytecode.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers from distributions: quantiles known from closed forms or tables, and arguments out of
 // bounds.
 #include "compiler/bytecode/distributions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/interpret.h"
 #include "tests/support/builder_text.h"
 

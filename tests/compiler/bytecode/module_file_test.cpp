@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "compiler/bytecode/verify.h"
 #include "tests/compiler/small_bytecode.h"

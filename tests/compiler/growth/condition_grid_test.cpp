@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/condition_grid.h"
 #include "tests/support/builder_text.h"
 

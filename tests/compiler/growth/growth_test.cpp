@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/growth.h"
 #include "tests/compiler/compile_text.h"
 #include "tests/support/bytecode_builder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/growth/uint128.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/disassemble.h"
 #include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/module_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/verify.h"
 #include "tests/compiler/compile_text.h"
 

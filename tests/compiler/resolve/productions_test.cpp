@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/compiler/compile_text.h"
 
 #include <catch2/catch.hpp>

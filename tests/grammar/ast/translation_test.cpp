@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Translations: texts and places in the original.
 #include "grammar/ast/translation.h"
 #include "grammar/dialects/dialect.h"

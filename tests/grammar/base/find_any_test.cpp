@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/find_any.h"
 
 #include <catch2/catch.hpp>

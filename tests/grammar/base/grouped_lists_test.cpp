@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/grouped_lists.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/hash.h"
 
 #include <catch2/catch.hpp>

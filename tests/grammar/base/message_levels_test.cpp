@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/message_levels.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // portable_chars writes and reads numbers like the standard library.
 #include "grammar/base/impl/portable_chars.h"
 #include "grammar/base/number_chars.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/base/paths.h"
 
 #include <catch2/catch.hpp>

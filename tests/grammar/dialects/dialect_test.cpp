@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The table of dialects: its columns, and the functions that read them.
 #include "grammar/dialects/dialect.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of lines, their places, and the reports about pieces that do not fit.
 #include "grammar/base/names.h"
 #include "grammar/dialects/impl/line_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text functions of the front ends of dialects.
 #include "grammar/dialects/impl/text.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/format/format.h"
 #include "grammar/format/impl/lexemes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Syntax trees of grammars without errors.
 #include "tests/grammar/lsys/parsed.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grammar parsed from strings, for tests of the front end.
 #pragma once
 

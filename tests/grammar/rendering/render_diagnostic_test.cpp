@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grammar/rendering/render_diagnostic.h"
 
 #include <catch2/catch.hpp>

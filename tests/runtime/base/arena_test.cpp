@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/arena.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/grey_map.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/base/workers.h"
 
 #include <catch2/catch.hpp>

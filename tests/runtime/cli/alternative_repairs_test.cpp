@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/alternative_repairs.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares the output of `lsc dump --stage heroes`, `cache` and `instanced` with a slow
 // interpretation of the words.
 #include "tests/support/lsc_run.h"

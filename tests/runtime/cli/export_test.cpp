@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Links, permissions and devices, which are missing or different on Windows.
 #include "runtime/program/files.h"
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/cli/chosen_fixes.h"
 #include "runtime/cli/fixes.h"
 #include "runtime/program/host.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsc forest`, run in-process.
 #include "tests/support/lsc_run.h"
 

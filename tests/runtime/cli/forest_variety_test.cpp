@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsc forest --variety` and `--memory`, and the note about forests with few different trees.
 #include "tests/support/lsc_run.h"
 

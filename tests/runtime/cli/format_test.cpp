@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `lsc fmt` with bytes that golden cases cannot contain: byte order marks and line ends.
 #include "tests/support/lsc_run.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Behaviour of lsc that golden cases cannot test: interrupts, terminals, failing streams, exhausted
 // memory.
 #include "runtime/cli/lsc.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/platform/cgroup.h"
 #include "runtime/program/memory_size.h"
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Largest distance of a vertex from its place at rest, for samples in an animation of wind.
 #include "tests/support/lsc_run.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The executable as a process: signals, closed standard streams, a full disk, limits of memory and
 // of the size of files.
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/ui_case.h"
 
 #include <catch2/catch.hpp>

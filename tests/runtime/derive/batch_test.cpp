@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parameters that are evaluated for many modules at once. Chunks of one, two and seven modules are
 // evaluated one by one, so each case compares both methods.
 #include "runtime/derive/derive.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contexts over branches, ignored modules and runs of ignored modules.
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"

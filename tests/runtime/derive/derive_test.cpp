@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parallel rewriting: one generation, for every kind of module and production.
 #include "runtime/derive/derive.h"
 #include "tests/support/bytecode_builder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Run-time errors: which error is reported, and its message.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"

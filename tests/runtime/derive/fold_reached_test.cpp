@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Folding of reachable modules: the programs that benefit, and the parameters that their words
 // store.
 #include "runtime/derive/fold_reached.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Functions and curves of a grammar, derived by all methods.
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"

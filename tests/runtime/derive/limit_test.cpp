@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Limits on modules and memory, and cancelling.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/runtime_diagnostic.h"

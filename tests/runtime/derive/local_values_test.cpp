@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Local values and choices, derived by all methods.
 #include "tests/compiler/compile_text.h"
 #include "tests/support/derived.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sequential and cyclic rewriting, and predecessors of several modules.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"

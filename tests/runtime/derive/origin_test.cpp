@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Origins of modules and of the parts drawn for them. tests/reference checks origins for every
 // feature.
 #include "runtime/derive/derive.h"

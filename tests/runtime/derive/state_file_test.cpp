@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "runtime/derive/derive.h"
 #include "runtime/derive/state_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Choices and random ranges: their draw numbers and frequencies.
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"

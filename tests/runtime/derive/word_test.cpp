@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words and their text.
 #include "runtime/base/random.h"
 #include "runtime/derive/word.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Joints and keys of light skeletons. tests/export compares the posed meshes with the frames.
 #include "runtime/export/impl/bones.h"
 #include "tests/runtime/plants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/collision.h"
 #include "tests/support/plants.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/impl/convex_hull.h"
 #include "tests/support/plants.h"
 

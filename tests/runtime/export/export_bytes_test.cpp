@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of tiny meshes, compared byte by byte.
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"

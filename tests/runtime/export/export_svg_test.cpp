@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drawings of skeletons.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/opacity_outline.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exports in every format: output in pieces, sinks that stop, meshes that are too large or empty.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Films of growth in GLB: at the time of each frame, a reader shows the mesh of that frame.
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh_film.h"

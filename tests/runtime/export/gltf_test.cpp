@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Primitives, indices, materials and numbers of GLB and glTF, read back from the file.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/gltf_primitives.h"

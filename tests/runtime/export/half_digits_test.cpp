@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Half floats and rounded numbers as text.
 #include "runtime/export/impl/half_digits.h"
 #include "runtime/export/impl/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The JSON writer: brackets, commas, numbers, strings.
 #include "runtime/export/impl/json_writer.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/export/placed_plant.h"
 #include "runtime/physics/animation.h"
 #include "tests/support/plants.h"

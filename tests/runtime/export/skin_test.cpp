@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skins: the segments that move each vertex, and joints shared by segments.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/skin.h"

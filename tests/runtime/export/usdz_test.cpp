@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // USDZ archives: stored entries at multiples of 64 bytes, and their contents.
 #include "runtime/export/export.h"
 #include "runtime/export/impl/stored_zip.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares wind data of vertices with sums over the segments from the pivot.
 #include "runtime/export/impl/wind_data.h"
 #include "tests/runtime/plants.h"

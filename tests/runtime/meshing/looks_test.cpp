@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Materials of colour indices on meshes, colours without an index, and pictures in JPEG.
 #include "runtime/export/export.h"
 #include "runtime/meshing/looks.h"

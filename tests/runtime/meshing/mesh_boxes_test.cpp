@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Catmull-Clark subdivision compared with closed forms, and plants of joined boxes as closed
 // surfaces.
 #include "runtime/meshing/impl/box_joints.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/mesh_builder.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // MeshMethod::Cylinders: one closed truncated cone per segment.
 #include "runtime/meshing/impl/cylinders.h"
 #include "tests/support/mesh_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // MeshOptions::deviation: rings of tubes have as few sides as keep them within the deviation from a
 // circle.
 #include "runtime/meshing/mesh.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/mesh_film.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coarser levels of tubes look like the finest one.
 #include "runtime/meshing/mesh.h"
 #include "tests/support/mesh_checks.h"

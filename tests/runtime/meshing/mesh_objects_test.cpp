@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Objects placed by the turtle: positions, rotations, sizes, colours and drooping leaves.
 #include "runtime/meshing/impl/objects.h"
 #include "runtime/meshing/shapes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangulation: areas of polygons of every shape, and degenerate polygons.
 #include "runtime/meshing/impl/polygons.h"
 #include "runtime/meshing/impl/triangulate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The object library: extents, normals, closed surfaces, and levels that fill the same box.
 #include "runtime/meshing/shapes.h"
 #include "tests/support/mesh_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tubes along smooth curves through their joints.
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/axes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Solids: one closed surface around a whole plant.
 #include "tests/support/mesh_checks.h"
 

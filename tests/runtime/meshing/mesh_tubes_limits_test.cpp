@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tubes of skeletons that are large, unusual or invalid.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/mesh.h"

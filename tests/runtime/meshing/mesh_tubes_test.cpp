@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/mesh.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/plants.h"

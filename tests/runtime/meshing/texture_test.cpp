@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Procedural textures.
 #include "grammar/base/hash.h"
 #include "runtime/meshing/shapes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/triangle_list.h"
 #include "tests/support/plants.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading Wavefront OBJ: every notation of a face, computed values, refused files.
 #include "runtime/meshing/user_mesh.h"
 

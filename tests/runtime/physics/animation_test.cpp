@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/physics/animation.h"
 #include "tests/runtime/plants.h"
 

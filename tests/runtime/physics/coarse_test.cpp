@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Falling plants settle in stages: first coarse plants, then the whole plant from their pose.
 #include "runtime/physics/impl/coarse.h"
 #include "runtime/physics/physics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Contact with the ground, and PhysicsOptions::load.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edge cases of the physics of plants: arbitrary option values, thread counts, deep branching.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The physics of plants against closed forms and independent solutions.
 #include "runtime/physics/physics.h"
 #include "tests/runtime/plants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares buckling with closed forms, and tests the factor of standing_factor().
 #include "runtime/physics/stability.h"
 #include "tests/runtime/plants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Growth of forests, with moments between two years.
 #include "runtime/pipeline/forest_growth.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The pipeline as a library: files are read from memory, results are values.
 #include "runtime/forest/tree_heights.h"
 #include "runtime/pipeline/forest.h"

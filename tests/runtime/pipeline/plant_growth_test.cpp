@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Growth between generations: whole generations equal the ordinary plants, and motion between them
 // is continuous.
 #include "runtime/pipeline/plant_growth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/scene_overrides.h"
 
 #include <catch2/catch.hpp>

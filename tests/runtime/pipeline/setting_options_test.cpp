@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/setting_options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/pipeline/value_edits.h"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/placement/placement.h"
 #include "tests/runtime/placement/placements.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of small placements, for tests of all methods.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Calls of the system for files, alike on all systems.
 #include "runtime/platform/file.h"
 #include "runtime/platform/process.h"

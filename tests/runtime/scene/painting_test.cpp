@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trees painted by hand: how they change a forest, and how they are saved in a scene file.
 #include "grammar/base/source.h"
 #include "runtime/scene/painting.h"

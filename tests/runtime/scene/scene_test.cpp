@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene files: the value and default of each key, and messages about mistakes. Files named by a
 // scene are not opened.
 #include "grammar/base/source.h"

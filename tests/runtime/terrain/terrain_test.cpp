@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/meshing/texture.h"
 #include "runtime/terrain/terrain.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/plant_size.h"
 #include "tests/runtime/plants.h"
 

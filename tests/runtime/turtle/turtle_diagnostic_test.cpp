@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/turtle/turtle_diagnostic.h"
 #include "tests/support/bytecode_builder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/derive/derive.h"
 #include "runtime/turtle/turtle.h"
 #include "tests/support/bytecode_builder.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Runs the golden runner on cases that are wrong on purpose; the runner must report each of them.
 execute_process(COMMAND "${RUNNER}" --root "${ROOT}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 if(status EQUAL 0)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tests_ui [--bless] [-v] [--root FOLDER] [FILTER...]: runs the golden cases whose
 // `feature/fact.lsys` contains a FILTER. tests_ui --codes: lists the diagnostics that no case
 // shows, and fails if there are any.

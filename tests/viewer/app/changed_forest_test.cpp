@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trees added to or removed from a forest after it was made: the draw lists equal those of a forest
 // that was made with, or without, these trees.
 #include "tests/viewer/wood.h"

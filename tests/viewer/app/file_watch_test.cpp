@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/lsc_run.h"
 #include "viewer/app/file_watch.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestView without a window: replacing forests, painting, the scene file.
 #include "runtime/meshing/texture.h"
 #include "tests/support/lsc_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line of lsview.
 #include "viewer/app/options.h"
 

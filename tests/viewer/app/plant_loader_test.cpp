@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "runtime/program/console.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantView without a window: replacing plants, pictures.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"

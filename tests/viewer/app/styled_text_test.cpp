@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text with colour codes of a terminal, split into lines of runs of equal colour.
 #include "viewer/app/styled_text.h"
 

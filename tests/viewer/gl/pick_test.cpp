@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares picked branches with ray casts against all triangles of a forest; tests colours of
 // branches.
 #include "tests/viewer/wood.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares patches and heights of the drawn ground with the terrain itself.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/camera.h"
 
 #include <catch2/catch.hpp>

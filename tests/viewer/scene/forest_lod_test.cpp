@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares LOD bands with a direct computation for each tree.
 #include "tests/viewer/wood.h"
 #include "viewer/scene/impostor_plan.h"

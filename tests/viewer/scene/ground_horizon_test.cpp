@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares occlusion by the ground with sampled lines of sight.
 #include "tests/viewer/drawn_ground.h"
 #include "tests/viewer/wood.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares picking on a height field with a test of every triangle (Moeller and Trumbore 1997).
 #include "runtime/base/random.h"
 #include "viewer/scene/height_field.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares boxes of opaque texels with a search of all texels.
 #include "viewer/scene/impostor_texels.h"
 

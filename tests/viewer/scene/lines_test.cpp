@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/scene/lines.h"
 
 #include <catch2/catch.hpp>

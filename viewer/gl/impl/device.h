@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Device: shared state of all objects of one OpenGL context: count of live objects, to detect
 // leaks, and errors of the driver. Must outlive the objects.
 #pragma once

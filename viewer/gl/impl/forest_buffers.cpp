@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/forest_buffers.h"
 
 #include "grammar/base/contract.h"

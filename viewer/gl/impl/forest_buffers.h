@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestBuffers: meshes, trees and forms of a forest on the device, in the layout of
 // shaders/forest.glsl. One vertex and one index buffer for all forms, levels and instances.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestPass: draws a forest: branches of near trees, impostors of far ones, ground and shadows. At
 // most 16 draw calls for any number of trees, and two for each picture of a mesh file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/forest_programs.h"
 
 #include "viewer/gl/impl/program.h"

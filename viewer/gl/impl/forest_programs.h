@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ForestPrograms: shader programs of forests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/frame_block.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FrameBlock: uniforms shared by all shaders; shaders/frame.glsl declares the same fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/impostor_atlas.h"
 
 #include "grammar/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ImpostorAtlas: texture array of impostors. A layer for each impostor of a form, with tiles for
 // kYaws directions at kElevations elevations; shaders/impostor.glsl has the same numbers.
 #pragma once

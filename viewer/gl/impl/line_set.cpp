@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/line_set.h"
 
 #include <algorithm>

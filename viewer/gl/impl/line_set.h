@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LineSet: coloured lines on the device.
 #pragma once
 

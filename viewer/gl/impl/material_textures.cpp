@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/material_textures.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // MaterialTextures: textures of runtime/meshing/texture.h on the device, made on first use.
 #pragma once
 

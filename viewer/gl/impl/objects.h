@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Owners of OpenGL objects. Each is counted by its Device. Move only.
 #pragma once
 

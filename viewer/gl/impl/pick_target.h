@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PickTarget: offscreen framebuffer of one pixel, which holds kind and index of the part that the
 // pixel shows, instead of a colour.
 #pragma once

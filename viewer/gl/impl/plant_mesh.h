@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PlantMesh: triangles of one plant on the device; one draw call per material.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiles and links the shaders of viewer/shaders. Shaders may contain `#include "name.glsl"`;
 // errors are reported with file and line.
 #pragma once

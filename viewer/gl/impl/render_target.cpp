@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/render_target.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // RenderTarget: offscreen framebuffer of a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiler logs of shaders assembled from several files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/shadow_map.h"
 
 namespace lsys::view {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ShadowMap: depth texture seen from the sun, reused until its contents change.
 #pragma once
 

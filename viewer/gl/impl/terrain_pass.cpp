@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/terrain_pass.h"
 
 #include "grammar/base/hash.h"

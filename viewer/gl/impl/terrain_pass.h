@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // TerrainPass: draws the ground of a forest: a texture of heights around the camera, and one small
 // grid drawn per patch of a TerrainLod.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Replaces dlclose(), so that programs with sanitizers keep all libraries loaded. Sanitizers cannot
 // name functions of an unloaded driver, and count memory that its variables point to as leaked.
 

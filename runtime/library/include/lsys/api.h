@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The version of the library, and macros that mark its functions as public. Every other public header
 // includes this header.
 #pragma once

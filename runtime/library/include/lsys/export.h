@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Export: plants as files that other programs read: the bytes of one file, or all files of an export
 // with its preset, levels of detail, pictures, motion or growth.
 #pragma once

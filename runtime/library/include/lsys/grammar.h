@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grammar: a compiled L-system. Read from a .lsys file, a file of another program (L-studio's cpfg,
 // Houdini, Fractint ...) or a compiled .lsb file.
 #pragma once

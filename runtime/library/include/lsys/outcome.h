@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outcome: the result of a library call: a value or the reason why there is none, and in both cases
 // the messages of the call.
 #pragma once

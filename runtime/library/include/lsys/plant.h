@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plant: the drawing of a word by the turtle, a skeleton of segments, objects and polygons; and its
 // Mesh, triangles with materials. Metres, kilograms, right-handed axes, +Y up. Arrays are spans into
 // the plant or mesh, without a copy: they are valid as long as any copy of the plant or mesh exists.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Project: the input that all calls share: the source of files, limits, and functions to observe and
 // cancel long calls.
 #pragma once

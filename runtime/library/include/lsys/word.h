@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Word: a derived string of modules in packed form: a code for each module, and the stored binary32
 // parameters of all modules, in order.
 #pragma once
