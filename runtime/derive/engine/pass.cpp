@@ -20,8 +20,8 @@ namespace {
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
 /// Modules of the shortest word for which counting on all threads is faster than the census, after
-/// which one thread writes in order. Batches, whose modules cost more, are worth it in every shared
-/// word.
+/// which one thread writes in order. Batches with random draws, whose modules cost more, are worth
+/// it in every shared word.
 constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
@@ -117,7 +117,8 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     make_chunks(word);
     mask_.prepare(plan_, contexts());
 
-    const std::uint64_t min_shared_count = plan_.has_batched() ? kMinSharedWord : kMinParallelCount;
+    const std::uint64_t min_shared_count =
+        plan_.has_batched_draws() ? kMinSharedWord : kMinParallelCount;
     by_census_ = !dynamic && plan_.rows().size() <= kCensusCodes &&
                  (workers_.count() == 1 || word.count < min_shared_count);
     if (by_census_) {

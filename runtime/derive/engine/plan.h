@@ -198,6 +198,8 @@ public:
     [[nodiscard]] std::uint32_t wide_bytes() const { return codes_.wide_bytes; }
     /// Whether some entry is batched.
     [[nodiscard]] bool has_batched() const { return has_batched_; }
+    /// Whether some batched entry draws random numbers, which takes most of the time of a batch.
+    [[nodiscard]] bool has_batched_draws() const { return has_batched_draws_; }
     /// Room for parameters that the wide loop needs per module.
     [[nodiscard]] std::uint32_t wide_parameters() const { return wide_parameters_; }
     /// Whether terms of an entry may read different parameters.
@@ -335,6 +337,7 @@ private:
     std::uint32_t record_width_ = 1;
     std::uint32_t wide_parameters_ = kEntryTerms;
     bool has_batched_ = false;
+    bool has_batched_draws_ = false;
     bool mixes_inputs_ = false;
     bool has_parameters_ = false;
     bool has_structure_ = false;

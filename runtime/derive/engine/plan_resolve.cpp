@@ -132,6 +132,9 @@ void Plan::shape(Family& family) {
         }
         set_special(entry);
         has_batched_ = has_batched_ || entry.batched;
+        const std::uint32_t draws =
+            bytecode_.productions[candidates_[i].production].successor.draw_count;
+        has_batched_draws_ = has_batched_draws_ || (entry.batched && draws != 0);
         family.reads_own = family.reads_own || entry.reads_own;
     }
     family.current = true;
