@@ -58,11 +58,13 @@ if(LSYS_SHARED)
   set(library "liblsys${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
   list(APPEND CPACK_COMPONENTS_ALL library development)
   lsys_deb(library "${library}" libs "L-systems: shared library"
-    "liblsys compiles grammars of L-systems, derives words, draws plants, meshes them
-and writes them as files, for programs in C++ and C.")
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_BINARY_DIR}/deb/triggers")
+    "liblsys compiles grammars of L-systems, derives words, draws plants, meshes
+them and writes them as files, for programs in C++ and C.")
+  # CPack writes `shlibs` for all packages or none, and the module for Python is no library.
+  file(CONFIGURE OUTPUT deb/shlibs CONTENT "liblsys ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} \
+${library} (>= ${PROJECT_VERSION})\n")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_CURRENT_BINARY_DIR}/deb/shlibs;${CMAKE_CURRENT_BINARY_DIR}/deb/triggers")
   lsys_deb(development liblsys-dev libdevel "L-systems: headers and static library"
     "Headers for C++ and C, the static library, and the files by which CMake and
 pkg-config find liblsys.")
