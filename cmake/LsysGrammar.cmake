@@ -21,12 +21,12 @@ function(lsys_add_grammar target folder)
   target_sources(${target} PRIVATE
     ${BISON_${dialect}_parser_OUTPUTS} ${FLEX_${dialect}_scanner_OUTPUTS})
   target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
-  # Warnings of generated code are off: scanners of Flex 2.6 have C casts, and the LAC code (lookahead
+  # Warnings of generated code are off: scanners of Flex 2.6 have C casts and mix signs, and the LAC code (lookahead
   # correction) in parsers of Bison 3.8 narrows states.
   # -fno-inline: all actions of a scanner are one function, which is called for every token. Inlined token
   # constructors would each add local variables to it, which sanitizers initialise at every call.
   set_source_files_properties("${out}/scanner.cpp" PROPERTIES
-    COMPILE_OPTIONS "-fno-inline;-Wno-old-style-cast;-Wno-null-dereference;$<$<CXX_COMPILER_ID:GNU>:-Wno-useless-cast>"
+    COMPILE_OPTIONS "-fno-inline;-Wno-old-style-cast;-Wno-sign-conversion;-Wno-null-dereference;$<$<CXX_COMPILER_ID:GNU>:-Wno-useless-cast>"
     SKIP_LINTING ON SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
   set_source_files_properties("${out}/parser.cpp" PROPERTIES
     COMPILE_OPTIONS "-Wno-conversion;-Wno-sign-conversion"

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <fcntl.h>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -87,6 +88,27 @@ int wait_for(pid_t process) {
     return end_of(process).status;
 }
 
+/// Waits until a condition holds, at most 30 seconds; returns whether it does.
+template <typename Condition>
+bool holds_soon(const Condition& condition) {
+    const Clock::time_point end = Clock::now() + std::chrono::seconds(30);
+    while (!condition() && Clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return condition();
+}
+
+/// Whether a process has a handler of its own for a signal.
+bool handles(pid_t process, int signal) {
+    std::istringstream status(read_text("/proc/" + std::to_string(process) + "/status"));
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("SigCgt:")) {
+            return ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1U) != 0;
+        }
+    }
+    return false;
+}
+
 constexpr const char* kFourEndless = "#n = 4000000000; #w : F F F F; #p : F : * : F;";
 
 } // namespace
@@ -100,7 +122,7 @@ TEST_CASE("Ctrl-C ends a derivation with status 130 and no file") {
             start({{"dump", "-q", option, folder / "a.lsys", "-o", folder / "out"},
                    "/dev/null",
                    folder / "err"});
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        CHECK(holds_soon([&] { return handles(process, SIGINT); }));
         REQUIRE(::kill(process, SIGINT) == 0);
         CHECK(wait_for(process) == 130);
         CHECK(Clock::now() - begin < std::chrono::seconds(10));
@@ -119,8 +141,8 @@ TEST_CASE("SIGTERM and SIGHUP end a derivation like Ctrl-C, with status 143 and 
             const pid_t process = start({{"dump", "-q", folder / "a.lsys", "-o", folder / "out"},
                                          "/dev/null",
                                          folder / "err"});
-            std::this_thread::sleep_for(std::chrono::milliseconds(300));
-            CHECK(folder.file_count() == 3); // the third is the unfinished output
+            // The third file is the unfinished output.
+            CHECK(holds_soon([&] { return folder.file_count() == 3; }));
             for (int i = 0; i < times; ++i) {
                 REQUIRE(::kill(process, signal) == 0);
             }
@@ -142,8 +164,9 @@ TEST_CASE("a run that waits for a pipe ends soon after SIGTERM") {
     const Clock::time_point begin = Clock::now();
     const pid_t process =
         start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(folder.file_count() == 3); // the third is the unfinished state
+    // The third file is the unfinished state.
+    CHECK(holds_soon([&] { return folder.file_count() == 3; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // the pipe becomes full
     REQUIRE(::kill(process, SIGTERM) == 0);
     CHECK(wait_for(process) == 143);
     CHECK(Clock::now() - begin < std::chrono::seconds(10));
@@ -159,8 +182,8 @@ TEST_CASE("a second Ctrl-C ends the run at once and leaves no file either") {
     REQUIRE(both >= 0);
     const pid_t process =
         start({{"dump", folder / "a.lsys", "--save-state", folder / "state"}, folder / "pipe"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(folder.file_count() == 3);
+    CHECK(holds_soon([&] { return folder.file_count() == 3; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // the pipe becomes full
     for (int i = 0; i < 2; ++i) {
         REQUIRE(::kill(process, SIGINT) == 0);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -176,7 +199,7 @@ TEST_CASE("a run under nohup ignores SIGHUP") {
     Child child{{"dump", "-q", folder / "a.lsys", "-o", folder / "out"}};
     child.ignored_signal = SIGHUP;
     const pid_t process = start(child);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(holds_soon([&] { return handles(process, SIGTERM); }));
     REQUIRE(::kill(process, SIGHUP) == 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     int status = 0;
