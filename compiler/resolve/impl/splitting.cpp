@@ -80,10 +80,11 @@ NameSplitter::parts(NameId name, std::uint32_t parameter_count, FileId file) {
     }
     const Use whole{name, parameter_count, file};
     const auto [found, is_new] = decided_.try_emplace(whole);
+    std::vector<NamePart>& parts = found->second;
     if (is_new) {
-        found->second = split(whole);
+        parts = split(whole); // decides parts of `whole` too, which may move `found`
     }
-    return found->second;
+    return parts;
 }
 
 template <typename Function>
@@ -140,11 +141,13 @@ std::vector<NamePart> NameSplitter::split(const Use& whole) {
         if (begin == 0 || work_left_ < length || !use_lengths_.contains(length)) {
             continue;
         }
-        // The last part may be an unknown name that stands alone elsewhere in the file.
+        // The last part may be an unknown name that stands alone elsewhere in the file, if it is not
+        // split there.
         work_left_ -= length;
         const NameId rest = resolution_.names.find(text.substr(begin));
         if (rest != kNoName && unknown_[index_of(rest)] &&
-            uses_.contains({rest, whole.parameter_count, whole.file})) {
+            uses_.contains({rest, whole.parameter_count, whole.file}) &&
+            parts(rest, whole.parameter_count, whole.file).empty()) {
             add(begin, text.size());
         }
     }
