@@ -13,6 +13,7 @@
 #include <lsys/export.h>
 #include <lsys/forest.h>
 #include <map>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -68,7 +69,7 @@ std::string file_text(const std::string& path) {
 /// An empty folder that is removed at the end.
 class Folder {
 public:
-    Folder() { REQUIRE(mkdtemp(path_.data()) != nullptr); }
+    Folder() { REQUIRE(std::filesystem::create_directory(path_)); }
     ~Folder() { std::filesystem::remove_all(path_); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -79,7 +80,9 @@ public:
     }
 
 private:
-    std::string path_ = (std::filesystem::temp_directory_path() / "lsys-XXXXXX").string();
+    std::string path_ = (std::filesystem::temp_directory_path() /
+                         ("lsys-" + std::to_string(std::random_device()())))
+                            .string();
 };
 
 } // namespace
