@@ -401,6 +401,11 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               SHORTEN(0);
                               scan.enter(Part::Condition);
                               return Token(Parser::token::TOK_COLON, session.insertion_place());
+                          case StrayHandling::EndStatement:
+                              if (const auto token = semicolon(session)) {
+                                  return *token;
+                              }
+                              break;
                           case StrayHandling::Discard:
                               return discard_statement(session);
                           }

@@ -144,6 +144,14 @@ std::optional<std::uint32_t> comment_before(const ParseSession& session) {
                                              : std::optional(static_cast<std::uint32_t>(slashes));
 }
 
+/// Whether only blanks stand between the current character and the `#` of the next statement or the
+/// end of the file.
+bool is_before_statement(const ParseSession& session) {
+    const std::string_view text = session.scanned.text;
+    const std::size_t next = text.find_first_not_of(" \t\r\n", session.scan.end);
+    return next == std::string_view::npos || text[next] == '#';
+}
+
 } // namespace
 
 bool is_after_likely_comment(ParseSession& session) {
@@ -178,12 +186,16 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
         if (is_argument_without_open(session)) {
             return StrayHandling::Discard;
         }
+        const bool ends_statement = has_modules && is_before_statement(session);
         if (session.wants(DiagnosticCode::SyntaxError)) {
             Diagnostic& diagnostic = session.report(
-                DiagnosticCode::SyntaxError, "modules are written side by side, without commas");
-            add_fix(diagnostic, "remove it", diagnostic.span, "", true);
+                DiagnosticCode::SyntaxError,
+                ends_statement ? "a statement ends with `;`, not with `,`"
+                               : "modules are written side by side, without commas");
+            add_fix(diagnostic, ends_statement ? "write `;`" : "remove it", diagnostic.span,
+                    ends_statement ? ";" : "", true);
         }
-        return StrayHandling::Skip;
+        return ends_statement ? StrayHandling::EndStatement : StrayHandling::Skip;
     }
     report_foreign_symbol(session, first);
     return StrayHandling::ReadAsModule;

@@ -17,6 +17,7 @@ enum class StrayHandling : std::uint8_t {
     ReadAsModule, // as if in back quotes; a `)` as `]`
     SkipRange,    // skip a random range outside of parentheses, up to `}`
     InsertColon,  // insert a `:` before it; the condition begins
+    EndStatement, // as a `;`
     Discard,      // discard the statement and skip its rest
 };
 /// Reports a number or one of `@ * ~ = ? ,` in a module list; returns its handling.
