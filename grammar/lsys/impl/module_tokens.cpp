@@ -188,10 +188,10 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
         }
         const bool ends_statement = has_modules && is_before_statement(session);
         if (session.wants(DiagnosticCode::SyntaxError)) {
-            Diagnostic& diagnostic = session.report(
-                DiagnosticCode::SyntaxError,
-                ends_statement ? "a statement ends with `;`, not with `,`"
-                               : "modules are written side by side, without commas");
+            Diagnostic& diagnostic =
+                session.report(DiagnosticCode::SyntaxError,
+                               ends_statement ? "a statement ends with `;`, not with `,`"
+                                              : "modules are written side by side, without commas");
             add_fix(diagnostic, ends_statement ? "write `;`" : "remove it", diagnostic.span,
                     ends_statement ? ";" : "", true);
         }
