@@ -38,6 +38,7 @@ struct Child {
     int ignored_signal = 0; // signal to ignore, as nohup(1) does; 0: none
 };
 
+/// Starts lsc; returns when it has replaced the copy of this process, which has handlers of Catch2.
 pid_t start(const Child& child) {
     std::vector<std::string> words{LSC_EXECUTABLE};
     words.insert(words.end(), child.arguments.begin(), child.arguments.end());
@@ -46,6 +47,8 @@ pid_t start(const Child& child) {
         raw.push_back(word.data());
     }
     raw.push_back(nullptr);
+    int started[2]; // a pipe whose end of writing is closed by `execv`
+    REQUIRE(::pipe2(started, O_CLOEXEC) == 0);
     const pid_t process = ::fork();
     if (process == 0) {
         ::dup2(::open(child.in.c_str(), O_RDONLY), STDIN_FILENO);
@@ -68,6 +71,10 @@ pid_t start(const Child& child) {
         ::execv(raw[0], raw.data());
         ::_exit(127);
     }
+    ::close(started[1]);
+    char none = 0;
+    CHECK(::read(started[0], &none, 1) == 0);
+    ::close(started[0]);
     return process;
 }
 
