@@ -6,7 +6,7 @@
 #if defined(__cplusplus)
 #include <version>
 
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000 && __cplusplus >= 202002L
 #include <algorithm>
 #include <cstddef>
 #include <functional>
