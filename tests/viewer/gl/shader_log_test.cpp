@@ -12,9 +12,9 @@ TEST_CASE("numbers of sources in the log of a shader are replaced by file names"
     const std::vector<std::string> files{"plant.glsl", "light.glsl"};
     CHECK(name_files("", files).empty());
     CHECK(name_files("0:12(3): error: no `x`\n1(4) : error C1008\n", files) ==
-          "plant.glsl:12(3): error: no `x`\nlight.glsl(4) : error C1008");
-    CHECK(name_files("2:1(1): error\nerror\n0\n1 error\n:1", files) ==
-          "2:1(1): error\nerror\n0\n1 error\n:1");
+          "plant.glsl:12(3): error: no `x`\nlight.glsl:4: error C1008");
+    CHECK(name_files("2:1(1): error\nerror\n0\n1 error\n:1\n1(4 : x\n1(4)", files) ==
+          "2:1(1): error\nerror\n0\n1 error\n:1\n1(4 : x\n1(4)");
 }
 
 TEST_CASE("a number in a log that is too large for an integer stays unchanged") {

@@ -240,8 +240,8 @@ void ForestBuffers::upload(ForestModel& model,
     }
     boxes_ = boxes;
     upload_forms(model, plan);
-    vertices_.reserve(vertex_count * sizeof(Vertex));
-    indices_.reserve(index_count * sizeof(std::uint32_t));
+    vertices_.allocate(vertex_count * sizeof(Vertex));
+    indices_.allocate(index_count * sizeof(std::uint32_t));
     mesh_bytes_ = vertex_count * sizeof(Vertex) + index_count * sizeof(std::uint32_t);
     form_levels_.clear();
     mesh_digests_.clear();
@@ -361,7 +361,7 @@ void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
 
 void ForestBuffers::upload_trees(const ForestLod& lod) {
     const std::span<const LodTree> trees = lod.trees();
-    current_->trees.reserve((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
+    current_->trees.allocate((trees.size() + kRoomForTrees) * sizeof(TreeRecord));
     constexpr std::size_t kPiece = std::size_t{1} << 16U;
     std::vector<TreeRecord> records;
     for (std::size_t first = 0; first < trees.size(); first += kPiece) {

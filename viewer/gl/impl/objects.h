@@ -4,6 +4,7 @@
 
 #include "viewer/gl/impl/device.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <epoxy/gl.h>
 #include <span>
@@ -93,7 +94,9 @@ using ProgramObject = Object<ProgramKind>;
     return {device, name};
 }
 
-/// A buffer on the device. Growing replaces the object, so bind it after filling.
+/// A buffer on the device. Bind it after filling: its object is replaced, and contents are not
+/// overwritten, because drivers of NVIDIA (580) execute two writes of one range in the wrong order
+/// when no draw call reads the range between them.
 class Buffer {
 public:
     Buffer() = default;
@@ -102,31 +105,21 @@ public:
     [[nodiscard]] GLuint name() const { return object_.name(); }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
-    /// Ensures room for `bytes`; growing drops the contents.
-    void reserve(std::size_t bytes) {
-        if (bytes <= capacity_ && object_) {
-            return;
-        }
-        GLuint name = 0;
-        glCreateBuffers(1, &name);
-        object_ = Object<BufferKind>(*device_, name);
-        capacity_ = bytes == 0 ? 1 : bytes;
-        glNamedBufferStorage(name, static_cast<GLsizeiptr>(capacity_), nullptr,
-                             GL_DYNAMIC_STORAGE_BIT);
-    }
+    /// Replaces the object by one with room for `bytes`, to be filled by write().
+    void allocate(std::size_t bytes) { replace(bytes, nullptr); }
     /// Ensures room for `bytes`; keeps the contents.
     void grow(std::size_t bytes) {
         if (bytes <= capacity_ && object_) {
             return;
         }
-        Object<BufferKind> before = std::move(object_);
+        const Object<BufferKind> before = std::move(object_);
         const std::size_t held = before ? capacity_ : 0;
-        capacity_ = 0;
-        reserve(bytes);
+        allocate(bytes);
         if (held != 0) {
             glCopyNamedBufferSubData(before.name(), name(), 0, 0, static_cast<GLsizeiptr>(held));
         }
     }
+    /// Writes a range once, or again after a draw call that reads it.
     template <typename T>
     void write(std::span<const T> items, std::size_t offset_bytes = 0) {
         if (items.empty()) {
@@ -136,14 +129,23 @@ public:
                              static_cast<GLsizeiptr>(items.size_bytes()), items.data());
         device_->add_upload(items.size_bytes());
     }
-    /// reserve() and write().
+    /// Replaces the object by one with these contents.
     template <typename T>
     void fill(std::span<const T> items) {
-        reserve(items.size_bytes());
-        write(items);
+        replace(items.size_bytes(), items.empty() ? nullptr : items.data());
+        device_->add_upload(items.size_bytes());
     }
 
 private:
+    void replace(std::size_t bytes, const void* contents) {
+        GLuint name = 0;
+        glCreateBuffers(1, &name);
+        object_ = Object<BufferKind>(*device_, name);
+        capacity_ = std::max<std::size_t>(bytes, 1);
+        glNamedBufferStorage(name, static_cast<GLsizeiptr>(capacity_), contents,
+                             GL_DYNAMIC_STORAGE_BIT);
+    }
+
     Device* device_ = nullptr;
     Object<BufferKind> object_;
     std::size_t capacity_ = 0;

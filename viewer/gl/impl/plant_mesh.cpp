@@ -39,7 +39,7 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     normals_.fill(std::span<const glm::vec3>(mesh.normals));
     texture_coordinates_.fill(std::span<const glm::vec2>(mesh.texture_coordinates));
     tangents_.fill(std::span<const glm::vec4>(mesh.tangents));
-    indices_.reserve(mesh.indices.size() * sizeof(std::uint32_t));
+    indices_.allocate(mesh.indices.size() * sizeof(std::uint32_t));
     for_each_chunk(mesh.indices, [&](std::uint64_t first, std::span<const std::uint32_t> part) {
         indices_.write(part, first * sizeof(std::uint32_t));
     });

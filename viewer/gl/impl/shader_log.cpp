@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/shader_log.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
@@ -17,13 +19,24 @@ std::string name_files(std::string_view log, std::span<const std::string> files)
         if (!result.empty()) {
             result += '\n';
         }
+        const auto number = [](std::string_view text, std::size_t& value) {
+            const auto [stop, problem] =
+                std::from_chars(text.data(), text.data() + text.size(), value);
+            return problem == std::errc() ? static_cast<std::size_t>(stop - text.data()) : 0;
+        };
         std::size_t file = 0;
-        const auto [stop, problem] = std::from_chars(row.data(), row.data() + row.size(), file);
-        const auto digits = static_cast<std::size_t>(stop - row.data());
-        if (problem == std::errc() && digits < row.size() &&
-            (row[digits] == ':' || row[digits] == '(') && file < files.size()) {
-            result += files[file];
-            row.remove_prefix(digits);
+        const std::size_t digits = number(row, file);
+        if (digits != 0 && digits < row.size() && file < files.size()) {
+            std::size_t line = 0;
+            const std::string_view rest = row.substr(digits + 1);
+            const std::size_t more = number(rest, line);
+            if (row[digits] == ':') {
+                result += files[file];
+                row.remove_prefix(digits);
+            } else if (row[digits] == '(' && more != 0 && rest.substr(more).starts_with(") :")) {
+                result += fmt::format("{}:{}", files[file], line);
+                row.remove_prefix(digits + more + 3);
+            }
         }
         result += row;
     }

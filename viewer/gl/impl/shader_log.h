@@ -9,8 +9,8 @@
 namespace lsys::view {
 
 /// Replaces the file numbers at the start of lines of a driver's `log` by names: `0:12(3): error`
-/// of Mesa, `0(12) : error` of others. `files`: names by the numbers used in `#line`. Other lines
-/// stay unchanged.
+/// of Mesa becomes `plant.glsl:12(3): error`, `0(12) : error` of NVIDIA `plant.glsl:12: error`.
+/// `files`: names by the numbers used in `#line`. Other lines stay unchanged.
 [[nodiscard]] std::string name_files(std::string_view log, std::span<const std::string> files);
 
 } // namespace lsys::view
