@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/physics/animation.h"
 
+#include "runtime/physics/impl/trigonometry.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -156,9 +158,9 @@ private:
         const auto add_ring = [&](float radius, float along) {
             constexpr int kPoints = 8;
             for (int i = 0; i < kPoints; ++i) {
-                const float angle = static_cast<float>(i) * 2.0F * std::numbers::pi_v<float> /
-                                    static_cast<float>(kPoints);
-                out.emplace_back(radius * std::cos(angle), along, radius * std::sin(angle));
+                const SineCosine turn = sine_cosine(i * 2.0 * std::numbers::pi / kPoints);
+                out.emplace_back(radius * static_cast<float>(turn.cosine), along,
+                                 radius * static_cast<float>(turn.sine));
             }
         };
         switch (kind) {
@@ -209,7 +211,7 @@ private:
             if (!(deepest < -kNear * reach)) {
                 return;
             }
-            const double level = std::hypot(ahead.x, ahead.z);
+            const double level = glm::length(glm::dvec2(ahead.x, ahead.z));
             if (pass == kPasses) {
                 break;
             }
@@ -220,9 +222,9 @@ private:
                 const glm::dvec3 arm = change.turn * (frame * own);
                 const double along = glm::dot(arm, way);
                 if (base + arm.y < 0.0 && along >= 0.0) {
-                    const double length = std::hypot(along, arm.y);
-                    angle = std::max(angle, std::asin(std::clamp(-base / length, -1.0, 1.0)) -
-                                                std::atan2(arm.y, along));
+                    const double length = glm::length(glm::dvec2(along, arm.y));
+                    angle = std::max(angle, arc_sine(std::clamp(-base / length, -1.0, 1.0)) -
+                                                arc_tangent(arm.y, along));
                 }
             }
             if (!(angle > 0.0)) {
@@ -230,7 +232,8 @@ private:
             }
             // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
             const glm::dvec3 axis(-way.z, 0.0, way.x);
-            const glm::dquat up(std::cos(0.5 * angle), std::sin(0.5 * angle) * axis);
+            const SineCosine half = sine_cosine(0.5 * angle);
+            const glm::dquat up(half.cosine, half.sine * axis);
             change.turn = glm::normalize(up * change.turn);
             change.is_made = true;
             place.frame = glm::quat(glm::normalize(change.turn * frame));

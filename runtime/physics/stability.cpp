@@ -166,7 +166,7 @@ standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening 
     const double buckling = stability_of(rest, options).load_factor;
     double low = 1.0;
     if (buckling > 0.0 && buckling < 1.0) { // with a smaller factor the plant buckles
-        low = widens ? std::pow(buckling, -0.5) : 1.0 / buckling;
+        low = widens ? 1.0 / std::sqrt(buckling) : 1.0 / buckling;
     }
     const double growth = widens ? 1.3 : 2.0;
     double high = low * growth;

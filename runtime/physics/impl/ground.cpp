@@ -4,6 +4,8 @@
 // of its parent is raised separately.
 #include "runtime/physics/impl/ground.h"
 
+#include "runtime/physics/impl/trigonometry.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +18,7 @@ glm::dquat raised(const Contact& contact, const glm::dquat& turn, const glm::dve
     }
     const glm::dvec3 arm = turn * contact.tip;
     const double length = glm::length(arm);
-    const double level = std::hypot(arm.x, arm.z);
+    const double level = glm::length(glm::dvec2(arm.x, arm.z));
     if (!(length > 0.0)) {
         return turn;
     }
@@ -24,10 +26,10 @@ glm::dquat raised(const Contact& contact, const glm::dquat& turn, const glm::dve
     const double x = level > 1e-9 * length ? arm.x / level : 1.0;
     const double z = level > 1e-9 * length ? arm.z / level : 0.0;
     const double height = std::clamp((arm.y + depth) / length, -1.0, 1.0);
-    const double angle = std::asin(height) - std::asin(std::clamp(arm.y / length, -1.0, 1.0));
+    const double angle = arc_sine(height) - arc_sine(std::clamp(arm.y / length, -1.0, 1.0));
     // A rotation about (-z, 0, x), which turns the level direction (x, 0, z) towards +Y.
-    const double half = 0.5 * angle;
-    const glm::dquat up(std::cos(half), std::sin(half) * glm::dvec3(-z, 0.0, x));
+    const SineCosine half = sine_cosine(0.5 * angle);
+    const glm::dquat up(half.cosine, half.sine * glm::dvec3(-z, 0.0, x));
     return glm::normalize(up * turn);
 }
 

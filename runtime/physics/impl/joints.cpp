@@ -25,6 +25,7 @@
 // friction as a damper. With Forces::own_load bases stand still and children are left out, so each
 // joint is solved separately.
 #include "runtime/physics/impl/motion.h"
+#include "runtime/physics/impl/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ void add_contact(const Contact& contact,
     }
     const glm::dvec3 push(0.0, contact.spring * depth, 0.0);
     const double hold = h * h * contact.spring;
-    const double speed = std::max(std::hypot(velocity.x, velocity.z), kStickingSpeed);
+    const double speed = std::max(glm::length(glm::dvec2(velocity.x, velocity.z)), kStickingSpeed);
     const double rub = h * forces.friction * std::max(push.y, 0.0) / speed;
     own.spin += h * glm::cross(arm, push);
     // (w x arm).y = w . (-arm.z, 0, arm.x)
@@ -231,8 +232,9 @@ void eliminate(const BodyForms& own,
         // directions normal to the bend, with x = |bend| / 2. The twist comes from
         // exp(-w_p) exp(w) = exp(w - w_p - w_p x w / 2 ...).
         const double half = 0.5 * glm::length(bend);
+        const SineCosine turn = sine_cosine(half);
         const double normal_stiffness =
-            half > 1e-3 ? half / std::tan(half) : 1.0 - half * half / 3.0;
+            half > 1e-3 ? half * turn.cosine / turn.sine : 1.0 - half * half / 3.0;
         const double more =
             half > 1e-3 ? (1.0 - normal_stiffness) / (4.0 * half * half) : 1.0 / 12.0;
         joint_matrix += scaled(point_inertia(-more, bend), forces.exactness * hooke);

@@ -74,7 +74,8 @@ void move_body(PlantBodies& plant,
                 const glm::dvec3 tip_shift =
                     shift - before.shift + turn * contact.tip - before.turn * contact.tip;
                 elastic_energy += 0.5 * contact.spring * depth * depth;
-                sum.slide += contact.spring * depth * std::hypot(tip_shift.x, tip_shift.z);
+                sum.slide +=
+                    contact.spring * depth * glm::length(glm::dvec2(tip_shift.x, tip_shift.z));
             }
         });
     }

@@ -3,6 +3,8 @@
 // The zero vector converts to exactly the identity, and the identity to exactly the zero vector.
 #pragma once
 
+#include "runtime/physics/impl/trigonometry.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -25,7 +27,8 @@ namespace lsys {
         return {cosine, 0.5 * sine * v};
     }
     const double half = std::sqrt(half_squared);
-    return {std::cos(half), std::sin(half) / (2.0 * half) * v};
+    const SineCosine turn = sine_cosine(half);
+    return {turn.cosine, turn.sine / (2.0 * half) * v};
 }
 
 /// The shortest rotation vector of `q`, at most pi long.
@@ -41,7 +44,7 @@ namespace lsys {
                v;
     }
     const double sine = std::sqrt(sine_squared);
-    return sign * 2.0 * std::atan2(sine, std::abs(q.w)) / sine * v;
+    return sign * 2.0 * arc_tangent(sine, std::abs(q.w)) / sine * v;
 }
 
 } // namespace lsys

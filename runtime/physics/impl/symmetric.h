@@ -97,8 +97,8 @@ struct Eigenvectors {
                 // The rotation in the plane of axes p and q that makes m[p][q] 0.
                 const double ratio = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
                 const double tangent =
-                    std::copysign(1.0, ratio) / (std::abs(ratio) + std::hypot(ratio, 1.0));
-                const double cosine = 1.0 / std::hypot(tangent, 1.0);
+                    std::copysign(1.0, ratio) / (std::abs(ratio) + std::sqrt(1.0 + ratio * ratio));
+                const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
                 const double sine = tangent * cosine;
                 const int r = 3 - p - q;
                 m[p][p] -= tangent * m[p][q];

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Trigonometry from additions, multiplications, divisions and square roots alone. The standard
+// library rounds its functions differently on other processors and systems; the solver amplifies
+// such differences until they show in the pose.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace lsys {
+
+struct SineCosine {
+    double sine = 0.0;
+    double cosine = 1.0;
+};
+
+/// Sine and cosine of an angle of at most 1e5 radians. The error is below 2.5e-16, for large angles
+/// below 1e-16 per quarter turn.
+[[nodiscard]] inline SineCosine sine_cosine(double angle) {
+    // pi/2 = kHigh + kLow; kHigh has 33 bits, so that its product with a whole number is exact.
+    constexpr double kHigh = 0x1.921fb544p+0;
+    constexpr double kLow = 0x1.0b4611a626331p-34;
+    const double quarters = std::nearbyint(angle * (2.0 / std::numbers::pi));
+    const double x = (angle - quarters * kHigh) - quarters * kLow; // at most pi/4
+    const double square = x * x;
+    double sine = 0.0;
+    double cosine = 0.0;
+    for (int n = 17; n >= 3; n -= 2) { // Taylor series; the omitted terms are below 1e-17
+        sine = square / (n * (n - 1)) * (1.0 - sine);
+        cosine = square / ((n - 1) * (n - 2)) * (1.0 - cosine);
+    }
+    sine = x * (1.0 - sine);
+    cosine = 1.0 - cosine;
+    switch (static_cast<int>(quarters) & 3) {
+    case 0:
+        return {sine, cosine};
+    case 1:
+        return {cosine, -sine};
+    case 2:
+        return {-sine, -cosine};
+    default:
+        return {-cosine, sine};
+    }
+}
+
+/// The angle of the point (x, y) above the X axis, for x >= 0, in radians from -pi/2 to pi/2; 0 for
+/// the origin. The error is below 4e-16.
+[[nodiscard]] inline double arc_tangent(double y, double x) {
+    const double height = std::abs(y);
+    if (height == 0.0) {
+        return y;
+    }
+    const bool is_steep = height > x;
+    double t = is_steep ? x / height : height / x;
+    double times = 1.0; // atan(t) = 2 atan(t / (1 + sqrt(1 + t^2)))
+    for (int i = 0; i < 2; ++i) {
+        t /= 1.0 + std::sqrt(1.0 + t * t);
+        times *= 2.0;
+    }
+    const double square = t * t; // at most 0.04
+    double sum = 0.0;
+    for (int n = 23; n >= 1; n -= 2) { // Taylor series
+        sum = 1.0 / n - square * sum;
+    }
+    const double angle = times * t * sum;
+    return std::copysign(is_steep ? 0.5 * std::numbers::pi - angle : angle, y);
+}
+
+/// The angle of a sine from -1 to 1, in radians from -pi/2 to pi/2.
+[[nodiscard]] inline double arc_sine(double sine) {
+    return arc_tangent(sine, std::sqrt((1.0 - sine) * (1.0 + sine)));
+}
+
+} // namespace lsys

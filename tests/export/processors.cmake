@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+# Compares files that lsc writes with the mathematical functions that glibc takes on this processor, and with those for
+# processors without AVX2 and FMA, whose last bits differ.
+# Usage: cmake -D LSC=FILE -D SAMPLES=FOLDER -D OUT=FOLDER -P processors.cmake
+file(MAKE_DIRECTORY "${OUT}")
+foreach(sample abop-1-37b-row-of-trees crankshaw-7-1 crankshaw-7-3)
+  set(grammar "${SAMPLES}/${sample}/${sample}.lsys")
+  foreach(variant "" "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX")
+    set(ENV{GLIBC_TUNABLES} "${variant}")
+    execute_process(COMMAND "${LSC}" export "${grammar}" -q --gravity 9.81 --wind 5,0,2 -o "${OUT}/a.obj"
+      RESULT_VARIABLE status ERROR_VARIABLE error)
+    if(NOT status EQUAL 0)
+      message(FATAL_ERROR "${grammar}: exit status ${status}: ${error}")
+    endif()
+    file(SHA256 "${OUT}/a.obj" digest)
+    if(variant STREQUAL "")
+      set(expected "${digest}")
+    elseif(NOT digest STREQUAL expected)
+      message(SEND_ERROR "${grammar}: the file depends on the processor")
+    endif()
+  endforeach()
+endforeach()
+file(REMOVE_RECURSE "${OUT}")
