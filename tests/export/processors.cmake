@@ -3,11 +3,11 @@
 # processors without AVX2 and FMA, whose last bits differ.
 # Usage: cmake -D LSC=FILE -D SAMPLES=FOLDER -D OUT=FOLDER -P processors.cmake
 file(MAKE_DIRECTORY "${OUT}")
-foreach(sample abop-1-37b-row-of-trees crankshaw-7-1 crankshaw-7-3)
+foreach(sample abop-1-24a abop-1-24c crankshaw-2-8-bush)
   set(grammar "${SAMPLES}/${sample}/${sample}.lsys")
   foreach(variant "" "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX")
     set(ENV{GLIBC_TUNABLES} "${variant}")
-    execute_process(COMMAND "${LSC}" export "${grammar}" -q --gravity 9.81 --wind 5,0,2 -o "${OUT}/a.obj"
+    execute_process(COMMAND "${LSC}" export "${grammar}" -n 5 -q --gravity 9.81 --wind 5,0,2 -o "${OUT}/a.obj"
       RESULT_VARIABLE status ERROR_VARIABLE error)
     if(NOT status EQUAL 0)
       message(FATAL_ERROR "${grammar}: exit status ${status}: ${error}")
