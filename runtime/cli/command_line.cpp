@@ -570,6 +570,7 @@ CommandLine help_on(const std::string& topic) {
 CommandLine parse_arguments(std::span<const std::string> arguments,
                             std::vector<std::string>& implied) {
     CLI::App app(kTitle, "lsc");
+    app.allow_windows_style_options(false); // `/a` is a path
     CommandLine parsed = UsageError{"no command is given", kListHint};
     ProgramOptions program_options;
     add_commands(app, arguments.empty() ? std::string() : arguments.front(), parsed,

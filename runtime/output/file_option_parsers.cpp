@@ -109,6 +109,7 @@ Result<Options> parse_named(PresetCommand command,
         Options options;
         CLI::App app;
         app.set_help_flag();
+        app.allow_windows_style_options(false); // `/a` is a path
         add(app, options);
         if (const Result<void> parsed = parse(app, arguments); !parsed) {
             return parsed.error();
@@ -344,6 +345,7 @@ Result<SceneOverrides> parse_scene_overrides(const std::vector<NamedOption>& opt
     SceneOverrides overrides;
     CLI::App app;
     app.set_help_flag();
+    app.allow_windows_style_options(false);
     add_scene(app, overrides);
     if (const Result<void> parsed = parse(app, arguments_of(options)); !parsed) {
         return parsed.error();

@@ -166,7 +166,8 @@ Result<std::string> read_bytes(const std::string& path,
         reason = platform::facts_of(file, facts);
     }
     if (reason != 0) {
-        return Error{errno_text(reason)};
+        return Error{reason == EISDIR ? std::string(refusal_reason(FileType::Directory, kind))
+                                      : errno_text(reason)};
     }
     if (const std::string_view refusal = refusal_reason(facts.type, kind); !refusal.empty()) {
         return Error{std::string(refusal)};

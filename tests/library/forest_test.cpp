@@ -82,7 +82,7 @@ public:
 private:
     std::string path_ = (std::filesystem::temp_directory_path() /
                          ("lsys-" + std::to_string(std::random_device()())))
-                            .string();
+                            .generic_string();
 };
 
 } // namespace

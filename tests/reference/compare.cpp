@@ -335,7 +335,7 @@ std::string all_origins(const Case& test_case,
     std::map<const ModuleUse*, std::string> places;
     for (const TextFile& file : print_grammar(test_case.grammar, test_case.layout_seed)) {
         for (const WrittenModule& written : file.modules) {
-            places[written.module] = (folder / file.shown).string() + ":" +
+            places[written.module] = (folder / file.shown).generic_string() + ":" +
                                      std::to_string(written.line) + ":" +
                                      std::to_string(written.column);
         }

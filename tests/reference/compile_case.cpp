@@ -20,7 +20,8 @@ std::optional<Bytecode> compile_case(const Case& test_case, std::string& message
         texts[file.path] = file.text;
     }
     const FileLoader load = [&](const std::string& path) -> lsys::Result<std::string> {
-        const auto found = texts.find(std::filesystem::path(path).lexically_normal().string());
+        const auto found =
+            texts.find(std::filesystem::path(path).lexically_normal().generic_string());
         if (found == texts.end()) {
             return lsys::Error{"no such file"};
         }

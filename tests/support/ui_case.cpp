@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kRun = " run: ";
 constexpr std::string_view kExit = " exit: ";
+constexpr std::string_view kSystem = " system: ";
 constexpr std::string_view kSeverities[] = {"error", "warning", "note"};
 
 std::string_view trim(std::string_view text) {
@@ -76,6 +77,11 @@ void add_header(std::string_view line, UiCase& found) {
         if (found.runs.empty() ||
             !parse_number(trim(line.substr(kExit.size())), found.runs.back().exit_status)) {
             found.mistakes.emplace_back("`exit:` wants a number and a `run:` before it");
+        }
+    } else if (line.starts_with(kSystem)) {
+        found.needs_posix = trim(line.substr(kSystem.size())) == "posix";
+        if (!found.needs_posix) {
+            found.mistakes.emplace_back("`system:` wants `posix`");
         }
     }
 }

@@ -248,6 +248,7 @@ void visit_options(const std::function<void(const CLI::App& app)>& visit) {
 ParsedOptions parse_options(std::span<const std::string> arguments) {
     ViewOptions options;
     CLI::App app(kTitle, "lsview");
+    app.allow_windows_style_options(false); // `/a` is a path
     add_all(app, options);
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));

@@ -40,6 +40,6 @@ TEST_CASE("backslashes and drives are of Windows") {
 TEST_CASE("the text of a path has slashes and is kept otherwise") {
     CHECK(path_text(std::filesystem::path("a") / "b.lsys") == "a/b.lsys");
     CHECK(path_text("a//b/./c") == "a//b/./c");
-    CHECK(path_text("\xC3\xA4/\xE9\xBA\xA6") == "\xC3\xA4/\xE9\xBA\xA6"); // UTF-8
+    CHECK(path_text(u8"\u00E4/\u9EA6") == "\xC3\xA4/\xE9\xBA\xA6"); // UTF-8
     CHECK(path_text("").empty());
 }

@@ -78,7 +78,9 @@ TEST_CASE(
     CHECK(run_lsc({"export", "-", "-o", blocked / "a.obj"}, kTree).status == 2);
     CHECK(count_files(blocked) == 1);
     CHECK(run_lsc({"export", "-", "-o", "/dev/null", "--format", "obj"}, kTree).status == 0);
+#ifndef _WIN32 // where `null.mtl` is the null device, too
     CHECK_FALSE(std::filesystem::exists("/dev/null.mtl"));
+#endif
 }
 
 TEST_CASE("a stored and a streamed word give the same file, with any number of threads") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "grammar/base/paths.h"
 #include "runtime/program/files.h"
 #include "tests/support/lsc_run.h"
 
@@ -168,11 +169,12 @@ TEST_CASE("standard output that fails is an error") {
 
 TEST_CASE("names of files are UTF-8") {
     Fixture f;
-    const std::string name = f.folder / "\xC3\xA4hre \xE9\xBA\xA6.lsys"; // 'ear of wheat', twice
+    const std::filesystem::path file = u8"\u00E4hre \u9EA6.lsys"; // 'ear of wheat', twice
+    const std::string name = f.folder / path_text(file);
     CHECK(write_file(name, "text", f.console).ok());
     CHECK(f.file_count() == 1);
     CHECK(read_file(name, {kMany}, f.console).value() == "text");
-    CHECK(std::filesystem::exists(f.folder.path() / std::filesystem::path(name).filename()));
+    CHECK(std::filesystem::exists(f.folder.path() / file));
 }
 
 TEST_CASE("lines keep their ends") {

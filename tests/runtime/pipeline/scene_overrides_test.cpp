@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "grammar/base/paths.h"
 #include "runtime/pipeline/scene_overrides.h"
 
 #include <catch2/catch.hpp>
+
+#include <filesystem>
 
 namespace lsys {
 
@@ -125,13 +128,13 @@ TEST_CASE("a picture of the ground replaces that of the scene, and its normals")
     overrides.ground_picture = "/new.png";
     overrides.ground_tile = 2.5;
     REQUIRE(apply(overrides, scene));
-    CHECK(scene.terrain.colour.path == "/new.png");
+    CHECK(scene.terrain.colour.path == path_text(std::filesystem::absolute("/new.png")));
     CHECK(scene.terrain.normals.path.empty());
     CHECK(scene.terrain.tile_width == 2.5);
     CHECK(scene.terrain.tile_depth == 2.5);
     overrides.ground_normals = "/n.png";
     REQUIRE(apply(overrides, scene));
-    CHECK(scene.terrain.normals.path == "/n.png");
+    CHECK(scene.terrain.normals.path == path_text(std::filesystem::absolute("/n.png")));
     CHECK_FALSE(overrides.changes_placement());
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Runs the golden runner on cases that are wrong on purpose; the runner must report each of them.
-execute_process(COMMAND "${RUNNER}" --root "${ROOT}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+execute_process(COMMAND ${EMULATOR} "${RUNNER}" --root "${ROOT}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 if(status EQUAL 0)
   message(FATAL_ERROR "the runner found nothing:\n${printed}")
 endif()
