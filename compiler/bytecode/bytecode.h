@@ -99,7 +99,7 @@ struct BytecodeSymbol {
     std::string name;
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
-    bool ignored = false; // contexts skip it, by #ignore or #consider
+    bool ignored = false; // contexts skip the symbol (#ignore, #consider)
     TurtleOperation turtle = TurtleOperation::Nothing;
     std::string mesh_file; // for TurtleOperation::MeshFile
 };
@@ -133,7 +133,7 @@ struct PlaceRun {
     std::uint32_t length = 0; // bytes of each module, arguments included
     std::uint32_t stride = 0; // bytes from one module to the next; 0 for a single module
     std::uint32_t line = 0;
-    std::uint32_t column = 0; // of the first module
+    std::uint32_t column = 0; // column of the first module
 };
 
 LSYS_COUNTED_ENUM(PatternKind, Module, Open, Close);
@@ -245,15 +245,15 @@ struct Bytecode {
     std::vector<Code> template_codes;
     std::vector<std::uint32_t> instructions;
     std::vector<Site> sites;
-    std::vector<SiteRange> site_ranges;          // by ascending instruction
-    std::vector<PlaceRun> template_places;       // by ascending `first`
-    std::vector<BytecodeProduction> productions; // by stage, then in file order
+    std::vector<SiteRange> site_ranges;          // sorted by instruction
+    std::vector<PlaceRun> template_places;       // sorted by `first`
+    std::vector<BytecodeProduction> productions; // sorted by stage, then in file order
     std::uint32_t rule_count = 0;                // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts
     std::vector<BytecodeAxiom> axioms;     // in file order, at least one
     bool uses_steps = false;               // some expression calls steps()
     std::vector<BytecodeCurve> curves;
-    std::vector<BytecodeMaterial> materials; // by ascending index
+    std::vector<BytecodeMaterial> materials; // sorted by index
     std::uint32_t stack_depth = 0;           // max stack depth of any code
     std::uint32_t local_count = 0;           // max number of slots of any code
 

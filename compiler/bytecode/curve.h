@@ -10,7 +10,7 @@ namespace lsys {
 struct CurveKnot {
     float x = 0.0F;
     float y = 0.0F;
-    double slope = 0.0; // of the curve at this point; set_slopes() computes it from all points
+    double slope = 0.0; // slope of the curve at this point, from set_slopes()
 };
 
 /// Sets the slopes by the method of Fritsch and Carlson 1980, "Monotone piecewise cubic

@@ -25,7 +25,7 @@ inline constexpr float kMaxTrials = 10000.0F;
 /// The invalid argument of a distribution.
 enum class DistributionFault : std::uint8_t {
     None,
-    Mean,        // of normal: not finite; of poisson: outside 0 to kMaxPoissonMean
+    Mean,        // normal: not finite; poisson: outside 0 to kMaxPoissonMean
     Deviation,   // not finite or below 0
     Trials,      // not a whole number from 0 to kMaxTrials
     Probability, // outside 0 to 1

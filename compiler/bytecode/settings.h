@@ -95,7 +95,7 @@ enum class SettingUse : std::uint8_t { AffectsWord, NoEffectOnWord };
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {
-    std::string_view name; // of the field; also the key in `#set`, if it has one
+    std::string_view name; // name of the field; also the key in `#set`, if it has one
     SettingUse use;
     SettingGroup group;
 };

@@ -26,7 +26,7 @@ struct EnumCount<TurtleOperation> {
 inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 
 /// Element that a module with the operation adds to the skeleton, if it can be drawn.
-enum class Drawn : std::uint8_t { Nothing, Segment, Object, Polygon };
+enum class DrawnKind : std::uint8_t { Nothing, Segment, Object, Polygon };
 
 /// Frequent actions that the turtle's loop over a word runs inline, without calling execute(). Yaw,
 /// Pitch and Roll turn by an angle and are inline if the angle is constant.
@@ -46,11 +46,11 @@ struct TurtleInfo {
     };
 
     std::string_view name; // in dumps
-    Drawn drawn = Drawn::Nothing;
+    DrawnKind drawn = DrawnKind::Nothing;
     QuickAction quick = QuickAction::None;
     std::uint16_t traits = 0;
     std::uint8_t parameter_count = 0; // max
-    std::string_view parameters;      // their meaning: "length, spring constant, mass"
+    std::string_view parameters;      // meanings: "length, spring constant, mass"
 
     [[nodiscard]] constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
 
@@ -59,7 +59,7 @@ struct TurtleInfo {
 
 inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows{{
 #define LSYS_TURTLE(identifier, name, drawn, quick, traits, count, parameters)                     \
-    {name, Drawn::drawn, QuickAction::quick, traits, count, parameters},
+    {name, DrawnKind::drawn, QuickAction::quick, traits, count, parameters},
 #include "compiler/bytecode/turtle_operations.def"
 }};
 
@@ -71,7 +71,7 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
     return info(operation).name;
 }
 [[nodiscard]] constexpr bool draws(TurtleOperation operation) {
-    return info(operation).drawn != Drawn::Nothing;
+    return info(operation).drawn != DrawnKind::Nothing;
 }
 /// Whether the operation turns the turtle by an angle.
 [[nodiscard]] constexpr bool turns(TurtleOperation operation) {

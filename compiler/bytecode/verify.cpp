@@ -498,7 +498,7 @@ private:
             return fail("the code at {} draws {} times", first, bounds.draws);
         }
         std::uint32_t depth = 0;
-        std::uint32_t taken = 0; // number of values that Emit or Test took
+        std::uint32_t taken_count = 0; // number of values that Emit or Test took
         choices_.clear();
         while (next_instruction_ < instructions.size()) {
             const std::uint64_t at = next_instruction_++;
@@ -549,10 +549,10 @@ private:
                 return fail("instruction {} ({}) does not fit its choice", at, row.mnemonic);
             }
             if (opcode == Opcode::Emit || opcode == Opcode::Test) {
-                ++taken;
+                ++taken_count;
             }
             if (opcode == Opcode::End) {
-                return (depth == 0 && taken == bounds.emits && choices_.empty()) ||
+                return (depth == 0 && taken_count == bounds.emits && choices_.empty()) ||
                        fail("the code at {} leaves a wrong number of values", first);
             }
         }
@@ -652,19 +652,19 @@ private:
     }
 
     const Bytecode& bytecode_;
-    std::vector<std::uint32_t> parameters_; // by symbol: number of parameters
+    std::vector<std::uint32_t> parameters_; // per symbol: number of parameters
     std::string problem_;
     /// A choice whose EndIf has not been read yet.
     struct Choice {
         std::uint64_t next = 0;  // target of the skip of its If or Else
-        std::uint32_t depth = 0; // of the stack, condition included
+        std::uint32_t depth = 0; // stack depth, condition included
         std::size_t slots = 0;   // number of slots set before the choice
         bool has_else = false;
     };
     std::vector<Choice> choices_;
     std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
-    std::vector<bool> is_set_;             // by slot
-    std::vector<bool> draw_is_seen_; // by number of a random draw of the current word or constant
+    std::vector<bool> is_set_;             // per slot
+    std::vector<bool> draw_is_seen_;       // per random draw of the current word or constant
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

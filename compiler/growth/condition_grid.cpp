@@ -108,10 +108,10 @@ private:
     std::span<const std::uint32_t> instructions_;
     std::span<const KnownValue> parameters_;
     const ExpressionInputs& inputs_;
-    std::uint32_t first_formal_ = 0; // of the condition being added
+    std::uint32_t first_formal_ = 0; // first formal of the condition being added
     bool has_grid_ = false;
     std::map<std::uint32_t, std::vector<std::int32_t>>
-        cuts_; // by parameter: order_index() of the first number of a cell
+        cuts_; // per parameter: order_index() of the first number of a cell
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_; // parameters compared
 };
 
@@ -241,9 +241,9 @@ Node GridBuilder::binary(Opcode opcode, const Node& x, const Node& y) {
     // Rounding keeps order, so results stay monotone. A factor of 0 is excluded, since 0 times an
     // infinite value is NaN.
     const float constant = left ? y.value : x.value;
-    const bool sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
-    const bool product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
-    if (!sum && !(product && constant != 0.0F)) {
+    const bool is_sum = opcode == Opcode::Add || opcode == Opcode::Subtract;
+    const bool is_product = opcode == Opcode::Multiply || (opcode == Opcode::Divide && left);
+    if (!is_sum && !(is_product && constant != 0.0F)) {
         return {};
     }
     Node node = left ? x : y;

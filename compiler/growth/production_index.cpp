@@ -36,14 +36,14 @@ bool ProductionIndex::scan(std::uint32_t production,
     bool calls_step = false;
     bool uses_locals = false;
     const auto read = [&](const InstructionRange& range) {
-        for (const Instruction each : range) {
-            if (each.opcode == Opcode::Formal && each.operand >= head.first_formal &&
-                each.operand - head.first_formal < count) {
-                visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + each.operand -
+        for (const Instruction instruction : range) {
+            if (instruction.opcode == Opcode::Formal && instruction.operand >= head.first_formal &&
+                instruction.operand - head.first_formal < count) {
+                visit(parameter_base_[static_cast<std::size_t>(head.symbol)] + instruction.operand -
                       head.first_formal);
             }
-            calls_step = calls_step || each.opcode == Opcode::Step;
-            uses_locals = uses_locals || each.opcode == Opcode::Local;
+            calls_step = calls_step || instruction.opcode == Opcode::Step;
+            uses_locals = uses_locals || instruction.opcode == Opcode::Local;
         }
     };
     read(instructions);

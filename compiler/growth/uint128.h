@@ -91,10 +91,10 @@ struct Uint128Division {
     // The upper 64 significant bits. The lowest is a sticky bit, set if any lower bit is cut off,
     // so that the single rounding to 53 bits is correct.
     const int shift = 64 - std::countl_zero(value.high); // 1 ... 64
-    const std::uint64_t kept =
+    const std::uint64_t upper_bits =
         shift == 64 ? value.high : value.high << (64 - shift) | value.low >> shift;
-    const std::uint64_t cut_off = shift == 64 ? value.low : value.low << (64 - shift);
-    return std::ldexp(static_cast<double>(kept | (cut_off != 0 ? 1U : 0U)), shift);
+    const std::uint64_t lower_bits = shift == 64 ? value.low : value.low << (64 - shift);
+    return std::ldexp(static_cast<double>(upper_bits | (lower_bits != 0 ? 1U : 0U)), shift);
 }
 
 } // namespace lsys

@@ -64,8 +64,8 @@ std::optional<std::uint64_t> list_instanced(const Program& program,
         ++counts[site.production];
     }
     const FormPage shown = page.value_or(FormPage{});
-    const auto most = std::max_element(counts.begin(), counts.end());
-    const std::uint64_t last = last_form(most == counts.end() ? 0 : *most);
+    const auto max_count = std::max_element(counts.begin(), counts.end());
+    const std::uint64_t last = last_form(max_count == counts.end() ? 0 : *max_count);
     if (shown.first > last) {
         return last;
     }

@@ -22,7 +22,7 @@ inline constexpr std::uint64_t kDefaultFormCount = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> depends_on_vertical; // by id: whether its drawing depends on the vertical
+    std::vector<bool> depends_on_vertical; // per id: whether the drawing depends on the vertical
     std::size_t kind_count = 0;            // number of different valid branches
 };
 
@@ -34,7 +34,7 @@ struct InstancedSystem {
                                                                float rho,
                                                                Diagnostics& diagnostics);
 
-/// The forms of each production that a listing shows, by their number (docs/language.md section
+/// The range of form numbers that a listing shows of each production (docs/language.md section
 /// 9.2).
 struct FormPage {
     std::uint64_t first = 0;

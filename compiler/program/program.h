@@ -154,7 +154,7 @@ struct Global {
 struct Curve {
     NameId name = kNoName;
     SourceSpan span;
-    std::vector<CurveKnot> points; // set_slopes() has set their slopes
+    std::vector<CurveKnot> points; // with the slopes that set_slopes() computes
 };
 
 /// The file of a picture, relative to the root file; empty if there is none.
@@ -166,7 +166,7 @@ struct MaterialPictureName {
 /// `#material`: the appearance of a colour index. Keys that are not set keep the built-in look.
 struct ProgramMaterial {
     std::uint32_t index = 0;                    // a colour index, up to 65,535
-    SourceSpan span;                            // of the index
+    SourceSpan span;                            // place of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
     MaterialPictureName picture;
     MaterialPictureName normal;
@@ -192,7 +192,7 @@ struct Constant {
 /// `#module NAME(formals);`
 struct ModuleDeclaration {
     SymbolId symbol = kNoSymbol;
-    SourceSpan span; // of the module NAME(formals)
+    SourceSpan span; // place of NAME(formals)
 };
 
 /// `#object NAME OBJECT;`: modules of this name draw the object, whatever their parameter count.
@@ -219,9 +219,9 @@ struct Program {
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;
-    SourceSpan generations_span;    // of the number in #n
-    SourceSpan height_span;         // of `height` in `#set height`; kNoFile if missing
-    SourceSpan pipe_span;           // of `pipe` in `#set pipe`; kNoFile if missing
+    SourceSpan generations_span;    // place of the number in #n
+    SourceSpan height_span;         // place of the key in `#set height`; kNoFile if missing
+    SourceSpan pipe_span;           // place of the key in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId
     std::vector<WrittenName> written_names;
 
@@ -300,9 +300,9 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 
-/// By symbol: the productions whose predecessor contains it, each once.
+/// Per symbol: the productions whose predecessor contains it, each once.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
-/// By symbol: the productions whose successor contains it, each once.
+/// Per symbol: the productions whose successor contains it, each once.
 [[nodiscard]] GroupedLists writers_of(const Program& program);
 
 } // namespace lsys

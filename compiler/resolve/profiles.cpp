@@ -43,7 +43,7 @@ constexpr TurtleCommand leaf(std::string_view name) {
     return {name, Leaf, 5, "size, nothing, three values"};
 }
 
-/// With three or more parameters it is SetRgb: operation_of().
+/// operation_of() turns the command into SetRgb if it has three or more parameters.
 constexpr TurtleCommand kColour{"'", SetColour, 3, "index of a colour, or red, green and blue"};
 
 /// A row for each character of `names`.
@@ -82,7 +82,7 @@ constexpr auto kThesis = joined(kPaths,
                                 kPolygonsAndCut);
 
 // Carey 2019. kCarey has the symbols of Houdini that Carey's forest generator reads. kHoudini also
-// has those of his appendix, and similar symbols of Houdini.
+// has the symbols of the appendix of the thesis, and similar symbols of Houdini.
 constexpr auto kCarey =
     joined(commands({length("F", Forward), length("f", Move)}),
            turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
@@ -100,8 +100,8 @@ constexpr auto kHoudini = joined(kCarey,
                                            {"M", Leaf},
                                            {"%", Cut}}));
 
-// A word of L3D is a text: a parenthesis after a command holds its parameter, character by
-// character.
+// L3D rewrites text: each character of the parameter of a command, with its parentheses, is a
+// module.
 constexpr std::array<TurtleOperation, 12> kTexts{Text, Text, Text, Text, Text, Text,
                                                  Text, Text, Text, Text, Text, Text};
 constexpr auto kText = joined(kBranches,
@@ -190,7 +190,7 @@ constexpr std::array<TurtleObject, 9> kObjects{{
 /// Whether #object can name the operation, if the operation places an object. Mesh files need no
 /// name.
 constexpr bool is_bound(TurtleOperation operation) {
-    return info(operation).drawn != Drawn::Object || operation == MeshFile ||
+    return info(operation).drawn != DrawnKind::Object || operation == MeshFile ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();
 }
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_bound),

@@ -33,7 +33,7 @@ struct TurtleCommand {
     std::string_view name;
     TurtleOperation operation = TurtleOperation::Nothing;
     std::uint8_t max_parameters = 0;
-    std::string_view parameters; // their meaning: "length, spring constant, mass"
+    std::string_view parameters; // meanings: "length, spring constant, mass"
 };
 
 /// The commands of a profile. If several rows have one name, the first row applies.

@@ -28,7 +28,7 @@ namespace lsys {
 
 namespace {
 
-/// By name: whether it is a known module name (docs/language.md section 3).
+/// Per NameId: whether it is a known module name (docs/language.md section 3).
 std::vector<bool> known_names(const Resolution& resolution) {
     std::vector<bool> known(resolution.names.count());
     const auto add = [&](ModuleList list) {
@@ -93,7 +93,7 @@ public:
         // has its productions resolved last.
         const bool has_functions = !ast.functions.empty() || !ast.curves.empty();
         expressions_.keep_expressions(has_functions);
-        std::vector<std::size_t> later;
+        std::vector<std::size_t> deferred_productions;
         for (std::size_t i = 0; i < ast.statements.size(); ++i) {
             const Statement statement = ast.statements[i];
             switch (statement.kind) {
@@ -127,7 +127,7 @@ public:
                 break;
             case StatementKind::Production:
                 if (has_functions) {
-                    later.push_back(i);
+                    deferred_productions.push_back(i);
                 } else {
                     productions.resolve(ast.productions[statement.index], statement.span);
                     resolution_.ast.productions.release_before(statement.index);
@@ -140,7 +140,7 @@ public:
             }
         }
         expressions_.keep_expressions(false);
-        for (const std::size_t i : later) {
+        for (const std::size_t i : deferred_productions) {
             constants_.visible_until(i);
             const Statement statement = ast.statements[i];
             productions.resolve(ast.productions[statement.index], statement.span);

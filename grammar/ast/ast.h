@@ -123,7 +123,7 @@ struct CallNode {
 struct ModuleList {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    SourceSpan span; // of all modules; for an empty list, the place where modules may stand
+    SourceSpan span; // all modules; for an empty list, the place where modules may stand
 };
 
 /// A module of a list, unpacked.
@@ -319,11 +319,11 @@ struct Ast {
     std::vector<IgnoreNode> ignores;
     std::vector<AxiomNode> axioms;
     ChunkedVector<ProductionNode> productions;
-    ChunkedVector<LocalNode> locals; // of productions, consecutive
+    ChunkedVector<LocalNode> locals; // locals of productions, consecutive
 
     ChunkedVector<Expression> expressions;
     ChunkedVector<ExpressionId> expression_lists; // arguments of calls, consecutive
-    ChunkedVector<ListRange> argument_lists;      // of function calls
+    ChunkedVector<ListRange> argument_lists;      // arguments of function calls
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 

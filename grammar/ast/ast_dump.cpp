@@ -208,7 +208,7 @@ private:
 
     void name(NameId id) { out_ += id == kNoName ? std::string_view("?") : names_.text(id); }
 
-    /// Without recursion: a sum may have a million terms.
+    /// Appends an expression, without recursion: a sum may have a million terms.
     void expression(ExpressionId root) {
         struct Step {
             ExpressionId expression;

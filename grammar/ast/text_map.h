@@ -53,7 +53,7 @@ struct ScannedText {
     FileId file = kNoFile;
     std::string_view text;
     const TextMap* map = nullptr;             // null if the text is the file's own
-    const Translation* translation = nullptr; // of a file of another dialect, instead of a map
+    const Translation* translation = nullptr; // for a file of another dialect, instead of a map
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
         if (translation != nullptr) {

@@ -31,7 +31,7 @@ enum class Stop : std::uint8_t {
 struct Message {
     enum class Kind : std::uint8_t {
         Diagnostics, // with places in `sources`
-        Error,       // of the environment
+        Error,       // failure of the environment
         Help,        // for the error before it
         Info,        // about the result
         Detail,      // about the work, for verbose output
@@ -39,7 +39,7 @@ struct Message {
     Kind kind = Kind::Diagnostics;
     std::string text; // for all kinds except Diagnostics
     Diagnostics diagnostics;
-    std::shared_ptr<const SourceMap> sources; // of Diagnostics; null if none has a place
+    std::shared_ptr<const SourceMap> sources; // files of Diagnostics; null if none has a place
 };
 
 /// Messages of a step in order.

@@ -18,7 +18,7 @@ struct Synonym {
     std::string_view word;     // a function may include its parameters
     std::string_view source;   // where the word is from; may be empty
     std::string_view spelling; // in .lsys; empty: .lsys has no equivalent
-    std::string_view advice;   // what to do instead, or more about it; may be empty
+    std::string_view advice;   // replacement or explanation; may be empty
 };
 
 /// Whether .lsys has a function of this name.

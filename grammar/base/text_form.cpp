@@ -11,7 +11,7 @@ namespace {
 
 struct Signature {
     std::string_view bytes; // at the begin of the file
-    std::string_view what;
+    std::string_view description;
 };
 constexpr std::array kSignatures{
     Signature{"\x89PNG", "a PNG picture"},
@@ -68,7 +68,7 @@ std::optional<NonText> recognise_non_text(std::string_view bytes) {
     }
     for (const Signature& signature : kSignatures) {
         if (bytes.starts_with(signature.bytes)) {
-            return NonText{std::string(signature.what), "a grammar is UTF-8 text"};
+            return NonText{std::string(signature.description), "a grammar is UTF-8 text"};
         }
     }
     const std::string_view sample = bytes.substr(0, kSampled);

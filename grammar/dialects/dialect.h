@@ -25,16 +25,16 @@ enum class Dialect : std::uint8_t {
 /// The properties of a dialect; made from dialects.def.
 struct DialectRow {
     Dialect dialect{};
-    std::string_view name;       // of the option --dialect
+    std::string_view name;       // value of the option --dialect
     std::string_view title;      // in messages
     std::string_view extensions; // with dots, separated by blanks
     std::string_view turtle;     // default profile: the `#set turtle` of a translation
-    std::string_view page;       // of the manual, from the root of the sources
+    std::string_view page;       // page of the manual, from the root of the sources
 
     /// Returns the evidence that a text is of this dialect; empty if there is none. Null for .lsys.
     std::string_view (*recognise)(std::string_view text) = nullptr;
-    /// Writes the .lsys text of the file `out.file()`. Reports mistakes where they stand; after
-    /// errors the text is incomplete. Null for .lsys.
+    /// Writes the .lsys text of the file `out.file()`. Reports mistakes at their places in that
+    /// file; after errors the text is incomplete. Null for .lsys.
     void (*translate)(const DialectRow& row,
                       const ParseContext& context,
                       Translation& out) = nullptr;
@@ -48,7 +48,7 @@ struct DialectRow {
 [[nodiscard]] std::optional<Dialect> find_dialect(std::string_view name);
 
 struct DetectedDialect {
-    std::optional<Dialect> dialect; // nullopt if neither text nor path shows it
+    std::optional<Dialect> dialect; // nullopt if neither text nor path shows a dialect
     std::string_view evidence;      // evidence: "its first line is `LSYSTEM`"
 };
 /// Detects the dialect from the content of `text`, else from the extension of `path`.

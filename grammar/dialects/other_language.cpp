@@ -44,7 +44,7 @@ std::size_t word_length(std::string_view text) {
 /// Whether a line begins a statement that only .lsys has: `#n =`, `#name :`, `#set key`, or
 /// `name :` and the other parts of a production.
 bool is_lsys_statement(std::string_view line) {
-    // A line number or the sign of a diff may stand before it.
+    // A line number or the sign of a diff may stand before the statement.
     const std::size_t start = line.find_first_not_of("0123456789+-.:| \t");
     if (start != 0 && start != std::string_view::npos && line[start] == '#') {
         line.remove_prefix(start);
@@ -78,7 +78,7 @@ auto begins_with(std::string_view word) {
     return [word](std::string_view line) { return lowered(line.substr(0, word.size())) == word; };
 }
 
-std::optional<OtherLanguage> made(const Line* line, std::string name, std::string help) {
+std::optional<OtherLanguage> language_at(const Line* line, std::string name, std::string help) {
     if (line == nullptr) {
         return std::nullopt;
     }
@@ -121,16 +121,18 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
          find_line(lines, [](std::string_view line) {
              return line.find("produce ") != std::string_view::npos && line.ends_with(';');
          }) != nullptr)) {
-        return made(axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
-                    "lsc does not read lpfg; its productions are C++ and have to be rewritten");
+        return language_at(
+            axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
+            "lsc does not read lpfg; its productions are C++ and have to be rewritten");
     }
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||
                         find_line(lines, [](std::string_view line) {
                             return line.starts_with("produce ") || line.starts_with("nproduce ");
                         }) != nullptr;
-    return axiom != nullptr && is_lpy ? made(axiom, "an L-Py model", advice_for_lpy(lines, *axiom))
-                                      : std::nullopt;
+    return axiom != nullptr && is_lpy
+               ? language_at(axiom, "an L-Py model", advice_for_lpy(lines, *axiom))
+               : std::nullopt;
 }
 
 /// Recognises files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
@@ -141,11 +143,11 @@ std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
             content.push_back(&line);
         }
     }
-    const bool begins = content.size() >= 4 && is_number(content[0]->text) &&
-                        is_number(content[1]->text) && is_number(content[2]->text);
-    return begins ? made(content[0], "an Lparser file",
-                         "give it a name that ends with `.l`, or write `--dialect l3d`")
-                  : std::nullopt;
+    const bool has_numbers = content.size() >= 4 && is_number(content[0]->text) &&
+                             is_number(content[1]->text) && is_number(content[2]->text);
+    return has_numbers ? language_at(content[0], "an Lparser file",
+                                     "give it a name that ends with `.l`, or write `--dialect l3d`")
+                       : std::nullopt;
 }
 
 /// Recognises formats that hold no grammar.
@@ -155,17 +157,17 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
     const char second = text.size() > 1 ? text[1] : lines.size() > 1 ? lines[1].text[0] : '\0';
     if ((text[0] == '{' && (second == '"' || second == '}')) ||
         (text[0] == '[' && (second == '{' || second == '"'))) {
-        return made(&first, "JSON", "a grammar is text of its own; see `docs/manual.md`");
+        return language_at(&first, "JSON", "a grammar is text of its own; see `docs/manual.md`");
     }
     if (text.starts_with("<?xml") || text.starts_with("<!DOCTYPE") || text.starts_with("<svg") ||
         text.starts_with("<html")) {
-        return made(&first, "XML or HTML", "save the grammar alone, as plain text");
+        return language_at(&first, "XML or HTML", "save the grammar alone, as plain text");
     }
     if (text.starts_with("[[") || find_line(lines, [](std::string_view line) {
                                       return line.starts_with("[[") && line.ends_with("]]");
                                   }) != nullptr) {
-        return made(&first, "TOML",
-                    "a scene has a name that ends with `.toml`: `lsc forest scene.toml`");
+        return language_at(&first, "TOML",
+                           "a scene has a name that ends with `.toml`: `lsc forest scene.toml`");
     }
     const bool has_heading = text.starts_with("# ") || text.starts_with("## ");
     const Line* const mark = find_line(lines, [](std::string_view line) {
@@ -173,7 +175,7 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
                line.starts_with("- ") || line.starts_with("| ");
     });
     if (has_heading && mark != nullptr) {
-        return made(&first, "Markdown", "save the grammar alone, as plain text");
+        return language_at(&first, "Markdown", "save the grammar alone, as plain text");
     }
     const Line* const import = find_line(lines, [](std::string_view line) {
         return (line.starts_with("import ") || line.starts_with("from ") ||
@@ -181,10 +183,11 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
                !line.ends_with(';');
     });
     if (import != nullptr) {
-        return made(import, "a Python program", "a grammar has statements such as `#w : F;`");
+        return language_at(import, "a Python program",
+                           "a grammar has statements such as `#w : F;`");
     }
-    return made(find_line(lines, begins_with("#include <")), "a C program",
-                "a grammar has statements such as `#w : F;`");
+    return language_at(find_line(lines, begins_with("#include <")), "a C program",
+                       "a grammar has statements such as `#w : F;`");
 }
 
 /// Help text for a file in a dialect that lsc reads.
@@ -205,8 +208,8 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         return std::nullopt;
     }
     if (const DialectRow& cpfg = row_of(Dialect::Cpfg); !cpfg.recognise(text).empty()) {
-        return made(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
-                    reading_of(cpfg));
+        return language_at(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
+                           reading_of(cpfg));
     }
     for (const auto recognise : {recognise_lpy, recognise_lparser}) {
         if (std::optional<OtherLanguage> other = recognise(lines)) {
@@ -215,7 +218,7 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
     }
     for (const DialectRow& row : dialects()) {
         if (row.recognise != nullptr && !row.recognise(text).empty()) {
-            return made(&lines.front(), std::string(row.title), reading_of(row));
+            return language_at(&lines.front(), std::string(row.title), reading_of(row));
         }
     }
     return recognise_format(lines);

@@ -13,7 +13,7 @@ namespace lsys {
 
 struct OtherLanguage {
     std::string name;        // "a cpfg L-system"
-    std::string help;        // what to do
+    std::string help;        // advice to the author
     std::uint32_t begin = 0; // first byte of the line that shows the language
     std::uint32_t end = 0;
 };

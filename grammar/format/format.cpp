@@ -27,7 +27,7 @@ public:
 
     std::string run() {
         std::size_t at = 0;
-        bool after_comment = false; // a block comment that began its line
+        bool after_comment = false; // the last item was a standalone block comment
         for (;;) {
             LexemeReader reader(text_, at);
             Lexeme first;
@@ -204,13 +204,13 @@ private:
 };
 
 bool has_crlf(std::string_view text) {
-    std::size_t all = 0;
-    std::size_t crlf = 0;
+    std::size_t line_end_count = 0;
+    std::size_t crlf_count = 0;
     for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1)) {
-        ++all;
-        crlf += at > 0 && text[at - 1] == '\r' ? 1U : 0U;
+        ++line_end_count;
+        crlf_count += at > 0 && text[at - 1] == '\r' ? 1U : 0U;
     }
-    return crlf * 2 > all;
+    return crlf_count * 2 > line_end_count;
 }
 
 } // namespace
@@ -233,11 +233,11 @@ std::string format_text(std::string_view text) {
 
 std::optional<std::string> format_lsys(FileId file, const ParseContext& context) {
     const std::uint64_t errors = context.diagnostics.count(Severity::Error);
-    const FileLoader nothing = [](const std::string&) -> Result<std::string> {
+    const FileLoader load_nothing = [](const std::string&) -> Result<std::string> {
         return std::string();
     };
     static_cast<void>(
-        parse_lsys(file, {context.sources, context.names, context.diagnostics, nothing}));
+        parse_lsys(file, {context.sources, context.names, context.diagnostics, load_nothing}));
     if (context.diagnostics.count(Severity::Error) != errors) {
         return std::nullopt;
     }

@@ -78,10 +78,10 @@ void append_labels(const std::vector<rendering::Mark>& marks,
         out += mark.text.empty() ? "" : ": ";
         append_place(mark.span, sources, out);
         out += '\n';
-        rendering::Mark marked = mark;
-        marked.text = {};
+        rendering::Mark unlabelled = mark;
+        unlabelled.text = {};
         static_cast<void>(
-            rendering::append_frame(marked, {}, sources.file(mark.span.file), colours, out));
+            rendering::append_frame(unlabelled, {}, sources.file(mark.span.file), colours, out));
     }
 }
 

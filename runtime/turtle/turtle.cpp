@@ -230,9 +230,9 @@ std::optional<Stop> Turtle::reserve(const Word& word) {
             ++census[code];
         }
         for (Code code = 0; code < census.size(); ++code) {
-            const Drawn drawn = info(state.table.by_code[code].operation).drawn;
-            segments += drawn == Drawn::Segment ? census[code] : 0;
-            objects += drawn == Drawn::Object ? census[code] : 0;
+            const DrawnKind drawn = info(state.table.by_code[code].operation).drawn;
+            segments += drawn == DrawnKind::Segment ? census[code] : 0;
+            objects += drawn == DrawnKind::Object ? census[code] : 0;
         }
     };
     word.visit(count);

@@ -211,8 +211,8 @@ std::vector<ClassTerm> ModuleClasses::successor(ProductionId production) {
     CountedWord word;
     count_word(bytecode_->productions[static_cast<std::size_t>(production)].successor, word);
     const TableRange range = instantiate(word, {});
-    const std::span<const ClassTerm> made = terms(range);
-    return {made.begin(), made.end()};
+    const std::span<const ClassTerm> class_terms = terms(range);
+    return {class_terms.begin(), class_terms.end()};
 }
 
 // --- matching

@@ -41,7 +41,7 @@ public:
         report_system_obstacles();
         for (const Production& production : program_.productions) {
             if (production.stage == Stage::Rewrite) {
-                rules_of_[first_of(production)].push_back(&production.predecessor);
+                rules_of_[predecessor_index(production)].push_back(&production.predecessor);
             }
         }
         find_effects();
@@ -94,7 +94,7 @@ private:
     }
 
     /// A `[` whose `]` has not been read yet.
-    struct Open {
+    struct OpenBranch {
         std::uint32_t index = 0;
         std::uint32_t site = kNone; // index in found_
         std::uint32_t polygons = 0; // number of polygons open at the `[`
@@ -105,7 +105,7 @@ private:
         std::vector<std::uint32_t> locals;
     };
     /// A closed branch, valid or not.
-    struct Found {
+    struct FoundBranch {
         BranchSite site;
         std::uint32_t kind = 0; // index in found_kinds_
         bool valid = false;
@@ -160,7 +160,7 @@ private:
         }
     }
 
-    [[nodiscard]] static std::size_t first_of(const Production& production) {
+    [[nodiscard]] static std::size_t predecessor_index(const Production& production) {
         return static_cast<std::size_t>(production.predecessor.items.front().symbol);
     }
 
@@ -200,7 +200,7 @@ private:
             ++rule_sizes[production.rule];
         }
         for (const Production& production : program_.productions) {
-            Effects& effects = effects_[first_of(production)];
+            Effects& effects = effects_[predecessor_index(production)];
             effects.is_random = effects.is_random || production.successor.draw_count != 0 ||
                                 (production.stochastic && rule_sizes[production.rule] > 1);
         }
@@ -211,9 +211,9 @@ private:
             const std::uint32_t symbol = changed.back();
             changed.pop_back();
             for (const std::uint32_t p : writers[symbol]) {
-                const std::size_t writer = first_of(program_.productions[p]);
-                if (effects_[writer].add(effects_[symbol])) {
-                    changed.push_back(static_cast<std::uint32_t>(writer));
+                const std::size_t predecessor = predecessor_index(program_.productions[p]);
+                if (effects_[predecessor].add(effects_[symbol])) {
+                    changed.push_back(static_cast<std::uint32_t>(predecessor));
                 }
             }
         }
@@ -309,7 +309,7 @@ private:
             return;
         }
         const SymbolId id = program_.modules[word.first_module + index].symbol;
-        Open& open = open_.back();
+        OpenBranch& open = open_.back();
         append_bytes(open.key, id);
         for (std::uint32_t i = 0; i < program_.symbol(id).parameter_count; ++i) {
             add_value(program_.arguments[first_argument + i], open);
@@ -319,7 +319,7 @@ private:
     }
 
     /// Appends an expression to the key in prefix order.
-    void add_value(ValueId root, Open& open) {
+    void add_value(ValueId root, OpenBranch& open) {
         values_.assign(1, root);
         while (!values_.empty()) {
             const Value& value = program_.value(values_.back());
@@ -365,7 +365,7 @@ private:
                std::uint32_t index,
                std::uint32_t production,
                std::uint32_t polygons) {
-        Open open = std::move(open_.back());
+        OpenBranch open = std::move(open_.back());
         open_.pop_back();
         if (open.valid && (open.polygons != 0 || polygons != 0)) {
             across_polygon(word, open.index);
@@ -379,7 +379,7 @@ private:
         if (is_new) {
             found_kinds_.push_back({open.formals, open.locals, open.effects, 0});
         }
-        Found& found = found_[open.site];
+        FoundBranch& found = found_[open.site];
         found.site.production = production;
         found.site.open = open.index;
         found.site.close = index;
@@ -388,9 +388,9 @@ private:
         if (open_.empty()) {
             return;
         }
-        Open& outer = open_.back();
-        constexpr SymbolId kBranch{0xFFFFFFFEu}; // not the id of any symbol
-        append_bytes(outer.key, kBranch);
+        OpenBranch& outer = open_.back();
+        constexpr SymbolId kNestedBranch{0xFFFFFFFEu}; // not a symbol: a nested branch
+        append_bytes(outer.key, kNestedBranch);
         append_bytes(outer.key, known->second);
         outer.valid = outer.valid || open.valid;
         outer.effects.add(open.effects);
@@ -400,7 +400,7 @@ private:
 
     void give_ids() {
         std::uint32_t number = 0;
-        for (Found& found : found_) {
+        for (FoundBranch& found : found_) {
             if (!found.valid) {
                 continue;
             }
@@ -420,10 +420,10 @@ private:
     const Program& program_;
     const Names& names_;
     Diagnostics& diagnostics_;
-    std::vector<std::vector<const ProgramPattern*>> rules_of_; // predecessors, by first symbol
-    std::vector<Effects> effects_;                             // by symbol
-    std::vector<Open> open_;
-    std::vector<Found> found_; // branches of the current word, in order of their `[`
+    std::vector<std::vector<const ProgramPattern*>> rules_of_; // predecessors per first symbol
+    std::vector<Effects> effects_;                             // per symbol
+    std::vector<OpenBranch> open_;
+    std::vector<FoundBranch> found_; // branches of the current word, in order of their `[`
     std::vector<FoundKind> found_kinds_;
     std::unordered_map<std::string, std::uint32_t> kind_of_key_;
     std::vector<ValueId> values_;

@@ -14,12 +14,12 @@ namespace lsys {
 
 namespace {
 
-/// The brackets of a word that have no partner in it.
+/// The brackets without a partner in one word.
 struct Unbalanced {
     const ProgramWord& word;
     const char* where;             // "axiom", "successor"
-    std::vector<std::size_t> open; // indices of `[`
-    std::size_t first_extra = 0;   // index of the first `]`
+    std::vector<std::size_t> open; // indices of each `[` without a `]`
+    std::size_t first_extra = 0;   // index of the first `]` without a `[`
     std::uint64_t extra_count = 0;
 };
 
@@ -97,7 +97,7 @@ void report_word(const CheckInput& input, const Unbalanced& found, Diagnostics& 
 } // namespace
 
 void check_branches(const CheckInput& input, Diagnostics& diagnostics) {
-    std::vector<SymbolKind> kinds; // by symbol: Symbol::kind
+    std::vector<SymbolKind> kinds; // per symbol: Symbol::kind
     bool any = false;
     for (const Symbol& symbol : input.program.symbols) {
         kinds.push_back(symbol.kind);

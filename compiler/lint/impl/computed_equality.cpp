@@ -235,10 +235,10 @@ private:
     const CheckInput& input_;
     const Program& program_;
     Diagnostics& diagnostics_;
-    std::vector<Level> levels_; // by value
-    /// By value: for a Formal its module parameter, for a Local the value in its slot, else kNone.
+    std::vector<Level> levels_; // per value
+    /// Per value: for a Formal its module parameter, for a Local the value in its slot, else kNone.
     std::vector<std::uint32_t> source_;
-    std::vector<std::uint32_t> base_; // by symbol: first index in parameter_levels_
+    std::vector<std::uint32_t> base_; // per symbol: first index in parameter_levels_
     std::vector<Level> parameter_levels_;
 };
 

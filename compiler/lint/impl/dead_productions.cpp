@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    /// Marks the modules that would occur if `symbol` did; the current report explains them.
+    /// Marks `symbol` and the modules that would occur if `symbol` occurred. The report about
+    /// `symbol` explains why they do not.
     void explain(SymbolId symbol) {
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;
@@ -208,7 +209,7 @@ private:
     const Program& program_;
     ModuleUse& use_;
     Diagnostics& diagnostics_;
-    std::vector<bool> explained_; // by symbol: a reported production explains why it never occurs
+    std::vector<bool> explained_; // per symbol: a reported production explains why it never occurs
     GroupedLists rewriters_;
     std::vector<std::string_view> candidates_;
 };

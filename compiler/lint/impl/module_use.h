@@ -22,16 +22,16 @@ struct ModuleMention {
 
 struct ModuleUse {
     Reachable reachable;
-    /// By symbol: its first place in the axioms and successors that can be used, and its first
+    /// Per symbol: the first place in the axioms and successors that can be used, and the first
     /// place in any word. A null `word` means no place.
     std::vector<ModuleMention> first_place;
     std::vector<ModuleMention> any_place;
-    std::vector<std::uint32_t> first_production; // by symbol: the first that rewrites it, or kNone
-    std::vector<bool> in_context;                // by symbol: some context names it
-    std::vector<bool> declared;                  // by symbol: a #module declares it
+    std::vector<std::uint32_t> first_production; // per symbol: the first that rewrites it, or kNone
+    std::vector<bool> in_context;                // per symbol: some context names it
+    std::vector<bool> declared;                  // per symbol: a #module declares it
     std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;
     bool draws = false;         // some module that occurs draws
-    std::vector<bool> reported; // by symbol: a message about its name has been reported
+    std::vector<bool> reported; // per symbol: a message about its name has been reported
 
     [[nodiscard]] const std::vector<SymbolId>& same_name(const Program& program,
                                                          SymbolId id) const {

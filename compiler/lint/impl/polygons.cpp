@@ -110,7 +110,7 @@ private:
     /// Sets open_words_ and end_words_.
     void find_partners() {
         const auto read = [&](const ProgramWord& word) {
-            std::int64_t surplus = 0; // of `{`
+            std::int64_t surplus = 0; // number of `{` minus number of `}`
             for (std::size_t i = word.first_module;
                  i < std::size_t{word.first_module} + word.module_count; ++i) {
                 surplus += kind(i) == SymbolKind::PolygonOpen    ? 1
@@ -156,7 +156,7 @@ private:
     /// An open polygon of a word.
     struct Open {
         std::size_t begin = 0;      // index of its `{`
-        std::uint32_t vertices = 0; // number of `.` in it
+        std::uint32_t vertices = 0; // number of `.` in the polygon
         std::uint32_t moves = 0;
         bool may_grow = false; // some module in it is rewritten
     };

@@ -12,10 +12,10 @@
 namespace lsys {
 
 struct Reachable {
-    /// By symbol: the first generation in which it can occur, or kNone if it never occurs. 0 for
+    /// Per symbol: the first generation in which it can occur, or kNone if it never occurs. 0 for
     /// sequential rewriting, where the first generation is not known.
     std::vector<std::uint32_t> generation;
-    /// By production: whether it can be used.
+    /// Per production: whether it can be used.
     std::vector<bool> usable;
 
     [[nodiscard]] bool occurs(SymbolId symbol) const {

@@ -153,14 +153,14 @@ private:
         }
         for (std::size_t row = 1; row < productions.size(); ++row) {
             const std::uint32_t p = productions[row];
-            bool ever = false;   // the condition holds at some point
-            bool usable = false; // it holds at some point where no earlier condition does
+            bool holds_somewhere = false; // the condition holds at some point
+            bool usable = false;          // holds at a point where no earlier condition does
             std::vector<std::uint32_t> before;
             for (std::uint64_t point = 0; point < table->points && !usable; ++point) {
                 if (!table->holds(row, point)) {
                     continue;
                 }
-                ever = true;
+                holds_somewhere = true;
                 std::size_t first = 0;
                 while (!table->holds(first, point)) {
                     ++first;
@@ -171,7 +171,8 @@ private:
                 }
             }
             const bool is_explained = is_meant_as_probability(input_, production(p));
-            if (ever && !usable && !adjustable[row] && !is_reported(p) && !is_explained) {
+            if (holds_somewhere && !usable && !adjustable[row] && !is_reported(p) &&
+                !is_explained) {
                 report_covered(p, before);
             }
         }

@@ -136,7 +136,7 @@ private:
         SymbolId drawn = kNoSymbol;
         const std::vector<Step> own = steps(edge, drawn);
         if (own.empty() || !has_one(drawn) ||
-            info(program_.symbol(drawn).turtle).drawn != Drawn::Segment) {
+            info(program_.symbol(drawn).turtle).drawn != DrawnKind::Segment) {
             return;
         }
         SymbolId back = kNoSymbol;

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether this is the name of a setting of one number.
+/// Whether `name` is a setting whose value is one number.
 bool is_setting_name(std::string_view name) {
     constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
                                                      "seed",  "sides", "height"};

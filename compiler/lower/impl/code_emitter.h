@@ -45,7 +45,7 @@ private:
     const Program& program_;
     const SourceMap& sources_;
     Bytecode& bytecode_;
-    std::vector<std::uint32_t> stack_need_; // by ValueId: stack depth that its code needs
+    std::vector<std::uint32_t> stack_need_; // per ValueId: stack depth that its code needs
     std::uint32_t current_site_ = kNone;    // site of the next instruction
     bool overflowed_ = false;
 

@@ -29,25 +29,25 @@ void PlaceWriter::set_position(const SourceFile& file, std::uint32_t offset) {
     place_ = file.line_column(offset);
 }
 
-/// Moves to the module at `offset`. Returns whether the text between the last module and this one
-/// is ASCII without a line end.
+/// Moves to the module at `offset`. Returns whether the text between the last module and that
+/// module is ASCII without a line end.
 bool PlaceWriter::move_to(std::uint32_t offset) {
-    bool plain = true;
-    bool ascii = true;
+    bool is_one_line = true;
+    bool is_ascii = true;
     for (; offset_ < offset; ++offset_) {
         const auto c = static_cast<unsigned char>(text_[offset_]);
-        ascii = ascii && c < 0x80;
+        is_ascii = is_ascii && c < 0x80;
         ++place_.column;
         if (c == '\n') {
             ++place_.line;
             place_.column = 1;
-            plain = false;
+            is_one_line = false;
         }
     }
-    if (!ascii) {
+    if (!is_ascii) {
         place_ = file_->line_column(offset);
     }
-    return plain && ascii;
+    return is_one_line && is_ascii;
 }
 
 /// Length of a module with its arguments, in bytes. Inline because it runs for every module.
@@ -94,9 +94,9 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
                 set_position(sources_.file(word.file), module.begin);
             }
             const std::uint32_t stride = module.begin - offset_;
-            const bool plain = move_to(module.begin);
+            const bool is_plain = move_to(module.begin);
             const std::uint32_t length = length_of(word, module);
-            if (plain && ascends && length == run.length && stride >= length &&
+            if (is_plain && ascends && length == run.length && stride >= length &&
                 (run.stride == stride || run.first + 1 == code)) {
                 run.stride = stride;
             } else {

@@ -29,12 +29,11 @@ private:
     [[nodiscard]] bool move_to(std::uint32_t offset);
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;
-    [[nodiscard]] std::uint32_t
-    name_length_in_source(const ProgramWord& word,
-                          const ProgramModule& module) const; // of the name
+    [[nodiscard]] std::uint32_t name_length_in_source(const ProgramWord& word,
+                                                      const ProgramModule& module) const;
 
     struct Spelling {
-        std::uint32_t length = 0; // of the name, in bytes
+        std::uint32_t length = 0; // length of the name in bytes
         bool has_arguments = false;
         bool may_be_quoted = true; // the name itself contains no back quote
     };
@@ -43,11 +42,11 @@ private:
     const Names& names_;
     const SourceMap& sources_;
     std::vector<PlaceRun>& runs_;
-    std::vector<Spelling> spellings_; // by symbol
+    std::vector<Spelling> spellings_; // per symbol
     const SourceFile* file_ = nullptr;
     std::string_view text_;
     std::uint32_t offset_ = 0; // byte offset of the last module
-    LineColumn place_;         // of the last module
+    LineColumn place_;         // place of the last module
 };
 
 } // namespace lsys

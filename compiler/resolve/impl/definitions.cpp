@@ -142,11 +142,11 @@ void DefinitionResolver::param(const ParamNode& node) {
 /// Adds a constant. Its value is that of -D if given, else a global if the value is random, else
 /// the literal `value`.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
-    const auto replaced = replacements_.empty()
-                              ? replacements_.end()
-                              : replacements_.find(std::string(resolution_.text(constant.name)));
-    if (replaced != replacements_.end()) {
-        constant.value = replaced->second;
+    const auto replacement = replacements_.empty()
+                                 ? replacements_.end()
+                                 : replacements_.find(std::string(resolution_.text(constant.name)));
+    if (replacement != replacements_.end()) {
+        constant.value = replacement->second;
         constants_.define(constant);
         return;
     }

@@ -23,7 +23,7 @@ bool is_pi(std::string_view name) {
 /// returns whether it is one.
 bool offer_degrees(const SourceMap& sources, SourceSpan pi, Diagnostic& error) {
     const std::string_view text = sources.file(pi.file).text();
-    constexpr std::uint32_t kMaxLength = 200; // of an argument
+    constexpr std::uint32_t kMaxLength = 200; // bytes of an argument
     const std::uint32_t least = pi.begin > kMaxLength ? pi.begin - kMaxLength : 0;
     std::uint32_t open = pi.begin;
     for (int depth = 1; depth != 0 && open > least; --open) {
@@ -45,15 +45,16 @@ bool offer_degrees(const SourceMap& sources, SourceSpan pi, Diagnostic& error) {
         return false;
     }
     const std::string_view before = text.substr(open, pi.begin - open);
-    const std::size_t two = before.find_last_not_of(" *");
-    const bool twice =
-        two != std::string_view::npos && before[two] == '2' &&
-        before.find('*', two) != std::string_view::npos &&
-        (two == 0 || std::string_view(" (+-*").find(before[two - 1]) != std::string_view::npos) &&
-        before.substr(0, two).find_last_of("/^") == std::string_view::npos;
-    const SourceSpan whole{pi.file, twice ? open + static_cast<std::uint32_t>(two) : pi.begin,
-                           pi.end};
-    const std::string degrees = twice ? "360" : "180";
+    const std::size_t factor_at = before.find_last_not_of(" *");
+    const bool has_factor_two =
+        factor_at != std::string_view::npos && before[factor_at] == '2' &&
+        before.find('*', factor_at) != std::string_view::npos &&
+        (factor_at == 0 ||
+         std::string_view(" (+-*").find(before[factor_at - 1]) != std::string_view::npos) &&
+        before.substr(0, factor_at).find_last_of("/^") == std::string_view::npos;
+    const SourceSpan whole{
+        pi.file, has_factor_two ? open + static_cast<std::uint32_t>(factor_at) : pi.begin, pi.end};
+    const std::string degrees = has_factor_two ? "360" : "180";
     add_fix(error,
             fmt::format("`{}` takes degrees: write `{}` for `{}`", function, degrees,
                         sources.text(whole)),
@@ -507,7 +508,7 @@ bool ExpressionResolver::check_range(const Expression& expression,
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadRangeBounds, expression.span(),
             fmt::format("the minimum {} of this range lies above its maximum {}", *low, *high));
-        // A digit that is missing or mistyped is as likely as an exchange.
+        // No certain fix: a missing or mistyped digit is as likely as swapped bounds.
         error.fixes.push_back({"exchange them",
                                {{first, std::string(resolution_.sources.text(second))},
                                 {second, std::string(resolution_.sources.text(first))}},
@@ -572,7 +573,7 @@ void ExpressionResolver::check_finite(ValueId value, ExpressionId root, Expressi
     };
     if (reaches_a_module || place == ExpressionPlace::Condition) {
         if (constant && !std::isfinite(*constant)) {
-            const NonFiniteCause culprit = culprit_.value_or(
+            const NonFiniteCause culprit = non_finite_cause_.value_or(
                 NonFiniteCause{resolution_.ast.expression(root).span(), "", std::nullopt});
             Diagnostic error =
                 report(culprit.span, std::isnan(*constant) ? "not a number" : "infinite");

@@ -167,7 +167,7 @@ std::optional<float> ExpressionResolver::constant_value(ValueId id) const {
 
 ValueId ExpressionResolver::resolve(ExpressionId root, ExpressionPlace place) {
     is_random_ = false;
-    culprit_.reset();
+    non_finite_cause_.reset();
     zero_divisors_.clear();
     last_root_ = std::max(last_root_, static_cast<std::size_t>(root));
     frames_.push_back({root, 0});
@@ -188,7 +188,7 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
     expression.end = span.end;
     expression.name = name;
     is_random_ = false;
-    culprit_.reset();
+    non_finite_cause_.reset();
     return name_value(expression, place);
 }
 
@@ -279,10 +279,10 @@ ValueId ExpressionResolver::apply(Opcode opcode,
         zero_divisors_.push_back(divisor);
     }
     if (const auto folded = constant_value(result);
-        folded && !std::isfinite(*folded) && !culprit_) {
-        culprit_ = NonFiniteCause{fault_place(opcode, y, expression),
-                                  reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)),
-                                  std::nullopt};
+        folded && !std::isfinite(*folded) && !non_finite_cause_) {
+        non_finite_cause_ = NonFiniteCause{
+            fault_place(opcode, y, expression),
+            reason_for_fault(opcode, x.value_or(0.0F), y.value_or(0.0F)), std::nullopt};
     }
     return result;
 }
@@ -329,11 +329,12 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
         }
         return values_.leaf(Opcode::Global, constant.global, expression.span());
     }
-    if (!std::isfinite(constant.value) && !culprit_) {
-        culprit_ = NonFiniteCause{expression.span(),
-                                  std::isnan(constant.value) ? "this constant is not a number"
-                                                             : "this constant is infinite",
-                                  constant.span};
+    if (!std::isfinite(constant.value) && !non_finite_cause_) {
+        non_finite_cause_ =
+            NonFiniteCause{expression.span(),
+                           std::isnan(constant.value) ? "this constant is not a number"
+                                                      : "this constant is infinite",
+                           constant.span};
     }
     return values_.literal(constant.value, expression.span());
 }
@@ -459,8 +460,8 @@ void ExpressionResolver::forget_faults(SourceSpan unchosen) {
                span.end <= unchosen.end;
     };
     std::erase_if(zero_divisors_, is_inside);
-    if (culprit_ && is_inside(culprit_->span)) {
-        culprit_.reset();
+    if (non_finite_cause_ && is_inside(non_finite_cause_->span)) {
+        non_finite_cause_.reset();
     }
 }
 

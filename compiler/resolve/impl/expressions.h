@@ -105,13 +105,13 @@ private:
     struct UserFunction {
         explicit UserFunction(SourceSpan place) : span(place) {}
 
-        SourceSpan span; // of its name in its first definition
+        SourceSpan span; // name in the first definition
         ConstantState state = ConstantState::Later;
         bool is_curve = false;
         std::uint32_t curve = 0; // index in Program::curves
-        /// By formal, numbered as Value::index of Opcode::Formal: number of its uses in the body.
+        /// Number of uses in the body per formal, numbered as Value::index of Opcode::Formal.
         std::vector<std::uint32_t> uses;
-        std::vector<ValueId> nodes; // of the body without literals, operands before users
+        std::vector<ValueId> nodes; // body without literals, operands before users
         ValueId body = kPoison;
         bool has_choice = false;
     };
@@ -185,11 +185,11 @@ private:
     NameId step_;
     NameId steps_;
 
-    std::vector<std::uint32_t> formal_of_; // by name: number of the formal, or kNone
+    std::vector<std::uint32_t> formal_of_; // per name: number of the formal, or kNone
     std::vector<NameId> formals_;
     std::vector<SourceSpan> formal_spans_;
     bool formals_incomplete_ = false;
-    /// By name: the local value, or kNoValue after expect_local() alone.
+    /// Per name: the local value, or kNoValue after expect_local() alone.
     std::unordered_map<NameId, ValueId> locals_;
     std::unordered_set<NameId> used_locals_;
     std::unordered_set<NameId> reported_; // names with an error in this statement
@@ -200,7 +200,7 @@ private:
 
     std::vector<Frame> frames_;
     std::vector<ValueId> operands_;
-    std::optional<NonFiniteCause> culprit_;
+    std::optional<NonFiniteCause> non_finite_cause_;
     std::vector<SourceSpan> zero_divisors_;
 };
 

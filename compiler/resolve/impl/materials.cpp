@@ -17,7 +17,7 @@ struct MaterialKey {
     enum class Kind : std::uint8_t { Colour, Picture, Normal, Roughness, Translucency, TwoSided };
     std::string_view name;
     Kind kind;
-    std::uint32_t count; // of values
+    std::uint32_t count; // number of values
     const char* wanted;  // text after "takes "
 };
 
@@ -89,7 +89,8 @@ std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value)
 
 void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& material) {
     std::vector<Entry> entries;
-    std::array<SourceSpan, kListedKeys> first_of; // by KeyKind; kNoFile until the key is read
+    std::array<SourceSpan, kListedKeys>
+        first_of; // place per KeyKind; kNoFile until the key is read
     bool ok = true;
     bool is_skipping = false; // within the values of an invalid key
     for (std::uint32_t i = 1; i < node.values.count; ++i) {

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-/// By name: whether a module of the Ast has it.
+/// Per NameId: whether a module of the Ast has this name.
 std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     std::vector<std::uint8_t> used(resolution.names.count());
     const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;

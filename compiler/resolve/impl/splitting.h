@@ -59,7 +59,7 @@ private:
     void for_each_known_prefix(std::string_view text, Function found);
 
     Resolution& resolution_;
-    std::vector<bool> unknown_;                  // by name: unknown identifiers that occur
+    std::vector<bool> unknown_; // per name: whether it is an unknown identifier that occurs
     std::vector<std::string_view> known_sorted_; // known identifiers
     std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
     std::unordered_set<std::size_t> use_lengths_;

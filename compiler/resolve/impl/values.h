@@ -38,7 +38,7 @@ public:
     /// The value of `body`, computed after slot `slot` has been set to `value`.
     [[nodiscard]] ValueId
     with_local(std::uint32_t slot, ValueId value, ValueId body, SourceSpan span);
-    /// The same leaf with another span.
+    /// A copy of `leaf` with another span.
     [[nodiscard]] ValueId leaf_at(ValueId leaf, SourceSpan span);
 
     [[nodiscard]] std::size_t size() const { return values_.size(); }

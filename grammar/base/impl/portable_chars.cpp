@@ -42,7 +42,7 @@ std::to_chars_result put(char* first, char* last, std::string_view text) {
     return {std::copy(text.begin(), text.end(), first), std::errc()};
 }
 
-/// The shortest digits of a finite positive number: `count` of them, times 10^exponent.
+/// The shortest decimal of a finite positive number: `count` digits, times 10^exponent.
 struct Digits {
     std::array<char, 24> text{};
     int count = 0;
@@ -62,7 +62,7 @@ Digits shortest_digits(Number value) {
             continue;
         }
         digits.exponent -= is_fraction ? 1 : 0;
-        if (digits.count != 0 || *at != '0') { // without zeros in front
+        if (digits.count != 0 || *at != '0') { // skips leading zeros
             digits.text[static_cast<std::size_t>(digits.count++)] = *at;
         }
     }
@@ -81,7 +81,7 @@ Digits shortest_digits(Number value) {
     return digits;
 }
 
-/// The number without an exponent, if its digits are a fraction.
+/// Appends a number that is not whole, without an exponent.
 void append_fraction(fmt::memory_buffer& out, const Digits& digits) {
     const std::string_view text(digits.text.data(), static_cast<std::size_t>(digits.count));
     const int whole = digits.count + digits.exponent; // digits before the point
@@ -115,24 +115,24 @@ std::to_chars_result write(char* first, char* last, Number value, bool is_fixed)
     if (std::signbit(value)) {
         out.push_back('-');
     }
-    const Number size = std::fabs(value);
+    const Number magnitude = std::fabs(value);
     if (!std::isfinite(value)) {
         out.append(std::string_view(std::isnan(value) ? "nan" : "inf"));
         return put(first, last, {out.data(), out.size()});
     }
-    if (size == 0) {
+    if (magnitude == 0) {
         out.push_back('0');
         return put(first, last, {out.data(), out.size()});
     }
-    const Digits digits = shortest_digits(size);
-    // Without an exponent where that is not longer: `0.000123`, `12300000` beside `1.23e-04`,
-    // `1.23e+07`. A single digit has no point before its exponent.
+    const Digits digits = shortest_digits(magnitude);
+    // The shorter form; if both have equal length, the one without an exponent: `0.000123` for
+    // `1.23e-04`, `12300000` for `1.23e+07`. A single digit has no point before its exponent.
     const int point = digits.count == 1 ? 1 : 0;
     if (!is_fixed &&
         (digits.exponent < point - (digits.count + 3) || digits.exponent > 5 - point)) {
         append_scientific(out, digits);
     } else if (digits.exponent >= 0) {
-        fmt::format_to(fmt::appender(out), "{:.0f}", size); // all digits of a whole number
+        fmt::format_to(fmt::appender(out), "{:.0f}", magnitude); // all digits of a whole number
     } else {
         append_fraction(out, digits);
     }

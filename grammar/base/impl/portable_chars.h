@@ -12,7 +12,7 @@ portable_from_chars(const char* first, const char* last, float& value);
 [[nodiscard]] std::from_chars_result
 portable_from_chars(const char* first, const char* last, double& value);
 
-/// Without `is_fixed` with an exponent where that is shorter.
+/// Writes an exponent if the result is shorter with it, but never if `is_fixed`.
 [[nodiscard]] std::to_chars_result
 portable_to_chars(char* first, char* last, float value, bool is_fixed);
 [[nodiscard]] std::to_chars_result

@@ -61,7 +61,8 @@ void write_axiom(const CareyFile& file,
 struct RuleSelection {
     std::size_t number = 0;
     bool has_alternatives = false; // other rules have the same left side
-    std::string condition; // true in the generations of its turn; empty: `rewriting cyclic` decides
+    /// True in the generations in which the rule has its turn. If empty, `rewriting cyclic` decides.
+    std::string condition;
 };
 
 /// Writes the condition and the probability of a rule.
@@ -115,7 +116,7 @@ void write_rules(const CareyFile& file,
                  const LeftParameters& parameters,
                  Translation& translation) {
     std::map<std::string, std::size_t> alternatives;
-    std::map<std::string, std::size_t> turns; // in the order of the file
+    std::map<std::string, std::size_t> turns; // index of each left side, in file order
     std::vector<std::string> left_sides;
     for (const CareyRule& rule : file.rules) {
         left_sides.push_back(without_blanks(context.sources.text(rule.left)));

@@ -17,10 +17,10 @@ namespace lsys {
 namespace {
 
 /// A symbol and its number of parameters.
-using Form = std::pair<char32_t, std::size_t>;
+using SymbolForm = std::pair<char32_t, std::size_t>;
 
 struct PlacedModule {
-    Form form;
+    SymbolForm form;
     SourceSpan span; // with the parameters
 };
 
@@ -50,9 +50,9 @@ public:
     LeftParameters walk() {
         LeftParameters found;
         found.counts_by_rule.resize(rules_.size());
-        while (!forms_.empty()) {
-            const PlacedModule module = forms_.back();
-            forms_.pop_back();
+        while (!pending_.empty()) {
+            const PlacedModule module = pending_.back();
+            pending_.pop_back();
             for (std::size_t i = 0; i < rules_.size(); ++i) {
                 if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
                     found.counts_by_rule[i].push_back(module.form.second);
@@ -88,7 +88,7 @@ private:
 
     void enqueue(const PlacedModule& module) {
         if (module.form.second != 0 && enqueued_.insert(module.form).second) {
-            forms_.push_back(module);
+            pending_.push_back(module);
         }
     }
 
@@ -104,7 +104,7 @@ private:
     }
 
     /// Whether `left` matches the modules up to `last`, so that the parameters of `last` follow the
-    /// match.
+    /// matched text.
     static bool matches(const std::vector<PlacedModule>& left,
                         const std::vector<PlacedModule>& modules,
                         std::size_t last) {
@@ -170,8 +170,8 @@ private:
     Diagnostics ignored_;
     ParseContext quiet_;
     std::vector<RuleWithModules> rules_;
-    std::set<Form> enqueued_;
-    std::vector<PlacedModule> forms_; // enqueued and not followed yet
+    std::set<SymbolForm> enqueued_;
+    std::vector<PlacedModule> pending_; // modules to follow
 };
 
 } // namespace

@@ -21,7 +21,7 @@ struct CareyKey {
 /// A setting of the file; its spans have no blanks around them.
 struct CareySetting {
     const CareyKey* key = nullptr;
-    SourceSpan place; // of the key and its colon
+    SourceSpan place; // the key and its colon
     SourceSpan value;
 };
 

@@ -39,9 +39,9 @@ bool is_integer(std::string_view text) {
 std::string as_name(std::string_view text, std::string_view fallback) {
     std::string name;
     for (const char c : text) {
-        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        const bool digit = c >= '0' && c <= '9';
-        name += letter || (digit && !name.empty()) ? c : '_';
+        const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        const bool is_digit = c >= '0' && c <= '9';
+        name += is_letter || (is_digit && !name.empty()) ? c : '_';
     }
     const bool has_letter = name.find_first_not_of('_') != name.npos;
     return has_letter ? name : std::string(fallback);

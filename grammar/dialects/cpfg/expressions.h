@@ -55,7 +55,7 @@ private:
     struct Array {
         std::vector<int> sizes;
         std::vector<ForeignId> values;
-        std::string name; // of its curve in .lsys; empty while nothing reads the array
+        std::string name; // name of the curve in .lsys; empty while nothing reads the array
     };
 
     [[nodiscard]] ForeignId name(const ForeignNode& node);
@@ -105,11 +105,11 @@ private:
     Variables variables_;
     Variables globals_;
     Variables state_;                             // values of changing globals in this production
-    std::map<std::string, ForeignId> increments_; // by global: what each step adds to it
+    std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
     std::set<std::string> reset_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
     std::map<std::size_t, std::string>
-        curve_names_; // by curve: name of its function in .lsys, if read
+        curve_names_; // per curve: name of its function in .lsys, if read
     std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign

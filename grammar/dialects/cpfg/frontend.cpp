@@ -33,9 +33,10 @@ ForeignId CpfgSession::add(ForeignNode expression) {
     if (depth == kMaxDepth + 1) { // once, not for every parent
         report_unsupported(span, "an expression of more than 1000 operations in one another");
     }
-    ForeignNode flat{.kind = ForeignKind::Number, .text = "0", .span = span, .token = span};
-    flat.depth = depth + 1; // so that the enclosing expressions are replaced, too, without a report
-    return expressions.add(std::move(flat));
+    ForeignNode placeholder{.kind = ForeignKind::Number, .text = "0", .span = span, .token = span};
+    placeholder.depth =
+        depth + 1; // so that the enclosing expressions are replaced, too, without a report
+    return expressions.add(std::move(placeholder));
 }
 
 int CpfgSession::add(CpfgStatement statement) {

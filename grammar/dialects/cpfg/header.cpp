@@ -51,11 +51,11 @@ void CpfgWriter::find_names() {
 /// Removes the leading `~` of `~s(x) --> ~s(y)`, so that the production rewrites the `s` after a
 /// `~` and keeps the `~`.
 void CpfgWriter::keep_tilde(CpfgProduction& production) const {
-    const auto begins = [](const std::vector<CpfgModule>& list) {
+    const auto begins_with_tilde = [](const std::vector<CpfgModule>& list) {
         return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
     };
-    if (production.predecessor.size() == 2 && begins(production.predecessor) &&
-        begins(production.successor)) {
+    if (production.predecessor.size() == 2 && begins_with_tilde(production.predecessor) &&
+        begins_with_tilde(production.successor)) {
         const auto& named = session_.considers ? session_.considered : session_.ignored;
         const bool is_named = std::any_of(named.begin(), named.end(),
                                           [](const auto& module) { return module.name == "~"; });

@@ -32,7 +32,7 @@ struct CpfgStatement {
 
 struct CpfgModule {
     std::string name;
-    SourceSpan span; // of the name
+    SourceSpan span; // place of the name
     bool has_arguments = false;
     std::vector<ForeignId> arguments;
 };
@@ -48,7 +48,7 @@ struct CpfgProduction {
     std::vector<int> after;
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
-    SourceSpan span; // of the predecessor
+    SourceSpan span; // place of the predecessor
     SourceSpan arrow;
 };
 
@@ -78,7 +78,7 @@ public:
     std::vector<int> start_each;
     std::vector<int> end_each;
     std::vector<int> end;
-    Stage stage = Stage::Rewrite; // of the productions that are being read
+    Stage stage = Stage::Rewrite; // stage of the productions being read
     int systems = 0;
 
     // --- for the scanner

@@ -32,7 +32,7 @@ private:
         bool in_group = false;
         ForeignId condition = kNoForeign;
         ForeignId weight = kNoForeign;
-        std::vector<std::vector<ForeignId>> arguments; // by module of the successor
+        std::vector<std::vector<ForeignId>> arguments; // per module of the successor
         std::size_t first_local = 0;                   // index of its first local value
         std::size_t end_local = 0;
         std::uint32_t first_draw = 0; // in a group: index of its first random number
@@ -105,9 +105,9 @@ private:
     ForeignId seed_ = kNoForeign;
     ForeignId decompose_depth_ = kNoForeign;
     ForeignId interpret_depth_ = kNoForeign;
-    std::vector<std::vector<ForeignId>> axiom_; // arguments by module
-    std::vector<Lowered> lowered_;              // by production
-    // Groups of productions among which a random number chooses, by the first production.
+    std::vector<std::vector<ForeignId>> axiom_; // arguments per module
+    std::vector<Lowered> lowered_;              // per production
+    // Groups of productions among which a random number chooses; the key is the first production.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
     std::set<Stage> bound_;         // stages with groups
     std::set<std::string> used_;    // names of all modules

@@ -28,15 +28,15 @@ std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
     std::vector<NamedEntry> systems;
     for (const FractintEntry& entry : entries) {
         std::string_view name = sources.text(entry.name);
-        const std::string low = lowered(name);
+        const std::string lower_name = lowered(name);
         constexpr std::array<std::string_view, 3> kOthers{"frm:", "ifs:", "par:"};
-        if (low.empty() || low == "comment" ||
+        if (lower_name.empty() || lower_name == "comment" ||
             std::any_of(kOthers.begin(), kOthers.end(),
-                        [&](std::string_view kind) { return low.starts_with(kind); })) {
+                        [&](std::string_view kind) { return lower_name.starts_with(kind); })) {
             continue;
         }
         constexpr std::string_view kKind = "lsys:";
-        name.remove_prefix(low.starts_with(kKind) ? kKind.size() : 0);
+        name.remove_prefix(lower_name.starts_with(kKind) ? kKind.size() : 0);
         systems.push_back({std::string(name), &entry});
     }
     return systems;

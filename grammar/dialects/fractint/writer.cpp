@@ -71,13 +71,14 @@ void FractintWriter::write(std::string_view turtle) {
             add_rule(line, rules);
             continue;
         }
-        const FractintLine*& known = line.kind == FractintLineKind::Angle ? angle : axiom;
-        if (known != nullptr) {
-            warn_quirk(known->key, line.kind == FractintLineKind::Angle
-                                       ? "there is another `Angle` below, which Fractint takes"
-                                       : "there is another `Axiom` below, which Fractint takes");
+        const FractintLine*& last_line = line.kind == FractintLineKind::Angle ? angle : axiom;
+        if (last_line != nullptr) {
+            warn_quirk(last_line->key,
+                       line.kind == FractintLineKind::Angle
+                           ? "there is another `Angle` below, which Fractint takes"
+                           : "there is another `Axiom` below, which Fractint takes");
         }
-        known = &line;
+        last_line = &line;
     }
     if ((axiom == nullptr || angle == nullptr) && has_unknown_key_) {
         return; // the unknown key may be the missing one, misspelt
@@ -255,14 +256,14 @@ void FractintWriter::write_symbol(SourceSpan symbol) {
     }
 }
 
-/// Writes the number after a command; returns its bytes in `rest`. `I` inverts it, `Q` takes its
-/// square root.
+/// Writes the number at the start of `rest`, after a command; returns its length in bytes. A prefix
+/// `I` inverts the number, `Q` takes its square root.
 std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view rest) {
-    bool root = false;
-    bool inverse = false;
+    bool takes_root = false;
+    bool inverts = false;
     std::uint32_t at = 0;
     while (at < 2 && at < rest.size() && (folded(rest[at]) == 'Q' || folded(rest[at]) == 'I')) {
-        (folded(rest[at]) == 'Q' ? root : inverse) = true;
+        (folded(rest[at]) == 'Q' ? takes_root : inverts) = true;
         ++at;
     }
     const std::uint32_t begin = at;
@@ -281,7 +282,7 @@ std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view 
     if (length != digits.size()) {
         warn_quirk(place, "Fractint reads this number up to its second point");
     }
-    if (!root && !inverse) {
+    if (!takes_root && !inverts) {
         translation_.put("(", place);
         translation_.copy(
             {place.file, place.begin, place.begin + static_cast<std::uint32_t>(length)},
@@ -291,8 +292,8 @@ std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view 
     }
     double value = 0.0;
     number_from_chars(digits.data(), digits.data() + length, value);
-    value = root ? std::sqrt(value) : value;
-    value = inverse && value > 0.0 ? 1.0 / value : value;
+    value = takes_root ? std::sqrt(value) : value;
+    value = inverts && value > 0.0 ? 1.0 / value : value;
     translation_.put("(" + text_of(static_cast<float>(value)) + ")", place);
     return at;
 }

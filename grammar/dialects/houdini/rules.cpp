@@ -175,8 +175,8 @@ void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
     for (const HoudiniModule& module : modules) {
         const HoudiniSymbol& symbol = symbols_.symbol(module);
         write_symbol(module);
-        const std::uint32_t all = symbol.max_count + (symbol.has_age ? 1U : 0U);
-        write_formals(module, symbol.is_command ? counts[slot++] : all, false);
+        const std::uint32_t formal_count = symbol.max_count + (symbol.has_age ? 1U : 0U);
+        write_formals(module, symbol.is_command ? counts[slot++] : formal_count, false);
     }
 }
 

@@ -70,7 +70,7 @@ public:
     void open() { ++depth_; }
     /// Returns true if more modules follow.
     bool close();
-    void begin_condition() { in_condition_ = true; } // of a rule: its condition or probability
+    void begin_condition() { in_condition_ = true; } // condition or probability of a rule
     /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules follow.
     bool end_condition();
     void end_line();

@@ -20,7 +20,7 @@ enum class HoudiniSettingKind : std::uint8_t {
 struct HoudiniSettingRow {
     std::string_view key; // in the form of houdini_key()
     HoudiniSettingKind kind{};
-    std::string_view name; // of the setting in .lsys
+    std::string_view name; // name of the setting in .lsys
 };
 
 /// The row of a key; null if there is none. Several keys may name one setting.

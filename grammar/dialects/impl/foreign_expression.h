@@ -46,7 +46,7 @@ struct ForeignNode {
     std::string text{};
     std::vector<ForeignId> parts{};
     SourceSpan span{};  // with its parts
-    SourceSpan token{}; // of the operator or name
+    SourceSpan token{}; // the operator or name
     std::uint32_t index = 0;
     std::uint32_t depth = 1; // set by ForeignExpressions::add()
 };
@@ -59,7 +59,7 @@ struct ForeignLocal {
     bool is_final = false;  // written as a `let` even if it is read only once
     bool is_inline = false; // written in place of its name
     bool is_constant = false;
-    std::uint32_t reads = 0; // by other written values; set by count_reads()
+    std::uint32_t reads = 0; // reads by other written values; set by count_reads()
 };
 
 /// How the nodes of one statement are written.

@@ -19,7 +19,7 @@ namespace lsys {
 /// One module of a text.
 struct LetterModule {
     char32_t character = 0;
-    SourceSpan span;      // of the character
+    SourceSpan span;      // the character
     SourceSpan arguments; // from `(` to one past `)`; empty: there are none
 };
 

@@ -14,7 +14,7 @@ namespace lsys {
 
 /// Words of a dialect, for messages about its lines.
 struct DialectWords {
-    std::string_view name;                  // of the dialect: "cpfg"
+    std::string_view name;                  // name of the dialect: "cpfg"
     std::span<const std::string_view> keys; // in lower case, before a `:` or alone
     std::string_view arrow;                 // between the sides of a rule
 };

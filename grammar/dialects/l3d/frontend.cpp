@@ -116,14 +116,14 @@ void write_rules(const std::vector<L3dRule>& rules,
 } // namespace
 
 std::string_view recognise_l3d(std::string_view text) {
-    int numbers = 0;
+    int number_count = 0;
     std::size_t at = 0;
     while (at < text.size()) {
         if (is_one_of(text[at], kL3dBlanks)) {
             ++at;
         } else if (text[at] == '#') {
             at = std::min(text.find('\n', at), text.size());
-        } else if (numbers == 3) {
+        } else if (number_count == 3) {
             return "its beginning, three numbers,";
         } else {
             at += text[at] == '-' || text[at] == '+' ? 1U : 0U;
@@ -133,7 +133,7 @@ std::string_view recognise_l3d(std::string_view text) {
                 (at < text.size() && !is_one_of(text[at], kL3dBlanks) && text[at] != '#')) {
                 return {};
             }
-            ++numbers;
+            ++number_count;
         }
     }
     return {};

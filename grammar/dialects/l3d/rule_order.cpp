@@ -25,7 +25,7 @@ constexpr std::uint32_t kChoices = 8;
 /// A key and its values.
 struct Key {
     std::string_view text;
-    SourceSpan span; // of its first rule
+    SourceSpan span; // first rule with this key
     std::vector<std::string_view> values;
 };
 

@@ -164,9 +164,9 @@ void L3dWriter::write(SourceSpan text) {
             }
         }
         if (c == '(' && command != '\0') {
-            const bool closed = next_close(at) < whole.size();
-            const auto end = static_cast<std::uint32_t>(closed ? close + 1 : text.end);
-            if (closed) {
+            const bool is_closed = next_close(at) < whole.size();
+            const auto end = static_cast<std::uint32_t>(is_closed ? close + 1 : text.end);
+            if (is_closed) {
                 check_parameter(command, {at, end});
             } else {
                 warn(at, at + 1, "this parameter ends nowhere in its text");

@@ -30,7 +30,7 @@ struct SysRule {
 };
 
 struct SysFile {
-    std::optional<SourceSpan> count; // of the rules, as written
+    std::optional<SourceSpan> count; // number of rules, as written
     std::optional<SourceSpan> axiom;
     std::vector<SysRule> rules;
 };
@@ -38,7 +38,7 @@ struct SysFile {
 constexpr std::string_view kHeader = "LSYSTEM";
 constexpr std::string_view kBlanks = " \t\r\n";
 
-/// Bytes of a word, which keeps the blanks within its parentheses.
+/// Length in bytes of the word at the start of `ahead`. Parentheses of a word may hold blanks.
 std::size_t word_length(std::string_view ahead) {
     std::size_t at = 0;
     while (at < ahead.size() && kBlanks.find(ahead[at]) == std::string_view::npos) {
@@ -111,7 +111,7 @@ bool has_arguments(const LetterModule& module) {
     return module.arguments.begin != module.arguments.end;
 }
 
-/// Number of parameters of a module by their commas, without parsing them.
+/// Number of parameters of a module, counted by commas without parsing.
 std::size_t count_parameters(const LetterModule& module, const ParseContext& context) {
     const std::string_view text = context.sources.text(module.arguments);
     return has_arguments(module)
@@ -134,8 +134,8 @@ struct Replaced {
     std::size_t parameters = 0;
 };
 
-/// The modules of a word of the file. In a successor of `replaced`, that symbol without parameters
-/// keeps those of the module that it replaces.
+/// Writes the modules of a word. If the symbol of `replaced` has no parameters in the word, it gets
+/// the parameters of the module that the rule replaces.
 void write_modules(SourceSpan text,
                    const Replaced& replaced,
                    const ParseContext& context,
@@ -150,8 +150,8 @@ void write_modules(SourceSpan text,
     });
 }
 
-/// Parameter counts of each symbol. A symbol without parameters in its own successor counts as
-/// having those of the module that it replaces.
+/// Parameter counts of each symbol. A symbol without parameters in its own successor is not
+/// counted, because it gets the parameters of the module that the rule replaces.
 using Arities = std::map<char32_t, std::set<std::size_t>>;
 
 /// The symbol that a rule replaces, the last one if it has several; nullopt if it has none.

@@ -260,16 +260,16 @@ std::size_t LexemeReader::number_length() const {
 
 void LexemeReader::operation() {
     const char c = text_[at_];
-    const bool compares = (c == '=' || c == '!' || c == '<' || c == '>') && starts(c, '=');
-    if (compares || ((c == '&' || c == '|') && starts(c, c))) {
+    const bool is_comparison = (c == '=' || c == '!' || c == '<' || c == '>') && starts(c, '=');
+    if (is_comparison || ((c == '&' || c == '|') && starts(c, c))) {
         take(LexemeKind::Operator, 2);
         after_value_ = false;
         return;
     }
-    const bool unary = !after_value_ && (c == '-' || c == '!');
-    const bool any = !after_value_ && c == '*';
-    take(unary ? LexemeKind::Unary : any ? LexemeKind::Any : LexemeKind::Operator, 1);
-    after_value_ = any; // `~` may follow
+    const bool is_unary = !after_value_ && (c == '-' || c == '!');
+    const bool is_any = !after_value_ && c == '*';
+    take(is_unary ? LexemeKind::Unary : is_any ? LexemeKind::Any : LexemeKind::Operator, 1);
+    after_value_ = is_any; // `~` may follow
 }
 
 std::vector<Lexeme> lexemes_of(std::string_view text) {

@@ -23,7 +23,7 @@ enum class LexemeKind : std::uint8_t {
     Word, // a name in an expression or value
     Number,
     Quoted,   // "file"
-    Operator, // of an expression; also `~` of a condition
+    Operator, // in an expression; also `~` of a condition
     Any,      // the condition `*`
     Unary,    // `-` or `!` before its operand
     Left,     // `(` or `{` of an expression

@@ -45,7 +45,7 @@ private:
     std::string& out_;
     std::string line_; // the current line, not yet in out_
     std::uint32_t column_;
-    std::vector<LineBreak> breaks_; // of the current line, ascending
+    std::vector<LineBreak> breaks_; // breaks of the current line, ascending
     bool at_begin_ = true;
     bool one_line_ = true;
 };

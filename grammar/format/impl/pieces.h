@@ -19,15 +19,15 @@ enum class BreakClass : std::uint8_t { Never, Poor, Fine };
 
 struct Piece {
     std::string text;
-    std::uint32_t width = 0;      // of the first line
-    std::uint32_t last_width = 0; // of the last line
+    std::uint32_t width = 0;      // width of the first line
+    std::uint32_t last_width = 0; // width of the last line
     bool several_lines = false;   // a comment within has line ends
     bool blank_before = false;
     bool begins_cell = false;
-    bool in_list = false;  // of modules, after the last colon
+    bool in_list = false;  // in a list of modules, after the last colon
     bool own_line = false; // the author began a line with this piece
     BreakClass break_class = BreakClass::Never;
-    std::uint32_t rank = 0;  // of breaks of one class; the lowest is best
+    std::uint32_t rank = 0;  // rank among breaks of one class; the lowest is best
     std::uint32_t depth = 0; // open brackets before the piece, or after it if it is a `]`
     bool ends_statement = false;
     bool semicolon_only = false; // the `;` of an empty list
@@ -60,7 +60,7 @@ private:
     std::size_t end_ = 0;
     bool done_ = false;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t index_ = 0; // of current_, comments not counted
+    std::uint32_t index_ = 0; // index of current_, not counting comments
     std::uint32_t colons_ = 0;
     std::uint32_t parentheses_ = 0;
     std::uint32_t brackets_ = 0;

@@ -264,7 +264,7 @@ private:
 
     /// `A(float x)`, `A(x, w = 1)`: parameters with a type or a default value.
     void formals(std::size_t open, std::size_t close) {
-        std::size_t index = 0; // of the formal
+        std::size_t index = 0; // index of the formal
         for (const Piece& formal : split(text(), open + 1, close, ',', true)) {
             const std::size_t number = index++;
             const std::string_view first = leading_word(text_of(text(), formal));
@@ -694,7 +694,7 @@ private:
         }
         Diagnostic* diagnostic = nullptr;
         Fix fix{"", {}, false};
-        std::optional<Edit> value_edit; // of the condition
+        std::optional<Edit> value_edit; // edit of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
         bool begins_part = true; // or follows a module that was repaired

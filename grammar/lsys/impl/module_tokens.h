@@ -14,10 +14,10 @@ namespace lsys::lsys_grammar {
 /// Handling of a character among modules that is not a module.
 enum class StrayHandling : std::uint8_t {
     Skip,
-    ReadAsModule, // as if in back quotes; a `)` as `]`
+    ReadAsModule, // read as if in back quotes; a `)` becomes `]`
     SkipRange,    // skip a random range outside of parentheses, up to `}`
-    InsertColon,  // insert a `:` before it; the condition begins
-    EndStatement, // as a `;`
+    InsertColon,  // insert a `:` before the character; the condition begins
+    EndStatement, // end the statement as a `;` does
     Discard,      // discard the statement and skip its rest
 };
 /// Reports a number or one of `@ * ~ = ? ,` in a module list; returns its handling.

@@ -16,7 +16,7 @@ namespace lsys {
 
 /// A character beyond ASCII in a place where only ASCII has a meaning.
 struct StrayCharacter {
-    std::uint32_t begin = 0; // of the source
+    std::uint32_t begin = 0; // offset in the source
     bool in_quotes = false;  // in back quotes: only confusables are replaced
     bool in_value = false;   // in an expression or a setting, not among modules
 
@@ -67,7 +67,7 @@ private:
     TextMap& map_;
     Diagnostics* diagnostics_;
     Group group_;
-    std::uint32_t word_end_ = 0; // of the last word with an unknown letter
+    std::uint32_t word_end_ = 0; // end of the last word with an unknown letter
     std::u32string reported_greek_;
     bool explained_ = false;
 };

@@ -38,9 +38,9 @@ public:
     ScanState scan;
     IncludeChain* includes; // null: included files are not read
 
-    std::vector<DiagnosticCode> allowed;           // by comments, for the next statement
-    bool silent = false;                           // reports nothing
-    std::vector<TextRange>* comments = nullptr;    // receives comments; may be null
+    std::vector<DiagnosticCode> allowed;        // codes that comments allow for the next statement
+    bool silent = false;                        // reports nothing
+    std::vector<TextRange>* comments = nullptr; // receives comments; may be null
     std::vector<StrayCharacter>* strays = nullptr; // receives characters; null during the parse
     // Set by the parser too, so no token may depend on them: scans without a parser yield the same
     // tokens.

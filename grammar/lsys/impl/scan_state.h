@@ -94,7 +94,7 @@ struct ScanState {
     bool semicolon_inserted = false;
     bool value_before = false;                         // the last token ends a value
     bool name_before = false;                          // the last token is a name in an expression
-    NextInLocals next_in_locals = NextInLocals::Value; // what is next in Part::Locals
+    NextInLocals next_in_locals = NextInLocals::Value; // next item of Part::Locals
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted
     std::size_t first_diagnostic = 0;    // index of the statement's first diagnostic
@@ -110,7 +110,7 @@ struct ScanState {
     std::uint32_t depth = 0; // open brackets and chains of all levels
 
     Insertion inserting = Insertion::None;
-    SourceSpan pending_span;       // of the written `:` or `;` that follows the inserted tokens
+    SourceSpan pending_span;       // the written `:` or `;` after the inserted tokens
     std::uint32_t control_end = 0; // end of the last control character
     // Searches in this text, at most kMaxBracketSearches (bracket_search.h).
     std::uint32_t bracket_searches = 0;

@@ -901,7 +901,7 @@ Token insert_token(ParseSession& session) {
         return Token(Parser::token::TOK_COLON, session.insertion_place()).as_inserted();
     }
     if (scan.part == Part::Head) {
-        scan.enter(Part::Successor); // which is empty
+        scan.enter(Part::Successor); // an empty successor
         return Token(Parser::token::TOK_YYerror, session.insertion_place()).as_inserted();
     }
     if (scan.statement_open) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kTabStop = 4;
 constexpr std::string_view kEllipsis = "...";
 /// Characters before the focus in an excerpt that is cut on its left.
-constexpr std::size_t kLead = 50;
+constexpr std::size_t kCharactersBeforeFocus = 50;
 /// Bounds the work for lines with many characters of zero width.
 constexpr std::size_t kMaxCharacters = std::size_t{8} * kMaxColumns;
 
@@ -118,7 +118,8 @@ Excerpt make_excerpt(LineText line, std::size_t focus) {
     if (fits || focus_is_well_inside) {
         return whole;
     }
-    return lay_out(line, step_back(line.text, std::min(focus, line.text.size()), kLead));
+    return lay_out(line,
+                   step_back(line.text, std::min(focus, line.text.size()), kCharactersBeforeFocus));
 }
 
 void append_visible(std::string_view text, std::string& out) {

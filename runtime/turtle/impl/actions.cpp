@@ -13,10 +13,10 @@ constexpr double kHalfDegree = std::numbers::pi / 360.0;
 
 constexpr bool is_consistent(TurtleOperation operation) {
     const TurtleInfo& row = info(operation);
-    return (row.quick != QuickAction::Forward || row.drawn == Drawn::Segment) &&
-           (row.quick != QuickAction::Nothing || row.drawn == Drawn::Nothing) &&
+    return (row.quick != QuickAction::Forward || row.drawn == DrawnKind::Segment) &&
+           (row.quick != QuickAction::Nothing || row.drawn == DrawnKind::Nothing) &&
            (!row.has(TurtleInfo::Inverse) || turns(operation)) &&
-           (!row.has(TurtleInfo::HasNoLength) || row.drawn == Drawn::Object);
+           (!row.has(TurtleInfo::HasNoLength) || row.drawn == DrawnKind::Object);
 }
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_consistent),
               "a row of turtle_operations.def contradicts itself");

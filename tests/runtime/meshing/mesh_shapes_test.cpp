@@ -224,7 +224,7 @@ TEST_CASE("tangents follow u and mark mirrored texture coordinates") {
 TEST_CASE("every operation that places an object has a shape") {
     for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
         const bool is_shape =
-            info(operation).drawn == Drawn::Object && operation != TurtleOperation::MeshFile;
+            info(operation).drawn == DrawnKind::Object && operation != TurtleOperation::MeshFile;
         CAPTURE(std::string(name_of(operation)));
         CHECK(make_shape(operation, 0).parts.empty() == !is_shape);
     }
