@@ -442,7 +442,7 @@ std::optional<std::string> definition_help(std::span<const std::string> argument
     return std::nullopt;
 }
 
-/// The mistake in `lsc --verbose check`: before the command the option is for --version alone.
+/// The error for `lsc --verbose check`: before a command, --verbose is valid only with --version.
 std::optional<UsageError> verbose_before_command(std::span<const std::string> arguments,
                                                  const CLI::App& app) {
     const std::string& option = arguments.front();

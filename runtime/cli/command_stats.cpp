@@ -337,23 +337,23 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     const std::uint32_t shown = std::min(wanted, kMaxRows);
     const bool known = is_growth_known(grammar.bytecode);
     GrowthPrediction growth;
-    ExitStatus counted = ExitStatus::Ok;
+    ExitStatus count_status = ExitStatus::Ok;
     std::string note;
     if (known) {
         growth = predict_growth(grammar.bytecode, shown);
         note = accuracy_note(growth);
     } else {
-        counted = count_words(command, shown, grammar, console, growth);
+        count_status = count_words(command, shown, grammar, console, growth);
         note = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
                            grammar.bytecode.settings.seed,
                            grammar.bytecode.has_cuts() ? "cuts branches off with `%`"
                                                        : "has `#decompose`");
         if (growth.low.empty()) {
-            return counted;
+            return count_status;
         }
     }
     std::optional<double> height;
-    if (shown == wanted && counted == ExitStatus::Ok) {
+    if (shown == wanted && count_status == ExitStatus::Ok) {
         height = find_height(command, growth.high.back().modules, grammar, console);
     }
     if (height) {
@@ -368,10 +368,10 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     if (shown < wanted) {
         console.info(fmt::format("only the first {} of {} generations are shown", shown, wanted));
     }
-    if (command.gravity && counted == ExitStatus::Ok) {
+    if (command.gravity && count_status == ExitStatus::Ok) {
         return report_weight(command, project, grammar, console);
     }
-    return counted;
+    return count_status;
 }
 
 } // namespace lsys::lsc

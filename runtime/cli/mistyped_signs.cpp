@@ -19,7 +19,8 @@ std::pair<bool, bool> sides_of(std::string_view text, std::size_t at) {
     return {at == 0 || is_blank_at(text, at - 1), is_blank_at(text, at + 1)};
 }
 
-/// Whether another equal sign of the text has the same sides as the one at `at`, or there is none.
+/// Whether the sign at `at` is the only one of its kind in the text, or another one has blanks on
+/// the same sides.
 bool is_laid_out_as_others(std::string_view text, std::size_t at) {
     const std::pair<bool, bool> sides = sides_of(text, at);
     bool has_others = false;

@@ -19,9 +19,10 @@ struct AddedText {
 /// The one character other than blanks that a repair adds; '\0' if it adds none or several.
 [[nodiscard]] char added_sign(std::string_view added);
 
-/// The texts in which the sign of `added` replaces a character next to it, or in which an equal sign
-/// changes places with the character before the added one. A replacing sign with blanks on its sides
-/// is not returned if all others of the text have none, and vice versa.
+/// Texts without the added sign, in which another character may have been mistyped. Either the sign
+/// replaces a character next to the added one, or the character before the added one changes places
+/// with a sign of the same kind before it. A replacement is omitted if the text has other signs of
+/// this kind and none of them has blanks on the same sides.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
 } // namespace lsys::lsc

@@ -14,8 +14,8 @@ namespace lsys {
 namespace {
 
 /// Values to which the plan refers.
-struct Prepared {
-    Prepared(const Bytecode& program, const InterpretInputs& given)
+struct PlanArguments {
+    PlanArguments(const Bytecode& program, const InterpretInputs& given)
         : bytecode(program), inputs(given) {}
 
     const Bytecode& bytecode;
@@ -38,17 +38,18 @@ LevelSteps steps_of(const Plan& plan, const InterpretInputs& inputs, const Stage
 template <typename C, typename R>
 class Interpreter final : public Interpretation {
 public:
-    Interpreter(std::unique_ptr<const Prepared> prepared,
+    Interpreter(std::unique_ptr<const PlanArguments> plan_arguments,
                 std::unique_ptr<const Plan> plan,
                 bool origins,
                 Sink sink)
-        : prepared_(std::move(prepared)), plan_(std::move(plan)), sink_(std::move(sink)),
-          origins_(origins), levels_(steps_of(*plan_,
-                                              prepared_->inputs,
-                                              stage_depth(prepared_->bytecode, Stage::Interpret)),
-                                     {origins, prepared_->inputs.max_bytes, 1,
-                                      max_stored(prepared_->bytecode), prepared_->inputs.cancelled},
-                                     [this](const LevelBlock<C>& block) { return emit(block); }) {}
+        : plan_arguments_(std::move(plan_arguments)), plan_(std::move(plan)),
+          sink_(std::move(sink)), origins_(origins),
+          levels_(steps_of(*plan_,
+                           plan_arguments_->inputs,
+                           stage_depth(plan_arguments_->bytecode, Stage::Interpret)),
+                  {origins, plan_arguments_->inputs.max_bytes, 1,
+                   max_stored(plan_arguments_->bytecode), plan_arguments_->inputs.cancelled},
+                  [this](const LevelBlock<C>& block) { return emit(block); }) {}
 
     std::optional<Stop> feed(std::span<const Code> codes,
                              std::span<const float> parameters,
@@ -106,7 +107,7 @@ private:
                      {block.origins, origins_ ? emitted_.size() : 0});
     }
 
-    std::unique_ptr<const Prepared> prepared_;
+    std::unique_ptr<const PlanArguments> plan_arguments_;
     std::unique_ptr<const Plan> plan_;
     Sink sink_;
     bool origins_;
@@ -124,20 +125,20 @@ std::unique_ptr<Interpretation> Interpretation::make(const Bytecode& bytecode,
     if (!bytecode.has(Stage::Interpret)) {
         return nullptr;
     }
-    auto prepared = std::make_unique<Prepared>(bytecode, inputs);
+    auto plan_arguments = std::make_unique<PlanArguments>(bytecode, inputs);
     // The derivation has already drawn the globals without an error.
-    static_cast<void>(draw_globals(bytecode, inputs.seed, prepared->globals));
-    prepared->globals.resize(bytecode.globals.size());
-    auto plan = std::make_unique<Plan>(
-        bytecode,
-        PlanInputs{prepared->globals.data(), inputs.seed, static_cast<float>(inputs.generations)},
-        true, Stage::Interpret);
+    static_cast<void>(draw_globals(bytecode, inputs.seed, plan_arguments->globals));
+    plan_arguments->globals.resize(bytecode.globals.size());
+    auto plan = std::make_unique<Plan>(bytecode,
+                                       PlanInputs{plan_arguments->globals.data(), inputs.seed,
+                                                  static_cast<float>(inputs.generations)},
+                                       true, Stage::Interpret);
     plan->prepare(inputs.generations);
     return visit_code_type(plan->code_width(), [&](auto code) {
         const std::uint32_t record_width = plan->record_width();
         return visit_record_type(record_width, [&](auto record) -> std::unique_ptr<Interpretation> {
             return std::make_unique<Interpreter<decltype(code), decltype(record)>>(
-                std::move(prepared), std::move(plan), origins, std::move(sink));
+                std::move(plan_arguments), std::move(plan), origins, std::move(sink));
         });
     });
 }

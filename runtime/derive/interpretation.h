@@ -28,7 +28,7 @@ public:
     using Sink =
         std::function<bool(std::span<const Code>, std::span<const float>, std::span<const Origin>)>;
 
-    /// Returns null if the program has no productions of `#interpret`. `bytecode` outlives the
+    /// Returns null if the program has no productions of `#interpret`. `bytecode` must outlive the
     /// result. `origins`: feed() and the sink get the origin of each module.
     [[nodiscard]] static std::unique_ptr<Interpretation>
     make(const Bytecode& bytecode, const InterpretInputs& inputs, bool origins, Sink sink);

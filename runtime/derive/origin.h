@@ -30,7 +30,7 @@ struct Origin {
 /// none; "origin unknown, in the saved state of generation 2".
 class OriginPrinter {
 public:
-    /// `bytecode` outlives the printer.
+    /// Precondition: `bytecode` outlives the printer.
     explicit OriginPrinter(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     void append(const Origin& origin, std::string& text);

@@ -97,7 +97,7 @@ LSYS_COUNTED_ENUM(Verdict,
                   Applies,
                   OtherCount,  // the predecessor has another number of parameters
                   OtherRule,   // rewriting cyclic: the rule of another generation
-                  Predecessor, // a module after the first one is not that of the predecessor
+                  Predecessor, // a module after the first differs from the predecessor
                   LeftContext,
                   RightContext,
                   Condition, // the condition is 0
@@ -166,7 +166,7 @@ struct ModuleTrace {
 
     std::size_t root = 0;          // index of the start module in StepTracer::begin()
     std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
-    std::uint64_t offset = 0;      // in ModuleTrace::written of the parent
+    std::uint64_t offset = 0;      // index in ModuleTrace::written of the parent
     std::uint64_t position = 0;    // in the word read
     TracedModule module;
 
@@ -219,7 +219,7 @@ modules_at(const Bytecode& bytecode, const Word& word, const std::vector<std::ui
 /// DeriveOptions::on_pass calls on_pass().
 class StepTracer {
 public:
-    /// `bytecode` outlives the tracer.
+    /// `bytecode` must outlive the tracer.
     StepTracer(const Bytecode& bytecode, TraceInputs inputs);
     ~StepTracer();
     StepTracer(StepTracer&&) noexcept;
@@ -244,7 +244,7 @@ public:
         std::uint64_t position = 0;
         std::size_t root = 0;
         std::size_t parent = kNoTrace; // the trace that wrote it
-        std::uint64_t offset = 0;      // in ModuleTrace::written of the parent
+        std::uint64_t offset = 0;      // index in ModuleTrace::written of the parent
     };
     /// The modules that the last pass has written for the modules of begin().
     [[nodiscard]] const std::vector<Place>& places() const;

@@ -53,8 +53,8 @@ struct ForestExportInfo {
 /// Writes the trees as instances, in a format with FormatTraits::write_forest. Memory beside the
 /// scene: 8 bytes per tree; 24 bytes per cell and distinct instance in it; 16 bytes per piece (512
 /// trees of a cell) and distinct instance in it; ForestExportInfo::window_bytes. Precondition: the
-/// species of all trees have meshes. Stops as export_mesh(); Limit for Expanded with more than
-/// kMaxForestNodes.
+/// species of all trees have meshes. Stops like export_mesh(), and with Limit if Expanded
+/// needs more than kMaxForestNodes nodes.
 Outcome<void> export_forest(const ForestScene& scene,
                             ExportFormat format,
                             ForestForm form,

@@ -47,9 +47,9 @@ struct InstanceFork {
 struct Instance {
     std::uint32_t slot = 0;
     std::uint32_t hero = 0;
-    std::uint32_t first_exit = 0; // in InstanceCache::exits
+    std::uint32_t first_exit = 0; // index in InstanceCache::exits
     std::uint32_t exit_count = 0;
-    std::uint32_t first_range = 0; // in InstanceCache::ranges
+    std::uint32_t first_range = 0; // index in InstanceCache::ranges
     std::uint32_t range_count = 0;
     DrawnCounts size;                     // of all its ranges
     glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at the entry, in the skeleton
@@ -61,7 +61,7 @@ struct Instance {
 struct InstanceSlot {
     std::uint32_t id = 0;            // of the branch; 0: the axiom, whole plants
     std::uint32_t age = 0;           // of the branch, in generations
-    std::uint32_t first_variant = 0; // in InstanceCache::variants
+    std::uint32_t first_variant = 0; // index in InstanceCache::variants
     std::uint32_t variant_count = 0;
     // In the instanced system `<` uses a recorded branch, `@` records a branch.
     std::uint64_t hits = 0;     // branches `<` that a recorded instance replaced
@@ -147,7 +147,7 @@ struct BranchInstance {
 /// Expands trees into instances. Use one for each thread.
 class TreeExpander {
 public:
-    /// `key`: the forest's key. `cache` outlives the expander.
+    /// `key`: the forest's key. `cache` must outlive the expander.
     TreeExpander(const InstanceCache& cache, std::uint64_t key) : cache_(cache), key_(key) {}
 
     /// Calls visit(BranchInstance) for each instance of the tree, depth first, exits in order.

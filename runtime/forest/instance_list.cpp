@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// Numbers of the instances of all caches: those of one cache are consecutive.
+/// Numbers the instances of all caches; the instances of one cache have consecutive numbers.
 class GroupNumbers {
 public:
     explicit GroupNumbers(const Forest& forest) : forest_(forest) {
@@ -59,7 +59,8 @@ make_list(const Forest& forest, const InstanceListOptions& options, InstanceList
         return options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed);
     };
     const GroupNumbers numbers(forest);
-    // For each piece: counts of instances, later the place of the next instance of each number.
+    // By piece and instance number (GroupNumbers): first the count of instances, later the index in
+    // list.instances for the next instance with this number.
     std::vector<std::vector<std::uint64_t>> places(piece_count(forest));
     for_each_piece(forest, options.threads, [&](std::uint64_t piece, std::span<const Tree> trees) {
         if (is_cancelled()) {

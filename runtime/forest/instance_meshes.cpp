@@ -248,7 +248,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
             }
         });
     };
-    // By instance and part: first the number of indices, later the place of the first in `listed`.
+    // By instance and part: first the count of indices, later the place of the first in `listed`.
     LargeVector<std::uint64_t> index_offsets;
     index_offsets.assign(cache.instances.size() * hero_part_count, 0);
     const auto offsets_of = [&](std::uint64_t instance) {

@@ -22,7 +22,7 @@ static_assert(sizeof(lsys_instance_group) == sizeof(api::InstanceGroup));
 static_assert(offsetof(lsys_instance_group, first_instance) ==
               offsetof(api::InstanceGroup, first_instance));
 
-api::Options named(const lsys_option* options, std::size_t count) {
+api::Options named_options(const lsys_option* options, std::size_t count) {
     api::Options all;
     for (std::size_t i = 0; i < count; ++i) {
         all.emplace_back(options[i].name, text_or(options[i].value, ""));
@@ -32,7 +32,7 @@ api::Options named(const lsys_option* options, std::size_t count) {
 
 api::ForestOptions
 forest_options(const lsys_grammar_options* grammar, const lsys_option* options, std::size_t count) {
-    return {options_of(grammar), named(options, count)};
+    return {options_of(grammar), named_options(options, count)};
 }
 
 /// A C++ callback that passes files to a function of C.
@@ -53,7 +53,7 @@ lsys_status lsys_save_plant(const lsys_plant* plant,
                             lsys_messages** messages) {
     return call_alone(
         [&] {
-            return api::save_plant(plant->value, path, named(options, option_count),
+            return api::save_plant(plant->value, path, named_options(options, option_count),
                                    project_of(project));
         },
         messages);
@@ -70,7 +70,7 @@ lsys_status lsys_write_plant(const lsys_plant* plant,
     return call_alone(
         [&] {
             return api::write_plant(plant->value, name, receiver_of(receive, user),
-                                    named(options, option_count), project_of(project));
+                                    named_options(options, option_count), project_of(project));
         },
         messages);
 }
@@ -128,7 +128,7 @@ lsys_status lsys_save_forest(const lsys_forest* forest,
                              lsys_messages** messages) {
     return call_alone(
         [&] {
-            return api::save_forest(forest->value, path, named(options, option_count),
+            return api::save_forest(forest->value, path, named_options(options, option_count),
                                     project_of(project));
         },
         messages);
@@ -145,7 +145,7 @@ lsys_status lsys_write_forest(const lsys_forest* forest,
     return call_alone(
         [&] {
             return api::write_forest(forest->value, name, receiver_of(receive, user),
-                                     named(options, option_count), project_of(project));
+                                     named_options(options, option_count), project_of(project));
         },
         messages);
 }

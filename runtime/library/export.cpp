@@ -59,7 +59,7 @@ ExitStatus write_grown(const PlantFileOptions& options,
                        const Plant::Data& plant,
                        const OutputContext& context) {
     PlantFileReport report;
-    PlantOptions again = plant.grown;
+    PlantOptions again = plant.options;
     again.height = options.height ? options.height : again.height;
     again.stream = again.stream || options.stream;
     if (options.grow) {
@@ -145,7 +145,7 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
             return {Stop::Failed, std::move(messages)};
         }
         ExportInfo info;
-        info.grammar = path_text(std::filesystem::path(plant.data().grown.file).filename());
+        info.grammar = path_text(std::filesystem::path(plant.data().options.file).filename());
         info.name = options.name;
         info.seed = drawn.seed;
         info.generations = drawn.generations;

@@ -92,7 +92,8 @@ Region region_of(std::span<const Tree> places) {
     return size_forest(scene, project, grown);
 }
 
-/// Reads the scene and derives its heroes. `whole_trees`: with rho 0.
+/// Reads the scene and derives its heroes. `whole_trees`: sets rho to 0, so that trees are whole
+/// heroes.
 ::lsys::Outcome<LoadedForest>
 load_forest(const ForestSource& source, bool whole_trees, const ::lsys::Project& project) {
     Step step(project);
@@ -118,12 +119,12 @@ load_forest(const ForestSource& source, bool whole_trees, const ::lsys::Project&
 std::vector<Species> species_of(const LoadedForest& forest) {
     std::vector<Species> all;
     for (const ForestSpecies& species : forest.grown.forest.species) {
-        Species& one = all.emplace_back();
-        one.name = species.name;
-        one.height = species.height;
-        one.heroes = species.stages.back().cache.heroes;
+        Species& result = all.emplace_back();
+        result.name = species.name;
+        result.height = species.height;
+        result.heroes = species.stages.back().cache.heroes;
         for (const ForestStage& stage : species.stages) {
-            one.generations.push_back(stage.generations);
+            result.generations.push_back(stage.generations);
         }
     }
     return all;

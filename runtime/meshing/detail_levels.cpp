@@ -234,9 +234,9 @@ private:
         measure_polygons();
     }
 
-    /// Sets mean_distances_: for each number of paths that stay, an estimate of the mean distance in m
-    /// of all wood from the wood that stays. The wood of a path that is left out counts with a quarter
-    /// of the length of the path.
+    /// Sets mean_distances_[n], for n kept paths: an estimate of the mean distance in m from all
+    /// wood to the kept wood. The distance of wood of an omitted path counts as a quarter of the
+    /// length of the path.
     void measure_paths() {
         std::vector<double> areas(order_.path_count());
         std::vector<double> lengths(order_.path_count());
@@ -844,7 +844,7 @@ private:
         level.paths = is_high ? high : low;
     }
 
-    /// Leaves out joints of the only path that is left.
+    /// Omits joints of the last kept path.
     void straighten(DetailLevel& level, double wanted) {
         auto now = static_cast<double>(wood_triangles(level));
         for (int i = 0; i < kMaxStraightenings && now > wanted && !stop_; ++i) {

@@ -49,7 +49,7 @@ struct Material {
 
 /// Triangles of one material: indices[first_index, first_index + index_count).
 struct MeshPart {
-    std::uint32_t material = 0; // in Mesh::materials
+    std::uint32_t material = 0; // index in Mesh::materials
     std::uint64_t first_index = 0;
     std::uint64_t index_count = 0;
 };

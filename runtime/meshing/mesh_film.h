@@ -20,7 +20,7 @@ struct MeshFilm {
     struct Shape {
         std::uint32_t first_frame = 0;
         std::vector<Frame> earlier; // all frames except the last one, which is in MeshFilm::mesh
-        std::uint64_t first_vertex = 0; // in MeshFilm::mesh
+        std::uint64_t first_vertex = 0; // index in MeshFilm::mesh
         std::uint32_t first_part = 0;
         std::uint32_t part_count = 0; // 0: nothing is drawn
 

@@ -13,7 +13,7 @@ namespace lsys {
 struct SkeletonItem {
     enum class Kind : std::uint8_t { Segment, Object, Polygon };
     Kind kind = Kind::Segment;
-    std::uint32_t index = 0; // in Skeleton::segments, objects or polygons
+    std::uint32_t index = 0; // index in Skeleton::segments, objects or polygons
 
     friend bool operator==(const SkeletonItem&, const SkeletonItem&) = default;
 };

@@ -266,11 +266,11 @@ ExitStatus make_ground(const ForestTarget& target,
     ground.pictures = grown.ground;
     // A baked mesh has tangents only if all its parts have tangents.
     ground.tangents = grown.ground.normals != nullptr || target.kind == ForestOutputKind::Mesh;
-    Result<Mesh> made = make_terrain_mesh(*grown.terrain, ground);
-    if (!made) {
-        return report_error(made.error(), context.console);
+    Result<Mesh> ground_mesh = make_terrain_mesh(*grown.terrain, ground);
+    if (!ground_mesh) {
+        return report_error(ground_mesh.error(), context.console);
     }
-    result = std::move(made.value());
+    result = std::move(ground_mesh.value());
     return ExitStatus::Ok;
 }
 

@@ -194,29 +194,29 @@ private:
 
     static void lift(std::span<const glm::dvec3> arms, SegmentPlace& place, Change& change) {
         constexpr int kPasses = 4;     // turning up one point may sink another
-        constexpr double kNear = 1e-6; // of the distance of the farthest point
+        constexpr double kNear = 1e-6; // relative to the farthest point's distance from the base
         const glm::dquat frame = frame_of(place);
         const auto base = static_cast<double>(place.base.y);
         double deepest = 0.0;
         for (int pass = 0; pass <= kPasses; ++pass) {
-            glm::dvec3 ahead(0.0); // sum of the arms of points in the ground
+            glm::dvec3 arm_sum(0.0); // sum of the arms of points in the ground
             deepest = 0.0;
             double reach = 0.0;
             for (const glm::dvec3& own : arms) {
                 const glm::dvec3 arm = change.turn * (frame * own);
                 reach = std::max(reach, glm::length(arm));
                 deepest = std::min(deepest, base + arm.y);
-                ahead += base + arm.y < 0.0 ? arm : glm::dvec3(0.0);
+                arm_sum += base + arm.y < 0.0 ? arm : glm::dvec3(0.0);
             }
             if (!(deepest < -kNear * reach)) {
                 return;
             }
-            const double level = glm::length(glm::dvec2(ahead.x, ahead.z));
+            const double level = glm::length(glm::dvec2(arm_sum.x, arm_sum.z));
             if (pass == kPasses) {
                 break;
             }
-            const glm::dvec3 way =
-                level > 0.0 ? glm::dvec3(ahead.x, 0.0, ahead.z) / level : glm::dvec3(1.0, 0.0, 0.0);
+            const glm::dvec3 way = level > 0.0 ? glm::dvec3(arm_sum.x, 0.0, arm_sum.z) / level
+                                               : glm::dvec3(1.0, 0.0, 0.0);
             double angle = 0.0;
             for (const glm::dvec3& own : arms) {
                 const glm::dvec3 arm = change.turn * (frame * own);
@@ -243,7 +243,7 @@ private:
     }
 
     std::vector<glm::dvec3> arms_;  // points relative to the base, in the axes of their segments
-    std::vector<std::size_t> ends_; // of each segment, the index after its last arm
+    std::vector<std::size_t> ends_; // by segment: index after its last arm
 };
 
 /// Records all frames; the plant must be in the pose of the first frame.

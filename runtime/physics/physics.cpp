@@ -76,8 +76,9 @@ constexpr double kRestStep = 1e6;    // s, step of settle(), for which inertia i
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
 // The criterion of rest for a stage of settle() with many bodies, whose main branches already lie on
-// the ground: a fifth of kFriction, for the last stage a half, over the last three rounds. A long
-// curve falls into a heap that continues to roll and slide a little, which friction would stop.
+// the ground: friction over the last three rounds, with a fifth of kFriction, or half of kFriction
+// in the last stage. A long curve falls into a heap that continues to roll and slide a little;
+// friction would stop this motion.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;
 constexpr double kLastStageFriction = 0.25;
@@ -86,8 +87,8 @@ constexpr std::size_t kStageRounds = 3;
 // a body by kFallingTurn, or if the plant is not at rest after these rounds.
 constexpr double kFallingTurn = 0.3; // rad
 constexpr std::uint32_t kFallingRounds = 12;
-// Max rounds of all stages except the last: as many as cost kStageWork rounds of the whole plant, at
-// most kMaxStageRounds.
+// Max rounds of a stage other than the last: as many as cost the same as kStageWork rounds of the
+// whole plant, but at most kMaxStageRounds.
 constexpr std::size_t kStageWork = 8;
 constexpr std::size_t kMaxStageRounds = 200;
 
@@ -387,19 +388,19 @@ struct PlantPhysics::State {
         RecentRounds recent(rounds.starts_from_stage && plant.poses.size() >= kManyBodies,
                             rounds.is_last);
         for (std::uint32_t round = 0; rounds.left > 0; ++round) {
-            const Step made = advance(current_forces, false);
+            const Step last_step = advance(current_forces, false);
             --rounds.left;
             // The first round of a stage is excluded: twigs fall that coarser stages left out.
             if (!(rounds.starts_from_stage && round == 0)) {
-                recent.add(made.share, made.energy_loss, made.slide);
+                recent.add(last_step.share, last_step.energy_loss, last_step.slide);
             }
-            if (made.turn <= tolerance || (made.share == 1.0 && recent.is_held())) {
+            if (last_step.turn <= tolerance || (last_step.share == 1.0 && recent.is_held())) {
                 return End::Rest;
             }
-            if (rounds.stop_falling && (made.turn > kFallingTurn || round >= kFallingRounds)) {
+            if (rounds.stop_falling && (last_step.turn > kFallingTurn || round >= kFallingRounds)) {
                 return End::Falling;
             }
-            bound_weight.update(made.share == 1.0);
+            bound_weight.update(last_step.share == 1.0);
             current_forces.exactness = 1.0 - bound_weight.value();
         }
         return End::OutOfRounds;

@@ -22,7 +22,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
-/// No level is fitted when it is planned: fit_detail_levels() later fits those that trees use.
+/// Planning fits no level: fit_detail_levels() later fits the levels that trees use.
 constexpr DetailChain kChain{.pictures = true, .first_fitted = kNoDetailLevel};
 
 /// A whole plant of a species and stage, with its levels of detail.
@@ -33,7 +33,7 @@ struct Hero {
     Skeleton skeleton;
     DetailLevels levels;
     Bounds bounds;            // of level 0
-    std::vector<bool> in_use; // by level: some tree has it
+    std::vector<bool> in_use; // by level: whether some tree uses it
     std::vector<Mesh> meshes; // of levels in use
     std::optional<Stop> stop;
 

@@ -55,9 +55,9 @@ Result<Dialect> dialect_of(const std::string& path,
                            std::string_view bytes,
                            Messages& messages) {
     if (!dialect.empty()) {
-        const std::optional<Dialect> asked = find_dialect(dialect);
-        return asked ? Result<Dialect>(*asked)
-                     : Error{fmt::format("there is no dialect `{}`", dialect)};
+        const std::optional<Dialect> requested = find_dialect(dialect);
+        return requested ? Result<Dialect>(*requested)
+                         : Error{fmt::format("there is no dialect `{}`", dialect)};
     }
     if (path.ends_with(kModuleExtension)) {
         return unknown_dialect(path);

@@ -126,7 +126,7 @@ public:
         return step.done();
     }
 
-    /// Whether heroes that are derived with different seeds, without instancing, differ.
+    /// Whether heroes derived without instancing and with different seeds differ.
     Outcome<bool> has_different_heroes() {
         Step step(project_);
         constexpr std::uint32_t kSeeds = 4;

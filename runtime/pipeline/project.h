@@ -27,7 +27,7 @@ struct DerivationProgress {
 /// Limits of reading a file.
 struct ReadLimit {
     std::uint64_t max_bytes = 0;              // max size of a file of this kind
-    std::uint64_t memory = ~std::uint64_t{0}; // bytes of memory left; more is an ErrorKind::Limit
+    std::uint64_t memory = ~std::uint64_t{0}; // free bytes; a larger file is an ErrorKind::Limit
 };
 
 /// Services of the program that calls the pipeline. The functions may be called from any thread,

@@ -121,9 +121,9 @@ private:
         }
     }
 
-    // --- stored words, which save deriving from the axiom for each generation on the way back
+    // --- stored words, so that each generation on the way back is not derived from the axiom again
 
-    struct Kept {
+    struct StoredWord {
         std::uint32_t age = 0;
         Word word;
     };
@@ -138,32 +138,32 @@ private:
         if (!copy) {
             return;
         }
-        kept_.push_back({derivation.age(), std::move(*copy)});
+        stored_words_.push_back({derivation.age(), std::move(*copy)});
         const auto too_much = [this] {
             std::uint64_t bytes = 0;
-            for (const Kept& each : kept_) {
+            for (const StoredWord& each : stored_words_) {
                 bytes += each.word.held_bytes();
             }
             return bytes > derive_.limits.max_bytes / 4;
         };
-        while (kept_.size() > 1 && too_much()) {
+        while (stored_words_.size() > 1 && too_much()) {
             stride_ *= 2;
-            kept_.erase(
-                std::remove_if(kept_.begin(), kept_.end(),
-                               [this](const Kept& each) { return each.age % stride_ != 0; }),
-                kept_.end());
+            stored_words_.erase(
+                std::remove_if(stored_words_.begin(), stored_words_.end(),
+                               [this](const StoredWord& each) { return each.age % stride_ != 0; }),
+                stored_words_.end());
         }
     }
 
     /// Advances a derivation to the word of age `age`, from the nearest stored word of at most this age.
     [[nodiscard]] std::optional<Stop> go_to(Derivation& derivation, std::uint32_t age) {
-        const auto after = std::find_if(kept_.begin(), kept_.end(),
-                                        [age](const Kept& each) { return each.age > age; });
+        const auto after = std::find_if(stored_words_.begin(), stored_words_.end(),
+                                        [age](const StoredWord& each) { return each.age > age; });
         std::optional<Stop> stop;
-        if (after == kept_.begin()) {
+        if (after == stored_words_.begin()) {
             stop = derivation.start();
         } else {
-            const Kept& from = *std::prev(after);
+            const StoredWord& from = *std::prev(after);
             std::optional<Word> copy = copy_of_word(from.word);
             if (!copy) {
                 return Stop::OutOfMemory;
@@ -494,8 +494,8 @@ private:
     DeriveOptions derive_;
     TraceInputs inputs_;
     Trace trace_;
-    std::vector<TracedModule> next_; // modules at StepTracer::places()
-    std::vector<Kept> kept_;         // stored words, by ascending age
+    std::vector<TracedModule> next_;       // modules at StepTracer::places()
+    std::vector<StoredWord> stored_words_; // stored words, by ascending age
     std::uint32_t stride_ = 1;
 };
 

@@ -46,14 +46,14 @@ bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
 }
 
 /// Growth of the radius of a plant that is not dominated, m per year.
-float open_growth(const SpeciesGrowth& growth, float radius, float vigour) {
+float undominated_growth(const SpeciesGrowth& growth, float radius, float vigour) {
     return growth.rate * vigour * (1.0F - radius / growth.max_radius);
 }
 
 std::vector<float> undominated_radii(const SpeciesGrowth& growth) {
     std::vector<float> radii(oldest_age(growth) + 1);
     for (std::size_t age = 1; age < radii.size(); ++age) {
-        radii[age] = radii[age - 1] + open_growth(growth, radii[age - 1], 1.0F);
+        radii[age] = radii[age - 1] + undominated_growth(growth, radii[age - 1], 1.0F);
     }
     return radii;
 }
@@ -77,7 +77,7 @@ public:
         ForestPlant plant;
         plant.place = place;
         plant.vigour = 1.0F - growth.vigour_spread * unit_interval(words[3]);
-        plant.radius = open_growth(growth, 0.0F, plant.vigour);
+        plant.radius = undominated_growth(growth, 0.0F, plant.vigour);
         plant.number = number;
         plant.species = species;
         plant.age = 1;
@@ -87,7 +87,7 @@ public:
     void grow(ForestPlant& plant) const {
         const SpeciesGrowth& growth = growth_of(plant);
         ++plant.age;
-        const float growth_in_year = open_growth(growth, plant.radius, plant.vigour);
+        const float growth_in_year = undominated_growth(growth, plant.radius, plant.vigour);
         plant.radius += plant.dominated ? growth_in_year * growth.tolerance : growth_in_year;
     }
 
@@ -284,11 +284,11 @@ LargeVector<Tree> Domination::trees() const {
         const std::uint64_t end = std::min<std::uint64_t>(plants_.size(), (piece + 1) * kPiece);
         for (std::uint64_t i = piece * kPiece; i < end; ++i) {
             const ForestPlant& plant = plants_[i];
-            const std::vector<float>& open = undominated_radii_[plant.species];
+            const std::vector<float>& radii = undominated_radii_[plant.species];
             Tree tree = maker.appearance_of(plant.number, plant.species);
             tree.position = {plant.place.x, terrain_->height(plant.place.x, plant.place.y),
                              plant.place.y};
-            tree.scale *= plant.radius / open[std::min<std::size_t>(plant.age, open.size() - 1)];
+            tree.scale *= plant.radius / radii[std::min<std::size_t>(plant.age, radii.size() - 1)];
             tree.age = age_of(plant, maker);
             trees[i] = tree;
         }

@@ -23,7 +23,7 @@ struct ForestPlant {
     float vigour = 1.0F;       // 0 to 1, factor of growth and strength
     float stress = 0.0F;       // 0 to 1; the plant dies at 1
     std::uint32_t number = 0;  // of the tree, in the order of sprouting
-    std::uint16_t species = 0; // in PlacementOptions::species
+    std::uint16_t species = 0; // index in PlacementOptions::species
     std::uint16_t age = 0;     // years; 1 in the year of sprouting
     bool dominated = false;    // its circle overlaps the circle of a stronger plant
 };

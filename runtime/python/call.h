@@ -66,14 +66,15 @@ struct CallOptions {
 /// Reports the warnings as warnings of Python.
 void warn(const lsys::Messages& messages);
 
-/// Blocks the thread if the interpreter has ended or is ending: it takes no lock any more, and the
-/// process ends soon.
+/// Blocks the thread if the interpreter has ended or is ending: no thread gets its lock any more,
+/// and the process ends soon.
 void wait_for_end_if_ending();
 /// Blocks the thread for good.
 [[noreturn]] void wait_for_end();
 
-/// Calls `work` with the interpreter's lock. CPython ends a thread that asks for the lock while the
-/// interpreter ends by unwinding its stack, which C++ code does not survive: the thread waits instead.
+/// Calls `work` with the interpreter's lock. If a thread requests the lock while the interpreter
+/// ends, CPython unwinds the stack of the thread, which C++ code does not survive; with_lock()
+/// blocks the thread instead.
 template <typename Work>
 auto with_lock(const Work& work) {
     wait_for_end_if_ending();

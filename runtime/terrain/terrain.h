@@ -64,7 +64,7 @@ public:
     [[nodiscard]] float height(float x, float z) const;
     /// Unit normal, by finite differences over slope_step(), which stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
-    /// Rise over run by the same differences: 0 is level, 1 is 45 degrees.
+    /// Rise over run, by the finite differences of normal(): 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;
     /// Distance in m over which slopes are measured, in proportion to the finest feature.
     [[nodiscard]] double slope_step() const { return slope_step_; }

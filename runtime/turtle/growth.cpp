@@ -98,15 +98,15 @@ struct SkeletonGrowth::State {
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;
     // Used only by the constructor.
-    LargeVector<Ends<Joint>> joints;    // by index in `segments`
-    LargeVector<std::uint32_t> written; // by segment of `before`: index in `segments`, or none
+    LargeVector<Ends<Joint>> joints;         // by index in `segments`
+    LargeVector<std::uint32_t> new_segments; // by segment of `before`: index in `segments`, or none
 
     [[nodiscard]] Joint joint(std::uint32_t segment, std::size_t end) const {
         return segment == kNoSegment ? Joint{} : joints[segment][end];
     }
-    /// The index in `segments` that continues a segment of `before`.
-    [[nodiscard]] std::uint32_t written_of(std::uint32_t segment) const {
-        return segment == kNoSegment ? kNoSegment : written[segment];
+    /// Index in `segments` of the segment that continues segment `old` of `before`.
+    [[nodiscard]] std::uint32_t new_segment_of(std::uint32_t old) const {
+        return old == kNoSegment ? kNoSegment : new_segments[old];
     }
 
     void set_end(Motion& motion,
@@ -170,7 +170,7 @@ struct SkeletonGrowth::State {
             } else if (segment.linked) {
                 moving.motion.offset = {};
             }
-            written[piece.segment] = index; // the last piece replaces earlier ones
+            new_segments[piece.segment] = index; // the last piece replaces earlier ones
             ++counts.kept;
         }
         use_shorter_turn(moving.motion.turn);
@@ -181,11 +181,11 @@ struct SkeletonGrowth::State {
     void add_shrinking_segment(std::uint32_t index) {
         const Segment& segment = before.segments[index];
         MovingSegment moving;
-        moving.motion.parent = written_of(segment.parent);
+        moving.motion.parent = new_segment_of(segment.parent);
         set_end(moving.motion, 0, segment.base, segment.frame);
         set_widths(moving, 0, segment);
         set_vanished(moving.motion, 1);
-        written[index] = static_cast<std::uint32_t>(segments.size());
+        new_segments[index] = static_cast<std::uint32_t>(segments.size());
         add_joints(moving);
         segments.push_back(moving);
         shrinking_segments.push_back(index);
@@ -193,12 +193,12 @@ struct SkeletonGrowth::State {
     }
 
     void move_segments(const std::vector<SegmentPiece>& pieces) {
-        written.assign(before.segments.size(), kNoSegment);
+        new_segments.assign(before.segments.size(), kNoSegment);
         for (std::uint32_t i = 0; i < after.segments.size(); ++i) {
             add_segment(i, pieces[i]);
         }
         for (std::uint32_t i = 0; i < before.segments.size(); ++i) {
-            if (written[i] == kNoSegment) {
+            if (new_segments[i] == kNoSegment) {
                 add_shrinking_segment(i);
             }
         }
@@ -231,7 +231,7 @@ struct SkeletonGrowth::State {
             }
             const PlacedObject& object = before.objects[i];
             MovingObject moving;
-            moving.motion.parent = written_of(object.parent);
+            moving.motion.parent = new_segment_of(object.parent);
             set_end(moving.motion, 0, object.position, object.frame);
             moving.size[0] = object.size;
             set_vanished(moving.motion, 1);
@@ -300,7 +300,7 @@ struct SkeletonGrowth::State {
             const Polygon& polygon = before.polygons[i];
             MovingPolygon moving;
             moving.first_corner = static_cast<std::uint32_t>(corners.size());
-            moving.motion.parent = written_of(polygon.parent);
+            moving.motion.parent = new_segment_of(polygon.parent);
             set_end(moving.motion, 0, {}, polygon.frame);
             set_vanished(moving.motion, 1);
             add_corners(&before.corners[polygon.first_corner], polygon.corner_count,
@@ -404,7 +404,7 @@ SkeletonGrowth::SkeletonGrowth(Skeleton before,
     state.move_objects(found.objects);
     state.move_polygons(found.polygons);
     state.joints = {};
-    state.written = {};
+    state.new_segments = {};
 }
 
 SkeletonGrowth::~SkeletonGrowth() = default;

@@ -56,7 +56,7 @@ static_assert(sizeof(Segment) == 60);
 /// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
     TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
-    std::uint32_t mesh_file = 0;                     // in Skeleton::mesh_files, of MeshFile
+    std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files, for MeshFile
     glm::vec3 position{};
     float size = 1.0F; // factor
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
@@ -74,7 +74,7 @@ struct Polygon {
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // of the turtle at `{`
     std::uint32_t parent = kNoSegment;
     ItemColour colour = 0;
-    std::uint32_t picture = kNoPicture; // in Skeleton::mesh_files
+    std::uint32_t picture = kNoPicture; // index in Skeleton::mesh_files
     std::uint16_t order = 0;
 };
 

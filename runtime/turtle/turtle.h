@@ -125,7 +125,7 @@ struct TurtleOptions {
 /// on success; end() has the facts.
 class Turtle {
 public:
-    /// `bytecode` outlives the turtle.
+    /// `bytecode` must outlive the turtle.
     Turtle(const Bytecode& bytecode, TurtleOptions options);
     ~Turtle();
     Turtle(const Turtle&) = delete;

@@ -149,15 +149,15 @@ Bounds bounds_of(const ForestDocument& document) {
 /// Mean height of trees, m, weighted by their area in a picture. A few trees above grass therefore
 /// raise it, and a few seedlings below trees do not lower it.
 float typical_height(const ForestDocument& document) {
-    double squares = 0.0;
-    double cubes = 0.0;
+    double square_sum = 0.0;
+    double cube_sum = 0.0;
     for (const Tree& tree : document.grown.forest.trees) {
         const TreeForm& form = document.model.forms[document.model.form_of(tree)];
         const auto height = static_cast<double>(tree.scale * std::max(form.high, 0.0F));
-        squares += height * height;
-        cubes += height * height * height;
+        square_sum += height * height;
+        cube_sum += height * height * height;
     }
-    return squares > 0.0 ? static_cast<float>(cubes / squares) : 0.0F;
+    return square_sum > 0.0 ? static_cast<float>(cube_sum / square_sum) : 0.0F;
 }
 
 /// Foot of a tree at the edge of the forest: far from `middle` in the direction `outward`, and near

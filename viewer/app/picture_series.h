@@ -18,7 +18,7 @@ struct PictureSeries {
     // Times of each picture, ms.
     std::vector<double> prepare; // work of the caller before drawing
     std::vector<double> draw;
-    std::vector<double> read; // back from the device
+    std::vector<double> read; // read-back from the GPU
     std::vector<double> write;
     FrameStats drawn;         // of the last picture
     std::uint64_t digest = 0; // equal for runs with the same pictures

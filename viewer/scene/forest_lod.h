@@ -35,7 +35,8 @@ struct LodOptions {
     /// Max triangles of branches; with more, the heights of all trees in pixels are multiplied by
     /// DrawLists::detail, below 1.
     std::uint64_t max_triangles = 1'500'000;
-    /// Max trees expanded into branches per picture; others stay impostors until the next.
+    /// Max trees expanded into branches per picture; the others stay impostors until the next
+    /// picture.
     std::uint32_t max_expansions = ~0U;
     /// Wind, which moves trees beyond their bounds at rest.
     Wind wind;
@@ -44,7 +45,7 @@ struct LodOptions {
 /// Max displacement of trees by wind; bounds swayed() of shaders/forest.glsl.
 struct Sway {
     float height_factor = 0.0F; // m per metre of the tree's height
-    float width_factor = 0.0F;  // m per metre of its width
+    float width_factor = 0.0F;  // m per metre of the tree's width
     float flutter = 0.0F;       // m
 
     /// Max displacement, m, of a tree with height and width in m.

@@ -137,7 +137,8 @@ std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshe
     return all;
 }
 
-/// Bounding spheres in the heroes' frame of boxes in the frames of the entries.
+/// Bounding spheres of the boxes `bounds`, by instance. A box is in the frame of its instance's
+/// entry, a sphere in the frame of the heroes.
 std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
                                       const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres;

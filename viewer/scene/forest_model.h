@@ -70,7 +70,7 @@ struct KnownModel {
     const ForestModel* model = nullptr;
     std::uint64_t key = 0; // key of its forest
     MeshOptions options;
-    /// Species of that model with the same heroes, by species of the new forest.
+    /// By species of the new forest: the species of `model` with the same heroes, if any.
     std::vector<std::optional<std::size_t>> species;
 };
 

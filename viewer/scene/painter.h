@@ -115,9 +115,9 @@ private:
     float cell_ = 1.0F; // m
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
-    LargeVector<std::uint32_t> first_; // by square, in items_
+    LargeVector<std::uint32_t> first_; // by square: index in items_
     LargeVector<std::uint32_t> items_;
-    LargeVector<std::uint32_t> head_; // by square, in painted_
+    LargeVector<std::uint32_t> head_; // by square: index in painted_
     LargeVector<std::uint32_t> next_; // by painted tree
 
     std::vector<TreeChange> log_;

@@ -74,12 +74,14 @@ void main() {
     }
 #ifdef LIT_AT_CORNERS
     float lit = sunlight_at(shadow_map_position(world, frame.to_sun.xyz), crown_sunlight(in_crown));
-    float open = ambient_visibility(in_crown);
+    float visibility = ambient_visibility(in_crown);
     vec2 fog = fog_to(world);
     vec3 fogged_albedo = fog.y * material.colour;
     float translucency = float(material.kind >> 8u) / 256.0;
-    front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, translucency, open);
-    back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, translucency, open);
+    front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, translucency,
+                        visibility);
+    back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, translucency,
+                       visibility);
     vec3 fog_only = apply_fog(vec3(0.0), fog);
 #ifdef CUT_OUT
     fog_light = fog_only;

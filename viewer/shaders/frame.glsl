@@ -9,7 +9,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 sun;       // rgb: light of the sun, linear; w: extinction of the air, 1/m
     vec4 sky;       // rgb: ambient light from above; w: exposure
     vec4 horizon;   // rgb: sky at the horizon; w: side of a texel of the shadow map, m
-    vec4 ground;    // rgb: ambient light from below; w: the same side as a fraction of the map
+    vec4 ground;    // rgb: ambient light from below; w: horizon.w as a fraction of the map's side
     vec4 wind;      // xyz: velocity, m/s; w: fraction that varies in gusts
     vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels
 } frame;

@@ -75,13 +75,13 @@ vec3 leaf_normal(vec3 normal, vec3 crown_position) {
     return normalize(normal + 2.0 * normalize(crown_position + vec3(0.0, 1e-3, 0.0)));
 }
 
-// Radiance of a surface in a crown. `open`: ambient_visibility().
-vec3 shade_crown(vec3 albedo, vec3 normal, float lit, float translucency, float open) {
+// Radiance of a surface in a crown. `visibility`: ambient_visibility().
+vec3 shade_crown(vec3 albedo, vec3 normal, float lit, float translucency, float visibility) {
     float front = dot(normal, frame.to_sun.xyz);
     float direct = max(front, 0.0) + translucency * max(-front, 0.0);
     // Deep in the crown less sunlight arrives than the coarse shadow map shows.
-    return albedo * (open * ambient(normal) +
-                     frame.sun.rgb * (direct * lit * (0.4 + 0.6 * open)));
+    return albedo * (visibility * ambient(normal) +
+                     frame.sun.rgb * (direct * lit * (0.4 + 0.6 * visibility)));
 }
 
 // Fraction of the sunlight that reaches a place in a crown through the rest of the crown.

@@ -12,7 +12,7 @@ layout(binding = 2) uniform sampler2D noise; // tileable
 in vec3 world_position;
 in vec3 world_normal;
 in vec3 shadow_position;
-in vec3 fog; // fog_to(); distance, m
+in vec3 fog; // xy: fog_to(); z: distance, m
 out vec4 colour;
 #ifdef PICTURE
 void main() {

@@ -11,7 +11,7 @@ layout(location = 1) in ivec3 patch_at; // x, z in cells of its level; the level
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 shadow_position;
-out vec3 fog; // fog_to(); distance, m
+out vec3 fog; // xy: fog_to(); z: distance, m
 
 float height_at(ivec2 at, int level) {
     return texelFetch(heights, ivec3(at - origins[level], level), 0).r;

@@ -218,7 +218,7 @@ private:
         return result;
     }
 
-    /// Draw `number` of each module.
+    /// The draw with number `number` of each module.
     const Lanes& units(std::uint64_t number) {
         const std::uint64_t block = number / kDrawsPerBlock;
         if (block != block_) {

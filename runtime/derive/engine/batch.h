@@ -66,7 +66,8 @@ public:
         : bytecode_(bytecode), programs_(programs), inputs_(inputs), queues_(programs.size()) {}
 
     /// Adds a module to the batch of program `index`. Its parameters are written to `out` at the
-    /// latest by finish(); until then its formals stay, unless the program gathers them.
+    /// latest by finish(); until then `formals` must stay valid, unless the program gathers formals
+    /// (BatchProgram).
     [[gnu::always_inline]] void
     add(std::uint32_t index, const float* formals, std::uint64_t position, float* out) {
         Queue& queue = queues_[index];
@@ -78,7 +79,7 @@ public:
         queue.modules->positions[lane] = position;
         queue.modules->out[lane] = out;
     }
-    /// add() for a program that gathers.
+    /// add() for a program that gathers formals: copies them.
     void add_copy(std::uint32_t index, const float* formals, std::uint64_t position, float* out);
     /// Runs all unfinished batches. Returns false if a random range or distribution of any added
     /// module is invalid. Parameters may still be infinite or not a number.
@@ -86,9 +87,9 @@ public:
 
 private:
     struct Queue {
-        std::size_t count = kLanes;            // full until there is room for modules
+        std::size_t count = kLanes;            // kLanes, as if full, until `modules` exists
         std::unique_ptr<BatchModules> modules; // null until one is added
-        std::vector<float> copies;             // formals of programs that gather
+        std::vector<float> copies;             // formals, if the program gathers them
     };
 
     void make_room(std::uint32_t index);

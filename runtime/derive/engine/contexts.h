@@ -73,7 +73,7 @@ public:
     [[nodiscard]] std::uint64_t left_of(std::uint64_t index) const {
         return plain_ ? index - 1 : left_.get(index); // 0 - 1 is kNowhere
     }
-    /// The first module on the axis at or after gap `gap`, or kNowhere.
+    /// The first module on the axis at or after `gap`, or kNowhere.
     [[nodiscard]] std::uint64_t next_from(std::uint64_t gap) const {
         if (plain_) {
             return gap < count_ ? gap : kNowhere;

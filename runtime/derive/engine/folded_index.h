@@ -11,7 +11,7 @@ namespace lsys {
 
 class FoldedIndex {
 public:
-    /// `bytecode` outlives the index. Modules folded later are added by add().
+    /// `bytecode` must outlive the index. Modules folded later are added by add().
     explicit FoldedIndex(const Bytecode& bytecode);
 
     /// The code of the module with these arguments, one per parameter of the symbol, compared bit

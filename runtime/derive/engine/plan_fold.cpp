@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Folding: a module with known arguments gets a template of its own in the pool, which holds folded
-// modules. It replaces the template and parameters of the production.
+// Folding: a module with known arguments gets its own template in the pool. This template contains
+// folded modules, and replaces the template and parameters of the production.
 #include "runtime/derive/engine/plan.h"
 
 #include <algorithm>

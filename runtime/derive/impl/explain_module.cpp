@@ -296,9 +296,9 @@ private:
     const Bytecode& bytecode_;
     std::uint64_t position_;
     ModuleTrace trace_;
-    std::vector<std::size_t> matching_; // in ModuleTrace::attempts
-    std::vector<float> weights_;        // of matching_, if they have any
-    std::size_t taken_ = 0;             // in matching_
+    std::vector<std::size_t> matching_; // indexes in ModuleTrace::attempts
+    std::vector<float> weights_;        // by index in matching_; empty without weights
+    std::size_t taken_ = 0;             // index in matching_
     std::vector<float> formals_;
 };
 

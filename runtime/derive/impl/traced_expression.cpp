@@ -114,7 +114,7 @@ Binding tighter(Binding binding) {
     return static_cast<Binding>(static_cast<std::uint8_t>(binding) + 1);
 }
 
-/// The Domain of interpret() whose values are numbers with their texts.
+/// Domain of interpret(); a value is a number with the text of its expression.
 struct PrintedNumbers : UnknownDomain<PrintedValue> {
     static constexpr bool kRunsOneSide = true;
 
@@ -318,7 +318,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
         }
     }
 
-    /// Runs the code at `first`, if there is any.
+    /// Runs the code at `first`; does nothing for kNone.
     bool run(std::uint32_t first) {
         std::vector<PrintedValue> stack(
             std::max<std::size_t>(frame.bytecode.stack_depth, kUsualStack));

@@ -15,7 +15,7 @@ namespace lsys {
 
 class TracedWord {
 public:
-    /// Bytecode and word outlive the object.
+    /// Precondition: bytecode and word outlive the object.
     TracedWord(const Bytecode& bytecode, const Word& word);
 
     [[nodiscard]] std::uint64_t count() const { return word_.module_count(); }
@@ -29,7 +29,7 @@ public:
                                     std::uint64_t position) const;
     /// Searches the right context from gap `gap`, the place before module `gap`.
     [[nodiscard]] ContextTrace right(const BytecodeProduction& production, std::uint64_t gap) const;
-    /// The position of the `%` that cuts off the module at `position`; itself if it is a `%`.
+    /// The position of the `%` that cuts off the module at `position`; `position` if that is a `%`.
     [[nodiscard]] std::optional<std::uint64_t> cut_of(std::uint64_t position) const;
 
 private:

@@ -418,7 +418,7 @@ private:
         bone.keys = keys_of(bone.rotations, 0.5 * angle);
     }
 
-    /// Mean rotation of the segments of a piece since the first frame, by length.
+    /// Mean rotation of the segments of a piece since the first frame, weighted by length.
     [[nodiscard]] glm::dquat mean_turn(std::uint32_t joint, std::uint32_t frame) const {
         glm::dquat sum(0.0, 0.0, 0.0, 0.0);
         for (const FitPoint& point : points_[joint]) {

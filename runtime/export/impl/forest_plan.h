@@ -15,7 +15,7 @@ namespace lsys {
 /// A stage of a species: plants with one number of generations, see ForestSpecies::stages.
 struct ExportedStage {
     std::uint32_t species = 0;
-    std::uint32_t stage_index = 0; // in ForestSpecies::stages
+    std::uint32_t stage_index = 0; // index in ForestSpecies::stages
     std::uint32_t first = 0;       // number of its first instance among all stages
     const InstanceCache* cache = nullptr;
     const InstanceMeshes* meshes = nullptr;

@@ -20,8 +20,8 @@ namespace lsys {
 
 /// Vertices and triangles of a part of a mesh.
 struct GltfPart {
-    std::uint32_t part = 0;         // in Mesh::parts
-    std::uint64_t first_vertex = 0; // in GltfPrimitives::vertices
+    std::uint32_t part = 0;         // index in Mesh::parts
+    std::uint64_t first_vertex = 0; // index in GltfPrimitives::vertices
     std::uint64_t vertex_count = 0;
     /// Indices that count from the first vertex of the part; empty: the indices of the mesh.
     LargeVector<std::uint32_t> indices = {};

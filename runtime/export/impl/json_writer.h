@@ -24,7 +24,7 @@ namespace lsys {
 
 class JsonWriter {
 public:
-    /// `out` outlives this.
+    /// `out` must outlive the writer.
     explicit JsonWriter(PieceWriter& out) : out_(out) {}
 
     /// Begins an object or an array; end() closes the innermost one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Call: runs one public function: converts the caller's project to a project of the pipeline, and the
-// outcome of the pipeline to a public outcome.
+// Call runs one public function: it converts the caller's project to a project of the pipeline, and
+// the outcome of the pipeline to a public outcome.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -23,8 +23,8 @@ struct Grammar::Data {
     std::vector<Constant> constants;
 };
 
-/// A copy for a call, which may fold its bytecode and add files to its sources; without names and
-/// program, which only compilation needs.
+/// A copy that a call may change, by folding the bytecode and adding files to the sources. Omits
+/// names and program, which only compilation needs.
 [[nodiscard]] ::lsys::Grammar copy_of(const ::lsys::Grammar& grammar);
 
 struct Word::Data {
@@ -35,8 +35,8 @@ struct Word::Data {
 
 struct Plant::Data {
     ::lsys::Plant plant;
-    Grammar grammar;            // which bending and growth read
-    ::lsys::PlantOptions grown; // the plant is grown by them
+    Grammar grammar;              // for bending and growth
+    ::lsys::PlantOptions options; // options with which the plant was grown
 };
 
 struct Mesh::Data {

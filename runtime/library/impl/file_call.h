@@ -17,8 +17,8 @@ namespace lsys::v0 {
 
 class Call;
 
-/// Runs `write` with a context of the call. `receive` null: files on disk. Returns the paths of the
-/// files.
+/// Runs `write` with a context of the call. If `receive` is null, writes files to disk. Returns the
+/// paths of the files.
 [[nodiscard]] ::lsys::Outcome<std::vector<std::string>>
 write_files(Call& call,
             const FileReceiver* receive,

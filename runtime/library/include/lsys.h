@@ -259,7 +259,7 @@ LSYS_C_API lsys_status lsys_save_plant(const lsys_plant* plant,
                                        size_t option_count,
                                        const lsys_project* project,
                                        lsys_messages** messages);
-/* As lsys_save_plant(), into `receive`. */
+/* Like lsys_save_plant(), but passes the files to `receive`. */
 LSYS_C_API lsys_status lsys_write_plant(const lsys_plant* plant,
                                         const char* name,
                                         const lsys_option* options,
@@ -304,7 +304,7 @@ LSYS_C_API lsys_status lsys_forest_of_places(const char* const* grammars,
                                              lsys_messages** messages);
 LSYS_C_API const lsys_tree* lsys_forest_trees(const lsys_forest* forest);
 LSYS_C_API size_t lsys_forest_tree_count(const lsys_forest* forest);
-/* As lsys_save_plant() and lsys_write_plant(), with options of `lsc forest`. */
+/* Like lsys_save_plant() and lsys_write_plant(), with options of `lsc forest`. */
 LSYS_C_API lsys_status lsys_save_forest(const lsys_forest* forest,
                                         const char* path,
                                         const lsys_option* options,
@@ -327,7 +327,7 @@ typedef struct lsys_instance {
     float position[3];
     float scale;
     float rotation[4];
-    uint32_t tree;  /* in lsys_forest_trees() */
+    uint32_t tree;  /* index in lsys_forest_trees() */
     uint32_t group; /* in the groups of the instances */
 } lsys_instance;
 /* A draw: instances of some parts of a mesh. */

@@ -80,7 +80,7 @@ private:
     struct Tile {
         glm::vec2 low;
         glm::vec2 high;
-        std::size_t first = 0; // in tile_order_
+        std::size_t first = 0; // index in tile_order_
         std::size_t count = 0;
     };
     std::uint32_t add_vertex(const glm::vec3& position, float u, float v, float radius);

@@ -172,7 +172,7 @@ private:
 };
 
 struct Piece {
-    std::uint64_t first = 0; // in Groups::items
+    std::uint64_t first = 0; // index in Groups::items
     std::uint64_t end = 0;
     std::size_t part = 0;
     std::uint64_t vertices = 0;

@@ -9,7 +9,7 @@ namespace lsys {
 namespace {
 
 constexpr float kWander = 0.4F;           // max wandering of the phase, in grooves
-constexpr float kWanderCircumference = 6; // the phase changes this many times slower than noise
+constexpr float kWanderCircumference = 6; // factor by which the phase varies more slowly than noise
 
 /// Signed distance from the middle of the groove: -1 and 1 on the ridges beside it.
 float from_middle(float x) {

@@ -134,7 +134,8 @@ struct Neighbours {
 /// Whether all parts can be drawn and no ring crosses the next one, both if the neighbouring edges
 /// become curves and if they stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
-    // Normals of the planes of a ring: of the curve, and halfway between two headings.
+    // Normals of two planes of a ring: across the curve, and halfway between the headings of the
+    // adjacent edges.
     struct Planes {
         glm::dvec3 curve{};
         glm::dvec3 halfway{};

@@ -198,7 +198,7 @@ private:
     Workers workers_;
     Axes axes_;
     std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones after it
-    std::vector<std::uint32_t> places_;       // in chain_, of each joint
+    std::vector<std::uint32_t> places_;       // by joint: index in chain_
     std::vector<VertexSegments> segments_of_; // by joint: of the edges before and after it
     std::uint64_t vertex_ = 0;
 };

@@ -39,8 +39,8 @@ struct KeptRun {
 /// A run with joints of its own that several threads write in parts. Frames are carried from joint
 /// to joint, so each part waits until the part before it has computed its start.
 struct LongRun {
-    std::size_t number = 0;      // in Piece::runs
-    std::size_t first_joint = 0; // in Piece::joints, of the next run
+    std::size_t number = 0;      // index in Piece::runs
+    std::size_t first_joint = 0; // index in Piece::joints, for the next run
     LargeVector<Joint> joints;
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // among the vertices of the piece

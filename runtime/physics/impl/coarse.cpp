@@ -36,7 +36,7 @@ float mean_area(const Body& body) {
 struct Twigs {
     std::vector<std::uint32_t> sizes; // bodies
     std::vector<double> masses;       // kg
-    std::vector<float> sails;         // m^2, area in the wind, mean over all directions
+    std::vector<float> wind_areas;    // m^2, area in the wind, mean over all directions
 };
 
 Twigs twigs_of(const std::vector<Body>& bodies) {
@@ -46,11 +46,11 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
     for (std::size_t b = count; b-- > 0;) {
         const Body& body = bodies[b];
         out.masses[b] += body.mass;
-        out.sails[b] += mean_area(body) + body.sail;
+        out.wind_areas[b] += mean_area(body) + body.sail;
         if (body.parent != kNoSegment) {
             out.sizes[body.parent] += out.sizes[b];
             out.masses[body.parent] += out.masses[b];
-            out.sails[body.parent] += out.sails[b];
+            out.wind_areas[body.parent] += out.wind_areas[b];
         }
     }
     return out;
@@ -81,7 +81,7 @@ bool is_joined(const CoarsePlant& plant, std::uint32_t run) {
 }
 
 /// Keeps only the contacts that are farthest in some direction, if there are many contacts.
-void leave_outer(std::vector<Contact>& contacts) {
+void keep_outermost(std::vector<Contact>& contacts) {
     constexpr std::array<glm::dvec3, 7> kDirections = {
         glm::dvec3(1.0, 0.0, 0.0),  glm::dvec3(0.0, 1.0, 0.0),  glm::dvec3(0.0, 0.0, 1.0),
         glm::dvec3(1.0, 1.0, 1.0),  glm::dvec3(1.0, 1.0, -1.0), glm::dvec3(1.0, -1.0, 1.0),
@@ -151,20 +151,20 @@ public:
 
     [[nodiscard]] CoarsePlant make() const {
         CoarsePlant out;
-        std::vector<std::uint32_t> firsts; // first body of each run
+        std::vector<std::uint32_t> first_bodies; // first body of each run
         for (std::uint32_t b = 0;
              b < plant_->bodies.size() && plant_->bodies[b].parent == kNoSegment; ++b) {
             if (is_kept(b)) {
-                firsts.push_back(b);
+                first_bodies.push_back(b);
                 out.bodies.bodies.push_back({});
             }
         }
         std::uint32_t begin = 0;
-        while (begin < firsts.size()) {
-            const auto end = static_cast<std::uint32_t>(firsts.size());
+        while (begin < first_bodies.size()) {
+            const auto end = static_cast<std::uint32_t>(first_bodies.size());
             out.bodies.level_ends.push_back(end);
             for (std::uint32_t run = begin; run < end; ++run) {
-                add_run(run, firsts, out);
+                add_run(run, first_bodies, out);
             }
             begin = end;
         }
@@ -209,19 +209,20 @@ private:
                 body.mass += twigs_->masses[c];
                 first_moment += twigs_->masses[c] * place;
                 body.inertia += point_inertia(twigs_->masses[c], place);
-                body.sail = std::min(body.sail + twigs_->sails[c], 1e30F);
+                body.sail = std::min(body.sail + twigs_->wind_areas[c], 1e30F);
             }
         }
     }
 
     /// Makes the body of a run, and adds the runs that begin at its end.
-    void add_run(std::uint32_t run, std::vector<std::uint32_t>& firsts, CoarsePlant& out) const {
+    void
+    add_run(std::uint32_t run, std::vector<std::uint32_t>& first_bodies, CoarsePlant& out) const {
         Body body = out.bodies.bodies[run]; // its parent and offset are known
         std::vector<Contact> contacts;
         glm::dvec3 first_moment(0.0);
         glm::dvec3 base(0.0); // of `last`
         float areas = 0.0F;   // m^2, of segments in the wind
-        std::uint32_t last = firsts[run];
+        std::uint32_t last = first_bodies[run];
         std::uint32_t length = 1;
         for (;; ++length) {
             const Body& member = plant_->bodies[last];
@@ -252,24 +253,24 @@ private:
             body.contact = end.contact;
         } else {
             body.sail = std::min(body.sail + areas, 1e30F);
-            leave_outer(contacts);
+            keep_outermost(contacts);
             body.first_contact = static_cast<std::uint32_t>(out.bodies.contacts.size());
             body.contact_count = static_cast<std::uint32_t>(contacts.size());
             out.bodies.contacts.insert(out.bodies.contacts.end(), contacts.begin(), contacts.end());
         }
         body.moment = first_moment;
-        body.first_child = static_cast<std::uint32_t>(firsts.size());
+        body.first_child = static_cast<std::uint32_t>(first_bodies.size());
         for (std::uint32_t c = end.first_child; c < end.first_child + end.child_count; ++c) {
             if (is_kept(c)) {
                 Body child;
                 child.parent = run;
                 child.offset = base + plant_->bodies[c].offset;
                 body.moment += twigs_->masses[c] * child.offset;
-                firsts.push_back(c);
+                first_bodies.push_back(c);
                 out.bodies.bodies.push_back(child);
             }
         }
-        body.child_count = static_cast<std::uint32_t>(firsts.size()) - body.first_child;
+        body.child_count = static_cast<std::uint32_t>(first_bodies.size()) - body.first_child;
         out.bodies.bodies[run] = body;
     }
 

@@ -88,32 +88,33 @@ void add_contact(const Contact& contact,
         return;
     }
     const glm::dvec3 push(0.0, contact.spring * depth, 0.0);
-    const double hold = h * h * contact.spring;
+    const double stiffness = h * h * contact.spring;
     const double speed = std::max(glm::length(glm::dvec2(velocity.x, velocity.z)), kStickingSpeed);
-    const double rub = h * forces.friction * std::max(push.y, 0.0) / speed;
+    const double braking = h * forces.friction * std::max(push.y, 0.0) / speed;
     own.spin += h * glm::cross(arm, push);
     // (w x arm).y = w . (-arm.z, 0, arm.x)
-    const double more = hold - rub;
-    own.spin_spin += point_inertia(rub, arm);
-    own.spin_spin +=
-        {more * arm.z * arm.z, 0.0, more * arm.x * arm.x, 0.0, -more * arm.x * arm.z, 0.0};
+    const double difference = stiffness - braking;
+    own.spin_spin += point_inertia(braking, arm);
+    own.spin_spin += {difference * arm.z * arm.z,  0.0, difference * arm.x * arm.x, 0.0,
+                      -difference * arm.x * arm.z, 0.0};
     if (depth > 0.0) {
         add_stiffness(arm, push, h * h, forces.exactness, own.spin_spin);
         own.push += push;
     }
     if (!forces.own_load) {
         own.velocity += h * push;
-        const Rows across = cross_rows(rub * arm);
+        const Rows across = cross_rows(braking * arm);
         for (std::size_t i = 0; i < 3; ++i) {
             own.spin_velocity.row[i] += across.row[i];
         }
-        own.spin_velocity.row[0].y -= more * arm.z;
-        own.spin_velocity.row[2].y += more * arm.x;
-        own.velocity_velocity += {rub, hold, rub, 0.0, 0.0, 0.0};
+        own.spin_velocity.row[0].y -= difference * arm.z;
+        own.spin_velocity.row[2].y += difference * arm.x;
+        own.velocity_velocity += {braking, stiffness, braking, 0.0, 0.0, 0.0};
     }
 }
 
-/// The forms of a body for Forces::own_load: its base stands still, and it carries nothing.
+/// The quadratic and linear forms of a body for Forces::own_load: the body carries nothing, and its
+/// base stands still.
 BodyForms own_load_forms(const Body& body,
                          const BodyMotion& motion,
                          const glm::dquat& turn,
@@ -127,9 +128,9 @@ BodyForms own_load_forms(const Body& body,
     const glm::dvec3 angular = own.spin_spin * w;
     glm::dvec3 force = body.mass * forces.gravity;
     if (forces.drag > 0.0) {
-        const double hold = wind_drag(body, turn, glm::cross(w, centre), forces);
-        force += hold * forces.wind;
-        own.spin_spin += point_inertia(h * hold, centre);
+        const double drag = wind_drag(body, turn, glm::cross(w, centre), forces);
+        force += drag * forces.wind;
+        own.spin_spin += point_inertia(h * drag, centre);
     }
     own.spin = angular +
                h * (glm::cross(centre, force) - centrifugal_factor(w, h) * glm::cross(w, angular));
@@ -151,27 +152,28 @@ BodyForms own_forms(const Body& body,
     const double share = centrifugal_factor(w, h);
 
     glm::dvec3 force = body.mass * forces.gravity;
-    double hold = 0.0;
+    double drag = 0.0;
     BodyForms own;
     if (forces.drag > 0.0) {
-        hold = wind_drag(body, turn, motion.velocity + arm_velocity, forces);
-        own.push = hold * forces.wind;
+        drag = wind_drag(body, turn, motion.velocity + arm_velocity, forces);
+        own.push = drag * forces.wind;
         force += own.push;
     }
-    own.spin =
-        angular + body.mass * glm::cross(centre, motion.velocity) +
-        h * (glm::cross(centre, force - body.mass * motion.pull) - share * glm::cross(w, angular));
-    own.velocity = body.mass * (motion.velocity + arm_velocity) +
-                   h * (force - body.mass * (motion.pull + share * glm::cross(w, arm_velocity)));
-    const double heft = body.mass + h * hold;
+    own.spin = angular + body.mass * glm::cross(centre, motion.velocity) +
+               h * (glm::cross(centre, force - body.mass * motion.centripetal) -
+                    share * glm::cross(w, angular));
+    own.velocity =
+        body.mass * (motion.velocity + arm_velocity) +
+        h * (force - body.mass * (motion.centripetal + share * glm::cross(w, arm_velocity)));
+    const double mass_with_drag = body.mass + h * drag;
     own.spin_spin = inertia;
-    own.spin_spin += point_inertia(h * hold, centre);
+    own.spin_spin += point_inertia(h * drag, centre);
     add_stiffness(axes * body.moment, forces.gravity, h * h, forces.exactness, own.spin_spin);
     if (forces.windy) {
         add_stiffness(centre, own.push, h * h, forces.exactness, own.spin_spin);
     }
-    own.spin_velocity = cross_rows(heft * centre);
-    own.velocity_velocity.add_diagonal(heft);
+    own.spin_velocity = cross_rows(mass_with_drag * centre);
+    own.velocity_velocity.add_diagonal(mass_with_drag);
     return own;
 }
 

@@ -41,7 +41,7 @@ void move_body(PlantBodies& plant,
     motion.spin = spin;
     if (body.parent == kNoSegment) {
         motion.velocity = glm::dvec3(0.0);
-        motion.pull = glm::dvec3(0.0);
+        motion.centripetal = glm::dvec3(0.0);
         motion.bend = vector_of(turn);
     } else {
         const BodyMotion& parent = plant.motion[body.parent];
@@ -50,8 +50,8 @@ void move_body(PlantBodies& plant,
         const glm::dvec3 around = glm::cross(parent.spin, offset);
         shift = plant.next_poses[body.parent].shift + (offset - body.offset);
         motion.velocity = parent.velocity + around;
-        motion.pull = parent.pull + centrifugal_factor(parent.spin, forces.step) *
-                                        glm::cross(parent.spin, around);
+        motion.centripetal = parent.centripetal + centrifugal_factor(parent.spin, forces.step) *
+                                                      glm::cross(parent.spin, around);
         motion.bend = vector_of(turn * glm::conjugate(parent_turn));
     }
     plant.next_poses[b] = {turn, shift};
@@ -123,7 +123,7 @@ void scale_velocities(PlantBodies& plant, double factor, Workers& workers) {
             BodyMotion& motion = plant.motion[b];
             motion.spin *= factor;
             motion.velocity *= factor;
-            motion.pull *= factor * factor;
+            motion.centripetal *= factor * factor;
         }
     });
 }

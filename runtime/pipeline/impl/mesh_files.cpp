@@ -33,7 +33,7 @@ struct MaterialLibrary {
     std::string path;
     std::string text;
     std::unordered_map<std::string, MaterialPicture> materials;
-    FileId file = kNoFile; // in PictureSearch::sources; kNoFile before the first diagnostic
+    FileId file = kNoFile; // id in PictureSearch::sources; kNoFile before the first diagnostic
 };
 
 /// Reads a picture. `max_bytes`: limit of the file and its texels together.

@@ -32,23 +32,23 @@ std::string name_in(std::string_view text) {
 } // namespace
 
 Result<WantedModule> parse_wanted_module(std::string_view text, bool has_values) {
-    const std::string_view whole = without_blanks(text);
+    const std::string_view trimmed = without_blanks(text);
     WantedModule wanted;
     // Other dialects have a module named `(`, which users write in back quotes.
-    const std::size_t open = has_values
-                                 ? whole.find('(', whole.starts_with('`') ? whole.find('`', 1) : 0)
-                                 : std::string_view::npos;
-    wanted.name = name_in(whole.substr(0, open));
+    const std::size_t open =
+        has_values ? trimmed.find('(', trimmed.starts_with('`') ? trimmed.find('`', 1) : 0)
+                   : std::string_view::npos;
+    wanted.name = name_in(trimmed.substr(0, open));
     if (wanted.name.empty()) {
         return Error{fmt::format("`{}` is no module; one is written like `A(3)`", text)};
     }
     if (open == std::string_view::npos) {
         return wanted;
     }
-    if (!whole.ends_with(')')) {
+    if (!trimmed.ends_with(')')) {
         return Error{fmt::format("`{}` has no `)` at its end", text)};
     }
-    std::string_view rest = without_blanks(whole.substr(open + 1, whole.size() - open - 2));
+    std::string_view rest = without_blanks(trimmed.substr(open + 1, trimmed.size() - open - 2));
     while (!rest.empty()) {
         const std::size_t comma = rest.find(',');
         const std::string_view number = without_blanks(rest.substr(0, comma));

@@ -18,7 +18,8 @@ inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
 inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
 inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death, stage at the start
-/// Blocks at a cell's number, up to kCellBlock + 3: a count, or a random order of 16.
+/// Blocks at a cell's number, kCellBlock to kCellBlock + 3: the count of places
+/// (UniformCells), or the random order of 16 places (DensityCells).
 inline constexpr std::uint32_t kCellBlock = 8;
 /// Blocks at a step of PoissonDisk: one for the active point, then one per two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;

@@ -86,7 +86,7 @@ std::uint64_t size_of(DWORD high, DWORD low) {
     return (static_cast<std::uint64_t>(high) << 32U) | low;
 }
 
-/// Opens a name for its attributes; also of a folder.
+/// Opens a file or folder to read its attributes.
 HANDLE open_for_facts(const std::string& path) {
     return ::CreateFileW(wide_text(path).c_str(), FILE_READ_ATTRIBUTES,
                          FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
@@ -192,7 +192,7 @@ Reason resolve_links(const std::string& path, std::string& real) {
     const Reason reason = count == 0 ? last_reason() : 0;
     ::CloseHandle(handle);
     name.resize(count);
-    // A long path begins with \\?\, of a network share with \\?\UNC\.
+    // A long path begins with \\?\, on a network share with \\?\UNC\.
     real = utf8_text(name);
     if (real.starts_with("\\\\?\\UNC\\")) {
         real.replace(0, 8, "\\\\");

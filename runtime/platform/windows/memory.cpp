@@ -12,8 +12,8 @@
 namespace lsys::platform {
 
 std::byte* reserve_memory(std::size_t bytes, std::size_t alignment) {
-    // The system aligns to 64 KiB. For more, the address of a larger block, which is freed first, is
-    // requested; another thread may take it in between.
+    // The system aligns to 64 KiB. For a larger alignment, reserve a larger block, free it, and
+    // reserve the aligned address within it. Another thread may take this address in between.
     constexpr int kAttempts = 16;
     constexpr std::size_t kGranularity = std::size_t{64} << 10;
     if (alignment <= kGranularity) {

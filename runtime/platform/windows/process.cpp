@@ -17,7 +17,7 @@ namespace lsys::platform {
 
 namespace {
 
-// The same exit statuses as on other systems, where they are 128 plus the number of a signal.
+// Exit statuses as on other systems: 128 plus the number of a signal.
 constexpr int kInterruptedStatus = 130;
 constexpr int kTerminatedStatus = 143;
 constexpr int kHungUpStatus = 129;

@@ -82,12 +82,14 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
 
 
 def options(of):
-    """The options of save() of a "plant" or a "forest", or of Forest(), "scene": a dictionary of names
-    with dashes, each with the form of its value, empty for flags, and a text."""
+    """The options of save() for a "plant" or a "forest", or of Forest() for a "scene".
+
+    Returns a dictionary. Its keys are names with dashes; each value is a pair of the form of the
+    option's value (empty for a flag) and a help text."""
     return _lsys.options(of)
 
 
-def _unfinished_file(path, data):
+def _write_atomically(path, data):
     """Writes a file that appears when it is complete."""
     unfinished = f"{path}.{os.getpid()}.part"
     try:
@@ -101,13 +103,14 @@ def _unfinished_file(path, data):
 
 
 def _save(plant, path, *, mesh=None, preset=None, **options):
-    """Writes the plant to a file, whose name tells the format unless `format` does, and the files
-    beside it. Returns their paths.
+    """Writes the plant to a file and the files beside it. Returns the paths of all files.
 
-    preset: "web", "unreal", "unity", "godot", "blender" or "print". options: those of `lsc export` with
-    underscores, as in `lods=6`, `wind=(8, 0, 0, 0.5)`, `wind_data=True`, and those of all calls. All
-    files appear when they are complete, or none.
-    mesh: written as it is, to one file; options are then format, compress and up.
+    The extension of `path` selects the format, unless the option `format` is given.
+
+    preset: "web", "unreal", "unity", "godot", "blender" or "print". options: the options of
+    `lsc export` with underscores, as in `lods=6`, `wind=(8, 0, 0, 0.5)`, `wind_data=True`, and the
+    options of all calls. All files appear when they are complete, or none.
+    mesh: writes this mesh, unchanged, to one file; the options are then only format, compress, up.
     """
     path = os.fspath(path)
     if mesh is None:
@@ -119,31 +122,32 @@ def _save(plant, path, *, mesh=None, preset=None, **options):
     if not kind:
         raise LsysError(f"the name `{path}` does not tell a format: {', '.join(FORMATS)}")
     stem = os.path.splitext(os.path.basename(path))[0]
-    _unfinished_file(path, plant.export(mesh, kind, name=stem, **options))
+    _write_atomically(path, plant.export(mesh, kind, name=stem, **options))
     return [path]
 
 
 def _save_forest(forest, path, *, preset=None, **options):
-    """Writes the forest to a file, whose name tells the format, and the pictures beside it. Returns
-    their paths.
+    """Writes the forest to a file and the pictures beside it. Returns the paths of all files.
 
-    preset: "web", "unreal", "unity", "godot" or "blender". options: those of `lsc forest` for files with
-    underscores, as in `instances="lods"`, and those of all calls. All files appear when they are
-    complete, or none.
+    The extension of `path` selects the format.
+
+    preset: "web", "unreal", "unity", "godot" or "blender". options: the options of
+    `lsc forest` for files with underscores, as in `instances="lods"`, and the options of all calls.
+    All files appear when they are complete, or none.
     """
     calls, named = _arguments.split({"preset": preset, **options})
     return forest._save(os.fspath(path), named, **calls)
 
 
 def _write(thing, name, receive, **options):
-    """As save(), into `receive(name, bytes, is_last)`, which gets each file in pieces and ends the call
-    by returning False. Returns the names."""
+    """Like save(), but passes each file in pieces to `receive(name, bytes, is_last)`, which ends
+    the call by returning False. Returns the names of the files."""
     calls, named = _arguments.split(options)
     return thing._write(name, receive, named, **calls)
 
 
 def _files(thing, name, **options):
-    """As save(), as a dictionary of names and bytes."""
+    """Like save(), but returns the files: a dictionary from name to bytes."""
     files = {}
 
     def receive(part, piece, _):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Types of the package lsys. Arrays that are views cannot be written."""
+"""Types of the package lsys. Arrays that are views are read-only."""
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence

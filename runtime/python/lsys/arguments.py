@@ -7,10 +7,10 @@ CALL_OPTIONS = ("threads", "max_modules", "max_bytes", "progress", "read_file")
 
 
 def split(arguments):
-    """Options of calls, and the others as (name, text) pairs: `lod_files=True` is ("lod-files", "").
+    """Returns the options of calls, and all other options as pairs (name, text).
 
-    True is a flag, False takes back the flag of a preset, None is no option, and sequences are numbers
-    with commas between.
+    `lod_files=True` becomes ("lod-files", ""). True sets a flag, False clears the flag of a preset,
+    None omits the option. A sequence becomes numbers separated by commas.
     """
     calls = {}
     options = []

@@ -5,7 +5,7 @@
 class LsysError(Exception):
     """A call has failed: a file cannot be read, an option is invalid.
 
-    The text is that of the messages; `diagnostics` has them as data.
+    The text of the exception is the text of all messages; `diagnostics` holds the messages as data.
     """
 
     def __init__(self, text="", diagnostics=()):
@@ -26,4 +26,4 @@ class Cancelled(LsysError):
 
 
 class GrammarWarning(UserWarning):
-    """A grammar that compiles but may not mean what it says."""
+    """A grammar compiles, but may not do what its author intends."""

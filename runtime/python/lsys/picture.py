@@ -11,7 +11,7 @@ _MOST_SAMPLES = 4_000_000
 
 
 def colours_of(mesh):
-    """The linear colour of each triangle, that of its material, as (triangles, 3) float32."""
+    """Linear material colours of the triangles, as an array of (triangles, 3) float32."""
     colours = np.zeros((len(mesh.indices), 3), np.float32)
     for material, first, count in mesh.parts:
         colours[first // 3:(first + count) // 3] = mesh.materials[material]["colour"][:3]

@@ -83,7 +83,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
     placement.method = static_cast<PlacementMethod>(found.value_or(0));
     placement.region = scene.terrain.region;
     const MethodRow& method = kMethods[found.value_or(0)];
-    const std::string because =
+    const std::string reason =
         fmt::format("the method `{}` reads {}", method.name, keys_of(method));
     /// Whether the method reads `key`; if not, reports the key if present.
     const auto reads = [&](bool wanted, std::string_view key) {
@@ -91,7 +91,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
             static_cast<void>(reader.entry(key));
             if (!accepts_all) {
                 reader.report_conflicting_key(
-                    key, because, reader.has("method") ? reader.span_of("method") : SourceSpan{});
+                    key, reason, reader.has("method") ? reader.span_of("method") : SourceSpan{});
             }
         }
         return wanted;

@@ -290,14 +290,14 @@ Diagnostic& TableReader::report_missing(std::string_view key, std::string_view w
 }
 
 void TableReader::report_conflicting_key(std::string_view key,
-                                         std::string_view because,
+                                         std::string_view reason,
                                          SourceSpan cause) {
     if (!has(key)) {
         return;
     }
     Diagnostic& error =
         diagnostics_.add(DiagnosticCode::ConflictingSceneKeys, find_entry(*table_, key)->key_span,
-                         fmt::format("`{}` says nothing here: {}", key, because));
+                         fmt::format("`{}` says nothing here: {}", key, reason));
     if (cause.file != kNoFile) {
         error.labels.push_back({cause, "this decides"});
     }

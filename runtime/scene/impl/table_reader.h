@@ -56,7 +56,7 @@ public:
                                                                     const NumberRange& range);
     [[nodiscard]] const SceneValue* table(std::string_view key);
 
-    /// The number of any value; `what` names it in messages.
+    /// Reads `value` as a number; `what` names the value in messages.
     [[nodiscard]] std::optional<double>
     number_of(const SceneValue& value, std::string_view what, const NumberRange& range);
     [[nodiscard]] std::optional<std::uint64_t>
@@ -65,9 +65,9 @@ public:
     /// Reports that the table needs `key`.
     Diagnostic& report_missing(std::string_view key, std::string_view why);
     Diagnostic& report_bad_value(SourceSpan span, std::string message);
-    /// Reports `key`, if present, as not allowed. `because`: the reason, as a sentence. `cause`:
-    /// the place of the value that forbids the key; SourceSpan{} if there is none.
-    void report_conflicting_key(std::string_view key, std::string_view because, SourceSpan cause);
+    /// Reports `key`, if present, as not allowed. `reason`: a sentence. `cause`: the place of the
+    /// value that forbids the key; SourceSpan{} if there is none.
+    void report_conflicting_key(std::string_view key, std::string_view reason, SourceSpan cause);
     /// Reports the keys that were not read. Called last.
     void finish();
 

@@ -16,7 +16,8 @@ constexpr std::string_view kKinds[] = {"flat", "noise",
 constexpr std::string_view kFilters[] = {"bilinear", "bicubic"}; // in the order of HeightFilter
 constexpr NumberRange kAltitude{-kMaxCoordinate, kMaxCoordinate, false, "m"};
 constexpr double kMinSide = 0.25; // m, the min side of a placement
-constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0; // pixels; other side: 2
+/// Max pixels of one side of a map, whose other side has at least 2.
+constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0;
 
 void read_region(TableReader& reader, Region& region) {
     if (const auto origin =
@@ -128,13 +129,13 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
     // for an unknown kind no key is reported as conflicting
     const bool is_unknown_kind = reader.has("kind") && !kind;
     terrain.kind = static_cast<TerrainKind>(kind.value_or(0));
-    const std::string because = fmt::format("the terrain is `{}`", kKinds[kind.value_or(0)]);
+    const std::string reason = fmt::format("the terrain is `{}`", kKinds[kind.value_or(0)]);
     const auto report_conflicting_key = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys) {
             static_cast<void>(reader.entry(key));
             if (!is_unknown_kind) {
                 reader.report_conflicting_key(
-                    key, because, reader.has("kind") ? reader.span_of("kind") : SourceSpan{});
+                    key, reason, reader.has("kind") ? reader.span_of("kind") : SourceSpan{});
             }
         }
     };

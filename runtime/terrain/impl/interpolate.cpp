@@ -17,9 +17,9 @@ struct Place {
 };
 
 Place place(double at, std::uint32_t count) {
-    const double inside = std::clamp(at, 0.0, static_cast<double>(count - 1));
-    const std::uint32_t index = std::min(static_cast<std::uint32_t>(inside), count - 2);
-    return {index, inside - index};
+    const double clamped = std::clamp(at, 0.0, static_cast<double>(count - 1));
+    const std::uint32_t index = std::min(static_cast<std::uint32_t>(clamped), count - 2);
+    return {index, clamped - index};
 }
 
 double mix(double a, double b, double part) {

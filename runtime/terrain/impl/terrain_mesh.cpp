@@ -99,12 +99,12 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
             std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
             // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge along X.
-            const bool falling = ((row + column) & 1U) == 0;
+            const bool diagonal_at_corner = ((row + column) & 1U) == 0;
             const std::array<std::uint32_t, 6> cell =
-                falling ? std::array<std::uint32_t, 6>{corner, below,     below + 1,
-                                                       corner, below + 1, corner + 1}
-                        : std::array<std::uint32_t, 6>{corner,     below, corner + 1,
-                                                       corner + 1, below, below + 1};
+                diagonal_at_corner ? std::array<std::uint32_t, 6>{corner, below,     below + 1,
+                                                                  corner, below + 1, corner + 1}
+                                   : std::array<std::uint32_t, 6>{corner,     below, corner + 1,
+                                                                  corner + 1, below, below + 1};
             for (std::size_t i = 0; i < cell.size(); ++i) {
                 to[i] = cell[i];
             }

@@ -71,7 +71,7 @@ struct FilePiece {
     bool is_last = false;
 };
 /// Takes files in place of a folder, one after the other; returns false to end the call with
-/// Status::Cancelled. An exception ends the call, which throws it on.
+/// Status::Cancelled. An exception ends the call, which rethrows it.
 using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
 /// Presets: "web", "unreal" ...
@@ -85,7 +85,7 @@ using FileReceiver = std::function<bool(const FilePiece& piece)>;
                                                                     const std::string& path,
                                                                     const Options& options = {},
                                                                     const Project& project = {});
-/// As save_plant(), into `receive`.
+/// Like save_plant(), but passes the files to `receive`.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> write_plant(const Plant& plant,
                                                                      const std::string& name,
                                                                      const FileReceiver& receive,

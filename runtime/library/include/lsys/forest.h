@@ -32,7 +32,7 @@ struct Tree {
 struct Species {
     std::string name;
     std::vector<std::uint32_t> generations; // of each stage, rising
-    std::uint32_t heroes = 0;               // plants derived in full, of each stage
+    std::uint32_t heroes = 0;               // plants derived in full, per stage
     float height = 0.0F;                    // of `#set height`; 0: not set
 };
 
@@ -87,15 +87,15 @@ struct Instance {
     Vector3 position;
     float scale = 1.0F;
     Quaternion rotation;
-    std::uint32_t tree = 0;  // in Forest::trees()
-    std::uint32_t group = 0; // in Instances::groups()
+    std::uint32_t tree = 0;  // index in Forest::trees()
+    std::uint32_t group = 0; // index in Instances::groups()
 };
 
 /// A draw: the instances `first_instance` to `first_instance + instance_count` of the parts
 /// `first_part` to `first_part + part_count` of a mesh.
 struct InstanceGroup {
-    std::uint32_t mesh = 0;       // in Instances::meshes()
-    std::uint32_t first_part = 0; // in Mesh::parts()
+    std::uint32_t mesh = 0;       // index in Instances::meshes()
+    std::uint32_t first_part = 0; // index in Mesh::parts()
     std::uint32_t part_count = 0;
     std::uint64_t first_instance = 0;
     std::uint64_t instance_count = 0;

@@ -83,12 +83,12 @@ inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
 
 /// A filled polygon of at least three corners. 44 bytes.
 struct Polygon {
-    std::uint32_t first_corner = 0; // in Plant::corners()
+    std::uint32_t first_corner = 0; // index in Plant::corners()
     std::uint32_t corner_count = 0;
     Quaternion frame; // of the turtle where the polygon begins
     std::uint32_t parent = kNoParent;
     Colour colour = 0;
-    std::uint32_t picture = kNoPicture; // in Plant::files()
+    std::uint32_t picture = kNoPicture; // index in Plant::files()
     std::uint16_t order = 0;
 };
 
@@ -171,7 +171,7 @@ struct Material {
 
 /// Triangles of one material: indices first_index to first_index + index_count.
 struct MeshPart {
-    std::uint32_t material = 0; // in Mesh::materials()
+    std::uint32_t material = 0; // index in Mesh::materials()
     std::uint64_t first_index = 0;
     std::uint64_t index_count = 0;
 };

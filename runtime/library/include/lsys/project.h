@@ -42,7 +42,7 @@ struct Host {
 
 struct Limits {
     std::uint64_t max_modules = std::uint64_t{1} << 32; // of one word
-    /// Of one word, skeleton, mesh and file. 0: half of the memory of the machine.
+    /// Max bytes of one word, skeleton, mesh and file. 0: half of the memory of the machine.
     std::uint64_t max_bytes = 0;
 };
 
