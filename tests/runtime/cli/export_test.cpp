@@ -77,8 +77,8 @@ TEST_CASE(
     std::filesystem::create_directory(blocked / "a.obj");
     CHECK(run_lsc({"export", "-", "-o", blocked / "a.obj"}, kTree).status == 2);
     CHECK(count_files(blocked) == 1);
+#ifndef _WIN32
     CHECK(run_lsc({"export", "-", "-o", "/dev/null", "--format", "obj"}, kTree).status == 0);
-#ifndef _WIN32 // where `null.mtl` is the null device, too
     CHECK_FALSE(std::filesystem::exists("/dev/null.mtl"));
 #endif
 }
