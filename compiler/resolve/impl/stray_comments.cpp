@@ -113,13 +113,15 @@ public:
         : resolution_(resolution), known_(known), splitter_(splitter) {}
 
     /// Whether `comment`, the text after a `//`, is meant as a comment: outside of parentheses it
-    /// has a word of several letters that is not a module, or two such words in a row.
+    /// has a word of several letters that is not a module. With `names letters` the word has at
+    /// least three letters, or two such words follow each other. Single letters may be modules
+    /// that no production names, as in a derived word that is pasted as an axiom.
     [[nodiscard]] bool is_comment(std::string_view comment, FileId file) {
         bool found = false;
         bool was_foreign = false;
         const std::string words = without_arguments(comment);
         for_each_word(words, [&](std::string_view word) {
-            const bool foreign = is_foreign(word, file);
+            const bool foreign = word.size() > 1 && is_foreign(word, file);
             const std::size_t enough = is_letters(file) ? 3 : 2;
             found = found || (foreign && (was_foreign || word.size() >= enough));
             was_foreign = foreign;
