@@ -49,7 +49,8 @@ public:
     }
 
     void next_frame() {
-        for (float step = 0.0F; step < count_; step += 1.0F) {
+        const auto count = static_cast<std::uint32_t>(count_);
+        for (std::uint32_t step = 0; step < count; ++step) {
             physics_.step();
         }
     }
