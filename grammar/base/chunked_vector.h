@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ChunkedVector<T>: an append-only sequence in blocks of fixed size. Growing moves and copies no
-// elements, because files may have a hundred million modules.
+// ChunkedVector<T>: an append-only sequence in blocks. Growing moves elements only within the first
+// block, because files may have a hundred million modules.
 #pragma once
 
 #include "grammar/base/contract.h"
@@ -9,11 +9,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <memory>
 #include <new>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -58,8 +60,11 @@ public:
     using const_iterator = Cursor<const ChunkedVector, const T>;
 
     void push_back(const T& value) {
-        if (size_ % kBlock == 0 && size_ / kBlock == blocks_.size()) {
-            add_block();
+        if (size_ == capacity_) {
+            const T copy = value; // `value` may be an element of the first block, which may move
+            grow();
+            new (element(size_++)) T(copy);
+            return;
         }
         new (element(size_)) T(value);
         ++size_;
@@ -103,10 +108,10 @@ public:
     }
     /// Appends up to `count` elements that lie in one block; the caller sets the returned elements.
     [[nodiscard]] std::span<T> extend(std::size_t count) {
-        if (size_ / kBlock == blocks_.size()) {
-            add_block();
+        if (size_ == capacity_) {
+            grow();
         }
-        const std::size_t appended = std::min(count, kBlock - size_ % kBlock);
+        const std::size_t appended = std::min({count, capacity_ - size_, kBlock - size_ % kBlock});
         T* const first = element(size_);
         size_ += appended;
         return {first, appended};
@@ -124,13 +129,28 @@ public:
     }
 
 private:
-    /// Elements per block: a power of two, at most 128 KiB; so a small Ast takes little memory.
-    static constexpr std::size_t kBlock =
-        std::bit_floor(std::max<std::size_t>(1, (std::size_t{1} << 17) / sizeof(T)));
-    /// Adds a block without writing to it: the system gives no memory for pages that no element
-    /// needs.
-    void add_block() {
-        blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(kBlock * sizeof(T)));
+    /// The greatest power of two of elements that take at most `bytes`; at least one.
+    static constexpr std::size_t elements_in(std::size_t bytes) {
+        return std::bit_floor(std::max<std::size_t>(1, bytes / sizeof(T)));
+    }
+    /// Elements per block. The first block starts with kFirst of them and is replaced by ones of
+    /// twice the size, so that the Ast of a small file touches few pages of memory.
+    static constexpr std::size_t kBlock = elements_in(std::size_t{1} << 17);
+    static constexpr std::size_t kFirst = elements_in(512);
+
+    /// Makes room for at least one more element. Does not write to new memory: the system gives no
+    /// memory for pages that no element needs.
+    void grow() {
+        const std::size_t added = capacity_ == 0 ? kFirst : capacity_ < kBlock ? capacity_ : kBlock;
+        if (capacity_ == 0 || capacity_ >= kBlock) {
+            blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(added * sizeof(T)));
+        } else {
+            auto larger =
+                std::make_unique_for_overwrite<std::byte[]>((capacity_ + added) * sizeof(T));
+            std::memcpy(larger.get(), blocks_.front().get(), size_ * sizeof(T));
+            blocks_.front() = std::move(larger);
+        }
+        capacity_ += added;
     }
     [[nodiscard]] T* element(std::size_t index) const {
         return reinterpret_cast<T*>(blocks_[index / kBlock].get()) + index % kBlock;
@@ -138,6 +158,7 @@ private:
 
     std::vector<std::unique_ptr<std::byte[]>> blocks_;
     std::size_t size_ = 0;
+    std::size_t capacity_ = 0; // elements for which there is memory
     std::size_t released_ = 0; // blocks
 };
 
