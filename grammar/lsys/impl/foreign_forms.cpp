@@ -948,7 +948,11 @@ private:
 /// Repairs `colour #6b4423` if it stands at `at`: three numbers from 0 to 1 are meant.
 void repair_hexadecimal_colour(DraftText& draft, std::size_t at) {
     constexpr std::size_t kDigits = 6;
-    const std::string_view before = without_blanks(std::string_view(draft.masked).substr(0, at));
+    // Searches backwards from `at`: the masked comments before the first statement may be long.
+    const std::size_t last =
+        at == 0 ? std::string::npos : draft.masked.find_last_not_of(" \t\r\n", at - 1);
+    const std::string_view before =
+        std::string_view(draft.masked).substr(0, last == std::string::npos ? 0 : last + 1);
     const std::string_view digits = std::string_view(draft.masked).substr(at + 1, kDigits);
     const std::size_t end = at + 1 + kDigits;
     unsigned value = 0;
