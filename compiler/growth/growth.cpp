@@ -134,10 +134,10 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
     return prediction;
 }
 
-std::optional<GrowthLimit>
-find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules) {
+GrowthEnd
+find_growth_end(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules) {
     if (!is_growth_known(bytecode)) {
-        return std::nullopt;
+        return {};
     }
     ModuleClasses classes(bytecode, generations);
     GrowthWalk walk(classes);
@@ -168,7 +168,7 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
     } else if (powers && powers->never_shrinks()) {
         powers->advance_while_fitting(walk, generations, max_modules);
         if (walk.age() == generations) {
-            return std::nullopt;
+            return {};
         }
         limit.largest_fitting = walk.age();
         limit.at_largest = walk.low();
@@ -177,7 +177,11 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
         limit.at_next = walk.low();
         limit.exact = same(walk.low(), walk.high());
     } else {
-        return std::nullopt;
+        GrowthEnd end;
+        if (listing.unchanged_from) {
+            end.fixed_point = {*listing.unchanged_from, listing.high.back().modules.at_most(0)};
+        }
+        return end;
     }
     // The size of the requested word, if it can be computed quickly.
     if (powers) {
@@ -189,7 +193,7 @@ find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint
         limit.has_requested = true;
         limit.at_requested = walk.low();
     }
-    return limit;
+    return {limit, std::nullopt};
 }
 
 } // namespace lsys

@@ -84,9 +84,21 @@ struct GrowthLimit {
         kNoProduction; // writes the most modules of the first generation that does not fit
     bool exact = false;
 };
-/// Returns nothing if all requested generations fit or growth is not known. If the axiom is too
-/// large, largest_fitting is 0 and at_largest is at_next.
-[[nodiscard]] std::optional<GrowthLimit>
-find_growth_limit(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules);
+/// A generation from which on the word never changes, for any seed.
+struct FixedPoint {
+    std::uint32_t generation = 0;
+    bool is_empty = false; // the word has no modules
+};
+
+/// What ends the growth before the requested generation; both are unset if growth is not known.
+struct GrowthEnd {
+    /// Set if not all requested generations fit. If the axiom is too large, largest_fitting is 0 and
+    /// at_largest is at_next.
+    std::optional<GrowthLimit> limit;
+    /// Set if there is no limit and the word is known to stay the same.
+    std::optional<FixedPoint> fixed_point;
+};
+[[nodiscard]] GrowthEnd
+find_growth_end(const Bytecode& bytecode, std::uint32_t generations, std::uint64_t max_modules);
 
 } // namespace lsys

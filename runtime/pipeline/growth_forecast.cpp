@@ -54,7 +54,7 @@ predict_limit(const Bytecode& bytecode, std::uint32_t generations, const Limits&
         return std::nullopt;
     }
     const std::optional<GrowthLimit> found =
-        find_growth_limit(bytecode, generations, limits.max_modules);
+        find_growth_end(bytecode, generations, limits.max_modules).limit;
     if (!found || !found->exact || !found->at_largest.modules.at_most(limits.max_modules)) {
         return std::nullopt;
     }

@@ -52,9 +52,9 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
     }
     const bool written = !input.options.generations && program.generations;
     const SourceSpan place = written ? program.generations_span : program.axiom_span();
-    const std::optional<GrowthLimit> limit =
-        find_growth_limit(*input.bytecode, generations, input.options.max_modules);
-    if (limit) {
+    const GrowthEnd growth_end =
+        find_growth_end(*input.bytecode, generations, input.options.max_modules);
+    if (const std::optional<GrowthLimit>& limit = growth_end.limit) {
         const Count max_modules{input.options.max_modules, false, 0.0};
         const char* bound_text = limit->exact ? "" : "at least ";
         const bool axiom = !limit->at_largest.modules.at_most(input.options.max_modules);
@@ -91,24 +91,20 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
     if (!written || program.productions.size() > kMaxProductions) {
         return;
     }
-    const GrowthPrediction prediction = predict_growth(*input.bytecode, generations);
     // Do not report a single generation without change: authors use it to see that the growth has
     // ended.
-    if (prediction.unchanged_from && *prediction.unchanged_from + 1 < generations) {
-        const std::uint32_t last = *prediction.unchanged_from;
-        if (last < prediction.high.size() && prediction.high[last].modules.at_most(0)) {
-            report_empty_word(input, last, place, diagnostics);
-            return;
-        }
-        if (last == 0 && is_explained(diagnostics)) {
-            return;
-        }
+    const std::optional<FixedPoint>& fixed_point = growth_end.fixed_point;
+    if (!fixed_point || fixed_point->generation + 1 >= generations) {
+        return;
+    }
+    const std::uint32_t last = fixed_point->generation;
+    if (fixed_point->is_empty) {
+        report_empty_word(input, last, place, diagnostics);
+    } else if (last != 0 || !is_explained(diagnostics)) {
         Diagnostic& diagnostic =
             diagnostics.add(DiagnosticCode::FixedPoint, place,
-                            fmt::format("from generation {} on the word stays the same",
-                                        *prediction.unchanged_from));
-        diagnostic.help.push_back(
-            fmt::format("`#n = {};` gives the same word", *prediction.unchanged_from));
+                            fmt::format("from generation {} on the word stays the same", last));
+        diagnostic.help.push_back(fmt::format("`#n = {};` gives the same word", last));
     }
 }
 

@@ -244,7 +244,8 @@ TEST_CASE("a counter is predicted exactly for thousands of generations, then bou
 }
 
 TEST_CASE("the largest fitting generation is found with the production that grows") {
-    const std::optional<GrowthLimit> limit = find_growth_limit(koch(), 20, std::uint64_t{1} << 32);
+    const std::optional<GrowthLimit> limit =
+        find_growth_end(koch(), 20, std::uint64_t{1} << 32).limit;
     REQUIRE(limit);
     CHECK(limit->exact);
     CHECK(limit->largest_fitting == 13);
@@ -254,12 +255,12 @@ TEST_CASE("the largest fitting generation is found with the production that grow
     CHECK(to_text(limit->at_requested.modules) == "190,734,863,281,249");
     CHECK(limit->dominant == ProductionId{0});
 
-    CHECK(!find_growth_limit(koch(), 13, std::uint64_t{1} << 32));
-    const std::optional<GrowthLimit> weed_limit = find_growth_limit(weed(), 30, 1'000'000);
+    CHECK(!find_growth_end(koch(), 13, std::uint64_t{1} << 32).limit);
+    const std::optional<GrowthLimit> weed_limit = find_growth_end(weed(), 30, 1'000'000).limit;
     REQUIRE(weed_limit);
     CHECK(weed_limit->largest_fitting == 8);
     CHECK(weed_limit->dominant == ProductionId{0}); // X: 18 modules each
-    const std::optional<GrowthLimit> axiom = find_growth_limit(ternary(), 3, 3);
+    const std::optional<GrowthLimit> axiom = find_growth_end(ternary(), 3, 3).limit;
     REQUIRE(axiom);
     CHECK(axiom->largest_fitting == 0);
     CHECK(axiom->at_next.modules.value == 4);
@@ -267,7 +268,7 @@ TEST_CASE("the largest fitting generation is found with the production that grow
 
 TEST_CASE("a limit that is reached after very many generations is found") {
     const std::optional<GrowthLimit> limit =
-        find_growth_limit(system("A", {"A : * : A B"}), 4'294'967'294U, 3'000'000'000U);
+        find_growth_end(system("A", {"A : * : A B"}), 4'294'967'294U, 3'000'000'000U).limit;
     REQUIRE(limit);
     CHECK(limit->largest_fitting == 2'999'999'999U);
     CHECK(limit->at_next.modules.value == 3'000'000'001U);
@@ -275,7 +276,20 @@ TEST_CASE("a limit that is reached after very many generations is found") {
 }
 
 TEST_CASE("no generation exceeds the limit for certain if only the upper bound does") {
-    CHECK(!find_growth_limit(system("b a", {"b < a : * : a a"}), 1'000, 100));
+    CHECK(!find_growth_end(system("b a", {"b < a : * : a a"}), 1'000, 100).limit);
+}
+
+TEST_CASE("the generation from which the word stays the same is known unless a limit comes first") {
+    const GrowthEnd still = find_growth_end(system("A", {"A : * : B", "B : * : C"}), 9, 100);
+    REQUIRE(still.fixed_point);
+    CHECK(still.fixed_point->generation == 2);
+    CHECK(!still.fixed_point->is_empty);
+    const GrowthEnd gone = find_growth_end(system("A", {"A : * : B", "B : * :"}), 9, 100);
+    REQUIRE(gone.fixed_point);
+    CHECK(gone.fixed_point->is_empty);
+    const GrowthEnd large = find_growth_end(system("A", {"A : * : B B B"}), 9, 2);
+    CHECK(large.limit);
+    CHECK(!large.fixed_point);
 }
 
 } // namespace
