@@ -44,8 +44,8 @@ ExitStatus check_text(const std::string& path,
                       const GrammarOptions& options,
                       const Console& console) {
     const Project project = make_project(console, command.run);
-    Result<CompiledText> compiled = compile_text(path, text, options, project.limits.max_modules,
-                                                 make_loader(project, project.limits.max_bytes));
+    Result<CompiledText> compiled =
+        compile_text(path, text, options, project.limits.max_modules, make_include_loader(project));
     if (!compiled) {
         return report_error(compiled.error(), console);
     }
@@ -121,7 +121,7 @@ Result<std::string> original_text(const std::string& changed,
                                   const GrammarText& text,
                                   const Project& project) {
     return changed == shown_path(path) ? Result<std::string>(text.bytes)
-                                       : make_loader(project, project.limits.max_bytes)(changed);
+                                       : make_include_loader(project)(changed);
 }
 
 ExitStatus fix_file(const std::string& path,

@@ -4,7 +4,6 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
-#include "runtime/program/memory_size.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +31,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;
-    const FileLoader load = make_loader(project, half_of_memory());
+    const FileLoader load = make_include_loader(project);
     const std::string before = grammar.bytes;
     const FileId file = sources.add(shown_path(path), std::move(grammar.bytes));
     const ParseContext context{sources, names, diagnostics, load};

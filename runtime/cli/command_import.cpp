@@ -57,9 +57,8 @@ ExitStatus import_text(const std::string& path,
                        Imported& imported) {
     const Project project = make_project(console, run);
     imported.dialect = text.dialect;
-    Result<CompiledText> compiled =
-        compile_text(path, std::move(text), options, project.limits.max_modules,
-                     make_loader(project, project.limits.max_bytes));
+    Result<CompiledText> compiled = compile_text(
+        path, std::move(text), options, project.limits.max_modules, make_include_loader(project));
     if (!compiled) {
         return report_error(compiled.error(), console);
     }

@@ -8,7 +8,6 @@
 #include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
-#include "runtime/program/memory_size.h"
 #include "runtime/program/weight_report.h"
 #include "runtime/turtle/plant_size.h"
 
@@ -140,7 +139,7 @@ ExitStatus count_words(const StatsCommand& command,
     DeriveOptions options;
     options.generations = generations;
     options.seed = bytecode.settings.seed;
-    options.limits = {command.run.limits.max_modules, half_of_memory()};
+    options.limits = command.run.limits;
     options.cancelled = console.io().interrupted;
     Derivation derivation(bytecode, options);
     std::optional<Stop> stop = derivation.start();

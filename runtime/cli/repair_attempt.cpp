@@ -4,6 +4,7 @@
 #include "grammar/base/characters.h"
 #include "grammar/rendering/render_diagnostic.h"
 #include "runtime/cli/mistyped_signs.h"
+#include "runtime/program/host.h"
 
 #include <fmt/format.h>
 
@@ -68,7 +69,7 @@ bool is_independent(DiagnosticCode code) {
 Result<void> compile_changed(const RepairSubject& subject,
                              const std::map<std::string, std::string>& changed,
                              CompiledText& compiled) {
-    const FileLoader from_disk = make_loader(subject.project, subject.project.limits.max_bytes);
+    const FileLoader from_disk = make_include_loader(subject.project);
     const FileLoader load = [&](const std::string& wanted) -> Result<std::string> {
         const auto known = changed.find(wanted);
         return known != changed.end() ? Result<std::string>(known->second) : from_disk(wanted);

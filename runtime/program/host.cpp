@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/program/host.h"
 
-#include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
+#include "runtime/program/memory_size.h"
 
 #include <filesystem>
 #include <system_error>
@@ -40,6 +40,15 @@ Project make_project(const Console& console, const RunOptions& run) {
     const std::string input =
         run.stdin_name.empty() ? standard_input_in(run.base) : standard_input_as(run.stdin_name);
     return {make_host(console, input), run.limits, run.threads, console.options().levels};
+}
+
+FileLoader make_include_loader(const Project& project) {
+    return [&project, load = FileLoader()](const std::string& path) mutable {
+        if (!load) {
+            load = make_loader(project, half_of_memory());
+        }
+        return load(path);
+    };
 }
 
 } // namespace lsys

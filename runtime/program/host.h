@@ -2,6 +2,7 @@
 // The host of the pipeline in a program: files on disk, standard input, Ctrl-C.
 #pragma once
 
+#include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
 #include "runtime/program/console.h"
 #include "runtime/program/run_options.h"
@@ -19,5 +20,10 @@ namespace lsys {
 
 /// A project with make_host(), without progress.
 [[nodiscard]] Project make_project(const Console& console, const RunOptions& run);
+
+/// A reader of files for #include, which together may have half of the memory. It asks for the
+/// memory at the first file: that takes as long as checking a small grammar. `project` must outlive
+/// it.
+[[nodiscard]] FileLoader make_include_loader(const Project& project);
 
 } // namespace lsys

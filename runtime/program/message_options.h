@@ -18,6 +18,8 @@ struct MessageOptions {
     MessageLevels levels;
     bool quiet = false;   // print errors only, and no progress
     bool verbose = false; // also print steps of the work and their sizes
+
+    friend bool operator==(const MessageOptions&, const MessageOptions&) = default;
 };
 
 } // namespace lsys

@@ -76,7 +76,6 @@ void add_dialect(CLI::App& app, std::string& dialect) {
 }
 
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
-    run.limits.max_bytes = half_of_memory();
     add_parsed(app, "-n,--generations", options.generations, integer(0, kMaxGenerations),
                "Number of generations (default: #n)")
         ->type_name("N")

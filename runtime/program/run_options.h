@@ -17,6 +17,8 @@ struct RunOptions {
     /// Path that a grammar from standard input has in messages and for its included files; empty:
     /// none.
     std::string stdin_name;
+
+    friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
 } // namespace lsys
