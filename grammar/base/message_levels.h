@@ -32,6 +32,8 @@ public:
     [[nodiscard]] std::optional<MessageLevel> of(const Diagnostic& diagnostic) const;
     [[nodiscard]] bool denies_warnings() const { return warnings_ == MessageLevel::Deny; }
 
+    friend bool operator==(const MessageLevels&, const MessageLevels&) = default;
+
 private:
     std::map<DiagnosticCode, MessageLevel> codes_;
     std::optional<MessageLevel> warnings_;

@@ -9,6 +9,8 @@ namespace lsys {
 struct Limits {
     std::uint64_t max_modules = std::uint64_t{1} << 32; // of one word
     std::uint64_t max_bytes = ~std::uint64_t{0};        // held by a derivation
+
+    friend bool operator==(const Limits&, const Limits&) = default;
 };
 
 enum class LimitKind : std::uint8_t { Modules, Memory };

@@ -69,6 +69,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
 }
 
 void add_compile(CLI::App& app, CompileCommand& command) {
+    command.run.limits.max_bytes = half_of_memory();
     app.add_option("FILE", command.file, "The grammar; `-` is standard input")->required();
     app.add_option("-o,--output", command.output, "The .lsb file; `-` is standard output")
         ->required()
@@ -301,6 +302,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
 }
 
 void add_stats(CLI::App& app, StatsCommand& command) {
+    command.run.limits.max_bytes = half_of_memory();
     app.add_option("FILE", command.file, "A grammar or a .lsb file; `-` is standard input")
         ->required();
     const auto gravity = [](const std::string& text) { return parse_number(text, 0.0F, 1e6F); };
@@ -505,19 +507,30 @@ struct ProgramOptions {
     std::string topic;
 };
 
-/// Adds the options of the program and all commands. Only the command `chosen` gets options,
-/// because `parsed` has room for the options of one command.
-void add_commands(CLI::App& app,
-                  const std::string& chosen,
-                  CommandLine& parsed,
-                  ProgramOptions& options) {
+/// Adds the options of the program.
+void add_program_options(CLI::App& app, ProgramOptions& options) {
+    app.allow_windows_style_options(false); // `/a` is a path
     app.set_version_flag("--version", "lsc " LSC_VERSION, "Print the version and exit");
     app.add_flag("-v,--verbose", options.verbose,
                  "With --version: print commit, compiler, libraries and processor too");
     app.require_subcommand(1);
     app.footer("`lsc help COMMAND` and `lsc COMMAND --help` list the options of a command.");
+}
+
+enum class Commands { All, OnlyChosen };
+
+/// Adds commands. Only the command `chosen` gets options, because `parsed` has room for the options
+/// of one command.
+void add_commands(CLI::App& app,
+                  Commands commands,
+                  const std::string& chosen,
+                  CommandLine& parsed,
+                  ProgramOptions& options) {
     const auto add = [&]<typename Command>(const char* name, const char* text,
                                            void (*add_options)(CLI::App&, Command&)) {
+        if (commands == Commands::OnlyChosen && chosen != name) {
+            return;
+        }
         CLI::App& added = *app.add_subcommand(name, text);
         if (chosen == name) {
             add_options(added, parsed.emplace<Command>());
@@ -533,10 +546,12 @@ void add_commands(CLI::App& app,
     add("trace", "Explain what becomes of a module, and why", add_trace);
     add("fmt", "Format grammars", add_format);
     add("explain", "Explain a diagnostic, with examples", add_explain);
-    CLI::App& help = *app.add_subcommand("help", "Print the options of a command");
-    if (chosen == "help") {
-        help.add_option("COMMAND", options.topic, "The command (default: list all commands)");
-        help.footer("Example: lsc help export");
+    if (commands == Commands::All || chosen == "help") {
+        CLI::App& help = *app.add_subcommand("help", "Print the options of a command");
+        if (chosen == "help") {
+            help.add_option("COMMAND", options.topic, "The command (default: list all commands)");
+            help.footer("Example: lsc help export");
+        }
     }
 }
 
@@ -548,7 +563,8 @@ CommandLine help_on(const std::string& topic) {
     CLI::App app(kTitle, "lsc");
     CommandLine parsed = UsageError{};
     ProgramOptions options;
-    add_commands(app, topic, parsed, options);
+    add_program_options(app, options);
+    add_commands(app, Commands::All, topic, parsed, options);
     if (topic.empty()) {
         return PrintText{help_text(app, "")};
     }
@@ -570,11 +586,14 @@ CommandLine help_on(const std::string& topic) {
 CommandLine parse_arguments(std::span<const std::string> arguments,
                             std::vector<std::string>& implied) {
     CLI::App app(kTitle, "lsc");
-    app.allow_windows_style_options(false); // `/a` is a path
     CommandLine parsed = UsageError{"no command is given", kListHint};
     ProgramOptions program_options;
-    add_commands(app, arguments.empty() ? std::string() : arguments.front(), parsed,
-                 program_options);
+    add_program_options(app, program_options);
+    const std::string first = arguments.empty() ? std::string() : arguments.front();
+    add_commands(app, Commands::OnlyChosen, first, parsed, program_options); // all take long
+    if (find_command(app, first) == nullptr) {
+        add_commands(app, Commands::All, first, parsed, program_options);
+    }
 
     if (std::optional<UsageError> usage = unknown_command(arguments, app)) {
         return *usage;
@@ -639,6 +658,20 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     return parsed;
 }
 
+/// `lsc check FILE...` without options, read as parse_arguments() reads it. To set up CLI11 takes as
+/// long as to check a small grammar, and editors and scripts start such a run for every file.
+std::optional<CheckCommand> parse_check_of_files(std::span<const std::string> arguments) {
+    if (arguments.size() < 2 || arguments.front() != "check" ||
+        std::any_of(arguments.begin() + 1, arguments.end(), [](const std::string& argument) {
+            return argument.empty() || (argument.starts_with('-') && argument != "-");
+        })) {
+        return std::nullopt;
+    }
+    CheckCommand command;
+    command.files.assign(arguments.begin() + 1, arguments.end());
+    return command;
+}
+
 } // namespace
 
 void visit_commands(
@@ -648,7 +681,8 @@ void visit_commands(
         CLI::App app(kTitle, "lsc");
         CommandLine parsed = UsageError{};
         ProgramOptions options;
-        add_commands(app, name, parsed, options);
+        add_program_options(app, options);
+        add_commands(app, Commands::All, name, parsed, options);
         use(app);
     };
     with_options_of("", [&names](const CLI::App& app) {
@@ -665,6 +699,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     // CLI11 takes longer than the rest of such a run, most of it for the exception that it throws.
     if (arguments.size() == 1 && arguments.front() == "--version") {
         return PrintText{"lsc " LSC_VERSION "\n"};
+    }
+    if (std::optional<CheckCommand> check = parse_check_of_files(arguments)) {
+        return std::move(*check);
     }
     std::vector<std::string> options;
     CommandLine parsed = parse_arguments(arguments, options);

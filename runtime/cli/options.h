@@ -24,6 +24,8 @@ struct CheckCommand {
     std::string fix;   // which repairs to apply: `certain`, `offered`, or empty for none
     bool diff = false; // show repairs as a difference, write no file
     bool part = false; // GrammarOptions::part for all files
+
+    friend bool operator==(const CheckCommand&, const CheckCommand&) = default;
 };
 
 struct CompileCommand {

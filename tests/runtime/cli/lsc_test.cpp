@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Behaviour of lsc that golden cases cannot test: interrupts, terminals, failing streams, exhausted
 // memory.
+#include "runtime/cli/command_line.h"
 #include "runtime/cli/lsc.h"
 #include "tests/support/lsc_run.h"
 
@@ -17,6 +18,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -262,4 +264,19 @@ TEST_CASE("check --fix writes all files of a grammar or none") {
     CHECK(read_text(folder / "a.lsys") == first);
     CHECK(read_text(folder / "closed/b.lsys") == second);
     CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("check of files without options means the same as with the end of options") {
+    for (const std::vector<std::string>& files :
+         {std::vector<std::string>{"a.lsys"}, {"a.lsys", "-", "check"}}) {
+        std::vector<std::string> plain{"check"};
+        plain.insert(plain.end(), files.begin(), files.end());
+        std::vector<std::string> full{"check", "--"};
+        full.insert(full.end(), files.begin(), files.end());
+        const lsys::lsc::CommandLine without = lsys::lsc::parse_command_line(plain);
+        const lsys::lsc::CommandLine with = lsys::lsc::parse_command_line(full);
+        REQUIRE(std::holds_alternative<lsys::lsc::CheckCommand>(without));
+        CHECK(std::get<lsys::lsc::CheckCommand>(without) ==
+              std::get<lsys::lsc::CheckCommand>(with));
+    }
 }
