@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/base/paths.h"
 
+#include "grammar/base/utf8.h"
+
 #include <algorithm>
 
 namespace lsys {
@@ -14,6 +16,20 @@ bool is_separator(char c) {
 }
 
 } // namespace
+
+std::filesystem::path path_of(std::string_view text) {
+    if constexpr (!kHasDrives) {
+        return text;
+    } else {
+        std::u32string characters; // a path made of bytes that are not UTF-8 would throw
+        while (!text.empty()) {
+            const CodePoint next = decode_utf8(text);
+            characters += next.value;
+            text.remove_prefix(next.length);
+        }
+        return characters;
+    }
+}
 
 std::string path_text(const std::filesystem::path& path) {
     std::string text = path.string();

@@ -9,6 +9,9 @@
 
 namespace lsys {
 
+/// The path that a text names. A std::filesystem::path made of a std::string is not the same on
+/// Windows, where it reads every byte as a character.
+[[nodiscard]] std::filesystem::path path_of(std::string_view text);
 /// The text of a path, with `/` between the names on every system.
 [[nodiscard]] std::string path_text(const std::filesystem::path& path);
 

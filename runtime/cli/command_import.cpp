@@ -74,7 +74,7 @@ ExitStatus import_text(const std::string& path,
             return report_error(changed.error(), console);
         }
         imported.text = fmt::format(
-            "// Imported from `{}`, {}{}.\n{}", path_text(fs::path(shown_path(path)).filename()),
+            "// Imported from `{}`, {}{}.\n{}", path_text(path_of(shown_path(path)).filename()),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
             format_text(changed.value()));
@@ -91,7 +91,8 @@ write_imported(const std::string& path, const std::string& text, const Console& 
 Result<std::vector<fs::path>> files_of(const std::string& folder) {
     std::error_code error;
     std::vector<fs::path> files;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    for (fs::directory_iterator at(path_of(folder), error), end; !error && at != end;
+         at.increment(error)) {
         std::error_code ignored;
         if (at->is_regular_file(ignored)) {
             files.push_back(at->path());
@@ -133,7 +134,7 @@ std::string unused_path(const std::string& stem, FolderImport& import) {
     for (std::uint64_t number = 2; !import.names.insert(name).second; ++number) {
         name = fmt::format("{}-{}.lsys", stem, number);
     }
-    return path_text(import.folder / name);
+    return path_text(import.folder / path_of(name));
 }
 
 /// Writes a file whose name the program chose; replaces an existing file only with --force.
@@ -143,7 +144,7 @@ write_new_file(const std::string& path, const std::string& text, const FolderImp
         return write_imported(path, text, import.console);
     }
     std::error_code ignored;
-    if (fs::exists(fs::symlink_status(path, ignored))) {
+    if (fs::exists(fs::symlink_status(path_of(path), ignored))) {
         return report_error(Error{fmt::format("`{}` is there already; --force replaces it", path)},
                             import.console);
     }
@@ -249,7 +250,7 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
         return report_error(files.error(), console);
     }
     FolderImport import{
-        command, console, command.output.empty() ? command.folder : command.output, {}};
+        command, console, path_of(command.output.empty() ? command.folder : command.output), {}};
     if (const Result<void> made = make_folder(import.folder); !made) {
         return report_error(made.error(), console);
     }
@@ -282,17 +283,17 @@ ExitStatus import_folder(const ImportCommand& command, const Console& console) {
 /// Imports all systems of a file to the folder of `-o`.
 ExitStatus
 import_to_folder(const ImportCommand& command, const GrammarText& text, const Console& console) {
-    if (const Result<void> made = make_folder(command.output); !made) {
+    if (const Result<void> made = make_folder(path_of(command.output)); !made) {
         return report_error(made.error(), console);
     }
-    FolderImport import{command, console, command.output, {}};
+    FolderImport import{command, console, path_of(command.output), {}};
     const Result<void> result = import_systems(command.file, text, "", import);
     return end_import(result, import);
 }
 
 bool is_folder(const std::string& path) {
     std::error_code error;
-    return names_folder(path) || (!path.empty() && fs::is_directory(path, error));
+    return names_folder(path) || (!path.empty() && fs::is_directory(path_of(path), error));
 }
 
 } // namespace

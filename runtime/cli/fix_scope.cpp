@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/fix_scope.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/pipeline/grammar.h"
 
 #include <algorithm>
@@ -21,10 +22,10 @@ std::filesystem::path real_path(const std::filesystem::path& path) {
 
 FixScope::FixScope(const std::string& path, std::span<const std::string> named)
     : root_(shown_path(path)) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    folder_ = real_path(folder.empty() ? "." : folder);
+    const std::filesystem::path folder = path_of(path).parent_path();
+    folder_ = real_path(folder.empty() ? std::filesystem::path(".") : folder);
     for (const std::string& each : named) {
-        named_.insert(real_path(each));
+        named_.insert(real_path(path_of(each)));
     }
 }
 
@@ -32,7 +33,7 @@ bool FixScope::contains(const std::string& path) const {
     if (path == root_) {
         return true;
     }
-    const std::filesystem::path real = real_path(path);
+    const std::filesystem::path real = real_path(path_of(path));
     if (real.empty() || folder_.empty()) {
         return false;
     }

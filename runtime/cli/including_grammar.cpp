@@ -62,7 +62,8 @@ bool includes(const fs::path& grammar, const fs::path& part) {
     bool found = false;
     for_each_include(text, [&](std::string_view name) {
         std::error_code ignored;
-        found = found || fs::weakly_canonical(grammar.parent_path() / name, ignored) == part;
+        found =
+            found || fs::weakly_canonical(grammar.parent_path() / path_of(name), ignored) == part;
     });
     return found;
 }
@@ -71,7 +72,7 @@ bool includes(const fs::path& grammar, const fs::path& part) {
 
 std::optional<std::string> find_including_grammar(const std::string& path) {
     std::error_code failed;
-    const fs::path part = fs::weakly_canonical(path, failed);
+    const fs::path part = fs::weakly_canonical(path_of(path), failed);
     if (failed || part.empty()) {
         return std::nullopt;
     }

@@ -145,7 +145,7 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
             return {Stop::Failed, std::move(messages)};
         }
         ExportInfo info;
-        info.grammar = path_text(std::filesystem::path(plant.data().options.file).filename());
+        info.grammar = path_text(path_of(plant.data().options.file).filename());
         info.name = options.name;
         info.seed = drawn.seed;
         info.generations = drawn.generations;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The output of a forest, and its options that conflict.
+#include "grammar/base/paths.h"
 #include "runtime/output/forest_files.h"
 #include "runtime/output/surface_options.h"
 
@@ -52,7 +53,7 @@ Result<ForestTarget> target_of(const ForestFileOptions& options) {
     if (options.output.empty()) {
         return ForestTarget{};
     }
-    const std::filesystem::path path = options.output;
+    const std::filesystem::path path = path_of(options.output);
     if (path.extension() == ".json") {
         return ForestTarget{ForestOutputKind::Statistics};
     }

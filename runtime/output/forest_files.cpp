@@ -29,8 +29,7 @@ ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
                         const std::string& path,
                         OutputSet& outputs) {
     for (const PictureFile& picture : pictures) {
-        const std::string beside =
-            path_text(std::filesystem::path(path).parent_path() / picture.name);
+        const std::string beside = path_text(path_of(path).parent_path() / path_of(picture.name));
         const ExitStatus added = outputs.add(
             beside, [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (added != ExitStatus::Ok) {
@@ -56,7 +55,7 @@ ExitStatus write_instances(const ForestOutput& run,
                            const ForestScene& scene,
                            const std::string& path) {
     ForestExportInfo info;
-    info.name = path_text(std::filesystem::path(path).stem());
+    info.name = path_text(path_of(path).stem());
     info.generator = run.context.generator;
     constexpr float kCell = 100.0F;
     const bool whole_trees = run.options.instances != ForestInstances::Branches;
@@ -68,7 +67,7 @@ ExitStatus write_instances(const ForestOutput& run,
     info.collision_names = run.options.collision_names;
     info.threads = run.context.project.threads;
     info.compression = run.options.compression.value_or(ExportCompression::None);
-    info.picture_prefix = path_text(std::filesystem::path(run.options.output).stem());
+    info.picture_prefix = path_text(path_of(run.options.output).stem());
     OutputSet outputs(run.context); // pictures are added before the file that names them
     if (traits_of(run.target.format).pictures != ExportPictures::Inside) {
         info.textures = path != "-";
@@ -106,7 +105,7 @@ ExitStatus write_baked(const ForestOutput& run,
     ExportInfo info;
     info.subject = ExportSubject::Forest;
     info.unit = run.options.unit;
-    info.grammar = path_text(std::filesystem::path(path).stem());
+    info.grammar = path_text(path_of(path).stem());
     info.seed = grown.forest.key;
     info.generator = run.context.generator;
     info.threads = project.threads;
@@ -118,7 +117,7 @@ ExitStatus write_baked(const ForestOutput& run,
     if (path == "-") {
         info.textures = format.pictures == ExportPictures::Inside;
     } else {
-        info.picture_prefix = path_text(std::filesystem::path(run.options.output).stem());
+        info.picture_prefix = path_text(path_of(run.options.output).stem());
         std::vector<PictureFile> pictures;
         status =
             run.context.console.take(make_picture_files(mesh, run.target.format, info), pictures);
@@ -126,8 +125,7 @@ ExitStatus write_baked(const ForestOutput& run,
             status = add_pictures(pictures, path, outputs);
         }
         if (status == ExitStatus::Ok && format.has_mtl) {
-            const std::filesystem::path library =
-                std::filesystem::path(path).replace_extension(".mtl");
+            const std::filesystem::path library = path_of(path).replace_extension(".mtl");
             info.mtl_name = path_text(library.filename());
             status = outputs.add(path_text(library),
                                  [&](const ByteSink& sink) { return write_mtl(mesh, info, sink); });

@@ -42,13 +42,13 @@ double lod_distance(const PlantExtent& extent, float pixels) {
 }
 
 std::string lod_path(const std::string& path, std::size_t number) {
-    std::filesystem::path name(path);
+    std::filesystem::path name = path_of(path);
     const std::string extension = path_text(name.extension());
-    return path_text(name.replace_extension(fmt::format(".LOD{}{}", number, extension)));
+    return path_text(name.replace_extension(path_of(fmt::format(".LOD{}{}", number, extension))));
 }
 
 std::string lods_json_path(const std::string& path) {
-    return path_text(std::filesystem::path(path).replace_extension(".lods.json"));
+    return path_text(path_of(path).replace_extension(".lods.json"));
 }
 
 std::string

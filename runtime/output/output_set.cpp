@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/output/output_set.h"
 
+#include "grammar/base/paths.h"
+
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -13,7 +15,7 @@ bool OutputContext::is_regular(const std::string& path) const {
         return true;
     }
     std::error_code ignored;
-    const auto kind = std::filesystem::status(path, ignored).type();
+    const auto kind = std::filesystem::status(path_of(path), ignored).type();
     return path != "-" && (kind == std::filesystem::file_type::not_found ||
                            kind == std::filesystem::file_type::regular);
 }

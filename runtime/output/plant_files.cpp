@@ -32,9 +32,8 @@ ExitStatus add_side_files(PlantRun& run,
                           ExportInfo& info,
                           OutputSet& files) {
     // Each level of detail has pictures of its own; all frames share theirs.
-    info.picture_prefix = run.options.lods != 0
-                              ? path_text(path.stem())
-                              : path_text(std::filesystem::path(run.options.output).stem());
+    info.picture_prefix = run.options.lods != 0 ? path_text(path.stem())
+                                                : path_text(path_of(run.options.output).stem());
     const bool separate = run.options.buffers == BufferPlace::Separate;
     const std::filesystem::path buffer = std::filesystem::path(path).replace_extension(".bin");
     info.buffer_name = separate ? path_text(buffer.filename()) : std::string();
@@ -48,7 +47,7 @@ ExitStatus add_side_files(PlantRun& run,
         if (!run.pictures.insert(picture.name).second) {
             continue;
         }
-        status = files.add(path_text(path.parent_path() / picture.name),
+        status = files.add(path_text(path.parent_path() / path_of(picture.name)),
                            [&](const ByteSink& sink) { return write_picture_file(picture, sink); });
         if (status != ExitStatus::Ok) {
             return status;
@@ -109,10 +108,10 @@ ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const Mesh
 ExportInfo export_info(const PlantRun& run) {
     const PlantFileOptions& given = run.options;
     ExportInfo info;
-    info.grammar = path_text(std::filesystem::path(run.file).filename());
+    info.grammar = path_text(path_of(run.file).filename());
     // Nodes are named after the output, else after the grammar; exporters have a default name.
     const std::string& named = given.output == "-" ? run.file : given.output;
-    info.name = named == "-" ? "" : path_text(std::filesystem::path(named).stem());
+    info.name = named == "-" ? "" : path_text(path_of(named).stem());
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = run.context.generator;
@@ -185,7 +184,7 @@ ExitStatus write_mesh(PlantRun& run,
     OutputSet files(run.context);
     ExitStatus status = ExitStatus::Ok;
     if (run.context.is_regular(path)) {
-        status = add_side_files(run, written, path, info, files);
+        status = add_side_files(run, written, path_of(path), info, files);
     }
     if (status == ExitStatus::Ok) {
         status = files.add(path, [&](const ByteSink& sink) {
@@ -263,7 +262,7 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
         ExportInfo info = origin;
         info.coarser = &meshes;
         if (run.context.is_regular(given.output)) {
-            status = add_side_files(run, placed, given.output, info, files);
+            status = add_side_files(run, placed, path_of(given.output), info, files);
         }
         if (status != ExitStatus::Ok) {
             return status;
@@ -284,13 +283,13 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
             const std::string path = lod_path(given.output, i);
             ExportInfo info = origin;
             info.collision = i == 0 ? origin.collision : CollisionKind::None;
-            status = add_side_files(run, placed, path, info, files);
+            status = add_side_files(run, placed, path_of(path), info, files);
             if (status == ExitStatus::Ok) {
                 status = files.add(path, [&](const ByteSink& sink) {
                     return export_mesh(run.mesh, placed, run.format, info, sink);
                 });
             }
-            list.push_back({.name = path_text(std::filesystem::path(path).filename()),
+            list.push_back({.name = path_text(path_of(path).filename()),
                             .triangles = run.mesh.indices.size() / 3,
                             .pixels = run.levels.levels[i].pixels,
                             .coverage = meshes[i].coverage});

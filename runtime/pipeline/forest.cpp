@@ -32,7 +32,7 @@ constexpr std::uint64_t kDefaultCount = 1000;
 /// Joins `folder` and a path relative to it. Removes `..`, unless a symbolic link makes the shorter
 /// path another file.
 std::string path_in(const std::string& folder, const std::string& path) {
-    const std::filesystem::path whole = std::filesystem::path(folder) / path;
+    const std::filesystem::path whole = path_of(folder) / path_of(path);
     const std::filesystem::path normal = whole.lexically_normal();
     std::error_code missing;
     return std::filesystem::equivalent(whole, normal, missing) ? path_text(normal)
@@ -72,7 +72,7 @@ Scene scene_of(const std::vector<std::string>& grammars) {
     scene.placement.count = kDefaultCount;
     for (const std::string& path : grammars) {
         SceneSpecies& species = scene.species.emplace_back();
-        species.name = path_text(std::filesystem::path(path).stem());
+        species.name = path_text(path_of(path).stem());
         species.grammar.path = path;
         scene.placement.species.emplace_back();
     }
@@ -364,7 +364,7 @@ std::optional<std::size_t> find_reusable(const SceneSpecies& species,
 } // namespace
 
 bool is_scene(const std::string& path) {
-    return std::filesystem::path(path).extension() == ".toml";
+    return path_of(path).extension() == ".toml";
 }
 
 Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
@@ -391,7 +391,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
             return step.end(Stop::Diagnosed);
         }
         loaded.scene = std::move(*read);
-        loaded.folder = path_text(std::filesystem::path(path).parent_path());
+        loaded.folder = path_text(path_of(path).parent_path());
     }
     if (!values_of("seed", overrides.grammar.settings).empty()) {
         return step.fail("--set seed: plants of a forest have seeds of their own, from --seed");

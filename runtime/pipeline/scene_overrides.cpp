@@ -25,7 +25,7 @@ void replace_if_set(const std::optional<Value>& option, Target& target) {
 
 Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain) {
     const auto absolute = [](const std::string& path) {
-        return SceneFile{path_text(std::filesystem::absolute(path)), {}};
+        return SceneFile{path_text(std::filesystem::absolute(path_of(path))), {}};
     };
     if (!overrides.ground_picture.empty()) {
         terrain.colour = absolute(overrides.ground_picture);
@@ -160,7 +160,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
     const bool dominates = placement.method == PlacementMethod::Domination;
     replace_if_set(overrides.years, dominates ? placement.years : placement.stages_passed);
     if (!overrides.density_map.empty()) {
-        scene.density_map.path = path_text(std::filesystem::absolute(overrides.density_map));
+        scene.density_map.path =
+            path_text(std::filesystem::absolute(path_of(overrides.density_map)));
     }
     if (overrides.size) {
         const auto side = static_cast<double>(*overrides.size);

@@ -118,9 +118,9 @@ std::string errno_text(int reason) {
 }
 
 std::string numbered_path(const std::string& path, std::uint32_t number) {
-    std::filesystem::path name(path);
+    std::filesystem::path name = path_of(path);
     const std::string extension = path_text(name.extension());
-    return path_text(name.replace_extension(fmt::format(".{:04}{}", number, extension)));
+    return path_text(name.replace_extension(path_of(fmt::format(".{:04}{}", number, extension))));
 }
 
 void report_complete_frames(const std::string& path,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/program/host.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/program/files.h"
 #include "runtime/program/memory_size.h"
 
@@ -20,7 +21,7 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
     };
     host.file_exists = [](const std::string& path) {
         std::error_code ignored;
-        return std::filesystem::exists(path, ignored);
+        return std::filesystem::exists(path_of(path), ignored);
     };
     host.cancelled = cancelled;
     return host;

@@ -2,6 +2,7 @@
 #include "runtime/program/option_parsers.h"
 
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/pipeline/setting_options.h"
@@ -140,7 +141,7 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
 void add_base(CLI::App& app, RunOptions& run) {
     const auto folder = [](const std::string& text) -> Result<std::string> {
         std::error_code ignored;
-        return std::filesystem::is_directory(text, ignored)
+        return std::filesystem::is_directory(path_of(text), ignored)
                    ? Result<std::string>(text)
                    : Error{fmt::format("`{}` is not a folder", text)};
     };

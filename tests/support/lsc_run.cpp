@@ -72,7 +72,7 @@ ScratchFolder::~ScratchFolder() {
 }
 
 std::string ScratchFolder::operator/(std::string_view name) const {
-    return path_text(path_ / name);
+    return path_text(path_ / path_of(name));
 }
 
 std::size_t ScratchFolder::file_count() const {

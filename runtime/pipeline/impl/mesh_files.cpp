@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
 
 std::string beside(const std::string& path, const std::string& name) {
-    return path_text(std::filesystem::path(path).parent_path() / name);
+    return path_text(path_of(path).parent_path() / path_of(name));
 }
 
 /// A material file (.mtl) that has been read.
@@ -54,7 +54,7 @@ read_picture_file(const std::string& path, std::uint64_t max_bytes, const Projec
 }
 
 bool is_picture(const std::string& path) {
-    const std::string extension = path_text(std::filesystem::path(path).extension());
+    const std::string extension = path_text(path_of(path).extension());
     return extension.size() == 4 && (extension == ".png" || extension == ".PNG");
 }
 
@@ -330,7 +330,7 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
         if (name.path.empty() || stop) {
             return nullptr;
         }
-        const std::string path = path_text(folder / name.path);
+        const std::string path = path_text(folder / path_of(name.path));
         std::shared_ptr<const Texture>& picture = budget.pictures[path];
         if (picture == nullptr) {
             Result<Texture> read = read_picture_file(path, budget.left, step.project());
@@ -386,7 +386,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
     MeshFiles files;
     bool ok = true;
     const Bytecode& bytecode = grammar.bytecode;
-    const std::filesystem::path folder = std::filesystem::path(grammar_file).parent_path();
+    const std::filesystem::path folder = path_of(grammar_file).parent_path();
     if (const std::optional<Stop> stop = read_looks(folder, grammar, budget, step, files.looks)) {
         return step.end(*stop);
     }
@@ -397,7 +397,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (symbol.turtle != TurtleOperation::MeshFile && !is_of_polygons) {
             continue;
         }
-        const std::string path = path_text(folder / symbol.mesh_file);
+        const std::string path = path_text(folder / path_of(symbol.mesh_file));
         if (is_of_polygons || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {

@@ -37,6 +37,14 @@ TEST_CASE("backslashes and drives are of Windows") {
     CHECK(name_of_path("a\\b/c\\d.lsys") == (is_windows ? "d.lsys" : "c\\d.lsys"));
 }
 
+TEST_CASE("a path of a text has the same text") {
+    const std::filesystem::path named = u8"\u00E4hre/\u9EA6.lsys";
+    CHECK(path_of("\xC3\xA4hre/\xE9\xBA\xA6.lsys") == named);
+    CHECK(path_text(path_of("\xC3\xA4hre/\xE9\xBA\xA6.lsys")) == "\xC3\xA4hre/\xE9\xBA\xA6.lsys");
+    CHECK(!path_of("\xFF").empty()); // not UTF-8
+    CHECK(path_of("").empty());
+}
+
 TEST_CASE("the text of a path has slashes and is kept otherwise") {
     CHECK(path_text(std::filesystem::path("a") / "b.lsys") == "a/b.lsys");
     CHECK(path_text("a//b/./c") == "a//b/./c");
