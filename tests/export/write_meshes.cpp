@@ -36,7 +36,7 @@ bool write_file(const std::filesystem::path& path,
               });
     file.close();
     if (!written || !file) {
-        std::fprintf(stderr, "%s: not written\n", path.c_str());
+        std::fprintf(stderr, "%s: not written\n", path.string().c_str());
         return false;
     }
     return true;

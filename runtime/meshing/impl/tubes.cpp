@@ -2,6 +2,7 @@
 #include "runtime/meshing/impl/tubes.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/base/waitable_count.h"
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/axes.h"
 #include "runtime/meshing/impl/axis_reader.h"
@@ -9,7 +10,6 @@
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <span>
 #include <utility>
@@ -46,7 +46,7 @@ struct LongRun {
     std::uint64_t first_vertex = 0; // among the vertices of the piece
     std::uint64_t end_vertex = 0;
     std::vector<TubeWriter::Place> places; // the start of each part
-    std::atomic<std::size_t> known{1};     // count of places found so far
+    WaitableCount known{1};                // count of places found so far
 };
 
 /// A range of segments, and the runs of the axes that begin there.
@@ -215,22 +215,19 @@ private:
         if (task_.part == 0) {
             shared.places[0] = writer_.begin(run);
         }
-        for (std::size_t known = shared.known; known <= task_.part; known = shared.known) {
-            shared.known.wait(known);
-        }
+        shared.known.wait_above(task_.part);
         TubeWriter::Place& next = shared.places[task_.part + 1];
         TubeWriter::Place place = shared.places[task_.part];
         const bool others_wait = !alone_ && end < run.joints.size();
         if (others_wait) {
             next = place;
             writer_.skip(run, next, end);
-            shared.known = task_.part + 2;
-            shared.known.notify_all();
+            shared.known.raise(task_.part + 2);
         }
         writer_.write(run, place, end);
         if (!others_wait) {
             next = place;
-            shared.known = task_.part + 2;
+            shared.known.raise(task_.part + 2);
         }
         LSYS_CHECK(end < run.joints.size() || writer_.vertex() == task_.end_vertex,
                    writer_.vertex(), task_.end_vertex);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// WaitableCount: a count that one thread raises and others wait for. Instead of
+// std::atomic::wait(), because that of libstdc++ 12 misses wake-ups on systems without futexes
+// (Windows), and threads then wait for ever.
+#pragma once
+
+#include <cstddef>
+
+#if LSYS_THREADS
+#include <condition_variable>
+#include <mutex>
+#endif
+
+namespace lsys {
+
+#if LSYS_THREADS
+
+class WaitableCount {
+public:
+    explicit WaitableCount(std::size_t count) : count_(count) {}
+
+    /// Returns when the count is above `bound`. What the raising thread wrote before can be read.
+    void wait_above(std::size_t bound) {
+        std::unique_lock lock(mutex_);
+        raised_.wait(lock, [&] { return count_ > bound; });
+    }
+    void raise(std::size_t count) {
+        {
+            const std::lock_guard lock(mutex_);
+            count_ = count;
+        }
+        raised_.notify_all();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable raised_;
+    std::size_t count_;
+};
+
+#else
+
+class WaitableCount {
+public:
+    explicit WaitableCount(std::size_t /*count*/) {}
+    void wait_above(std::size_t /*bound*/) {} // the only thread has raised it already
+    void raise(std::size_t /*count*/) {}
+};
+
+#endif
+
+} // namespace lsys
