@@ -4,7 +4,7 @@
 // of its parent is raised separately.
 #include "runtime/physics/impl/ground.h"
 
-#include "runtime/physics/impl/trigonometry.h"
+#include "runtime/base/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trigonometry of physics against that of the standard library with 64-bit mantissas.
-#include "runtime/physics/impl/trigonometry.h"
+// The trigonometry of runtime/base against that of the standard library with 64-bit mantissas.
+#include "runtime/base/trigonometry.h"
 
 #include <catch2/catch.hpp>
 
