@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/pipeline/forest_lods.h"
 
-#include "grammar/base/contract.h"
-#include "runtime/base/workers.h"
-#include "runtime/forest/instance_skeleton.h"
-#include "runtime/meshing/detail_levels.h"
+#include "runtime/pipeline/hero_levels.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -22,28 +19,6 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
-/// Planning fits no level: fit_detail_levels() later fits the levels that trees use.
-constexpr DetailChain kChain{.pictures = true, .first_fitted = kNoDetailLevel};
-
-/// A whole plant of a species and stage, with its levels of detail.
-struct Hero {
-    std::uint32_t species = 0;
-    std::uint32_t stage = 0;
-    std::uint32_t instance = 0; // index of the whole plant in the instances of the stage's cache
-    Skeleton skeleton;
-    DetailLevels levels;
-    Bounds bounds;            // of level 0
-    std::vector<bool> in_use; // by level: whether some tree uses it
-    std::vector<Mesh> meshes; // of levels in use
-    std::optional<Stop> stop;
-
-    /// Largest side of the bounding box, in m.
-    [[nodiscard]] float extent() const {
-        const glm::vec3 size = bounds.high - bounds.low;
-        return std::max({size.x, size.y, size.z});
-    }
-};
-
 bool is_same(const Material& a, const Material& b) {
     return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.relief,
                     a.roughness, a.translucency) == std::tie(b.name, b.kind, b.two_sided, b.cut_out,
@@ -91,52 +66,6 @@ void add_instance(const Mesh& mesh, InstanceMeshes& all, LargeVector<std::uint32
         }
         all.mesh.parts.push_back(part);
     }
-}
-
-/// The heroes of all species and stages, with their levels.
-Outcome<std::vector<Hero>>
-plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project) {
-    Step step(project);
-    std::vector<Hero> heroes;
-    for (std::uint32_t s = 0; s < grown.forest.species.size(); ++s) {
-        const ForestSpecies& species = grown.forest.species[s];
-        for (std::uint32_t i = 0; i < species.stages.size(); ++i) {
-            const InstanceCache& cache = species.stages[i].cache;
-            const InstanceSlot& whole = cache.slots[0];
-            for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
-                const std::uint32_t instance = cache.variants[whole.first_variant + v];
-                LSYS_CHECK(cache.instances[instance].exit_count == 0, instance);
-                Hero& hero = heroes.emplace_back();
-                hero.species = s;
-                hero.stage = i;
-                hero.instance = instance;
-                hero.skeleton = skeleton_of(cache, cache.instances[instance]);
-            }
-        }
-    }
-    MeshOptions alone = options;
-    alone.threads = 1; // heroes are meshed in parallel
-    alone.max_bytes = project.limits.max_bytes;
-    Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
-        Hero& hero = heroes[number];
-        const std::vector<UserMesh>& files = grown.user_meshes[hero.species];
-        hero.stop = plan_detail_levels(hero.skeleton, files, alone, kChain, hero.levels);
-        Mesh finest;
-        if (!hero.stop) {
-            hero.stop = make_detail_mesh(hero.skeleton, files, hero.levels, 0, alone, finest);
-        }
-        for (const glm::vec3& position : finest.positions) {
-            hero.bounds.add(position);
-        }
-        hero.in_use.resize(hero.levels.levels.size());
-        hero.meshes.resize(hero.levels.levels.size());
-    });
-    for (const Hero& hero : heroes) {
-        if (hero.stop) {
-            return end_mesh_of_heroes(*hero.stop, step);
-        }
-    }
-    return step.done(std::move(heroes));
 }
 
 /// Viewpoint outside the forest, near the tree that is outermost in the direction of the initial
@@ -218,21 +147,9 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
         keys_of_trees.emplace_back(hero.species, hero.stage, level);
         kinds.emplace(keys_of_trees.back(), std::uint16_t{0});
     }
-    MeshOptions alone = options;
-    alone.threads = 1;
-    alone.max_bytes = project.limits.max_bytes;
-    Workers(project.threads).for_each(heroes.size(), [&](std::uint64_t number) {
-        Hero& hero = heroes[number];
-        const std::vector<UserMesh>& files = grown.user_meshes[hero.species];
-        hero.stop =
-            fit_detail_levels(hero.skeleton, files, alone, kChain, hero.in_use, hero.levels);
-        for (std::size_t k = 0; k < hero.meshes.size() && !hero.stop; ++k) {
-            if (hero.in_use[k]) {
-                hero.stop =
-                    make_detail_mesh(hero.skeleton, files, hero.levels, k, alone, hero.meshes[k]);
-            }
-        }
-    });
+    if (!step.take(mesh_heroes(grown, options, project, heroes))) {
+        return step.end();
+    }
 
     for (auto& [key, number] : kinds) {
         const auto& [s, stage, level] = key;
@@ -266,9 +183,6 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                 continue;
             }
             const Hero& hero = *found->second;
-            if (hero.stop) {
-                return end_mesh_of_heroes(*hero.stop, step);
-            }
             if (level >= hero.meshes.size() || !hero.in_use[level]) {
                 continue;
             }
