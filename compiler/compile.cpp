@@ -46,8 +46,8 @@ Result<void> change_settings(Ast& ast,
                              Bytecode& bytecode,
                              Diagnostics& diagnostics) {
     resolve_settings(ast, names, sources, bytecode.settings, diagnostics);
-    if (const std::optional<std::string> misfit = verify(bytecode)) {
-        return Error{*misfit};
+    if (const std::optional<std::string> problem = verify(bytecode)) {
+        return Error{*problem};
     }
     return {};
 }

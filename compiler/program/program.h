@@ -47,7 +47,7 @@ struct Value {
     ValueId right = kNoValue;
 
     [[nodiscard]] bool has_third() const { return opcode == Opcode::If || opcode == Opcode::Mix; }
-    /// The operands; If has its condition first. kNoValue replaces missing operands.
+    /// `third`, `left` and `right`; kNoValue replaces missing operands.
     [[nodiscard]] std::array<ValueId, 3> operands() const {
         return {has_third() ? third : kNoValue, left, right};
     }

@@ -9,8 +9,8 @@
 namespace lsys {
 
 [[nodiscard]] std::string dump_program(const Program& program, const Names& names);
-/// dump_program() without names of productions, which change no word: equal for programs that
-/// derive the same words.
+/// dump_program() without the names of productions, which do not affect words: two programs with
+/// equal dumps derive the same words.
 [[nodiscard]] std::string dump_without_labels(const Program& program, const Names& names);
 
 } // namespace lsys

@@ -13,7 +13,7 @@ struct Vertex {
     float normal[3];
 };
 
-/// The data after the matrix of an instance in the buffer of this renderer.
+/// One instance in the buffer of this renderer: its matrix, then data of the renderer.
 struct InstanceData {
     float matrix[16];
     float tint[4];

@@ -127,7 +127,7 @@ public:
     void mark_incomplete();
     /// Lets finish_statement() roll the current statement back.
     void discard_statement() { is_discarded_ = true; }
-    /// Discards the current statement and its open arguments; the parser goes on within it.
+    /// Discards the current statement and its open arguments; the parser continues inside the statement.
     void recover();
 
     /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as

@@ -48,7 +48,7 @@ private:
     mutable std::size_t hint_ = 0;
 };
 
-/// The scanned text of a file; the only place where its offsets become places of the file.
+/// The scanned text of a file. Only this struct converts offsets in the text to places in the file.
 struct ScannedText {
     FileId file = kNoFile;
     std::string_view text;

@@ -60,7 +60,7 @@ if(LSYS_SHARED)
   lsys_deb(library "${library}" libs "L-systems: shared library"
     "liblsys compiles grammars of L-systems, derives words, draws plants, meshes
 them and writes them as files, for programs in C++ and C.")
-  # CPack writes `shlibs` for all packages or none, and the module for Python is no library.
+  # Written here, because CPack writes `shlibs` for all packages or none, and no program links to the Python module.
   file(CONFIGURE OUTPUT deb/shlibs CONTENT "liblsys ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} \
 ${library} (>= ${PROJECT_VERSION})\n")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA

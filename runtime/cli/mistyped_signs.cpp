@@ -45,32 +45,32 @@ char added_sign(std::string_view added) {
 
 std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) {
     const char sign = added_sign(text.substr(added.begin, added.end - added.begin));
-    std::string without(text.substr(0, added.begin));
-    without += text.substr(added.end);
+    std::string without_addition(text.substr(0, added.begin));
+    without_addition += text.substr(added.end);
     std::vector<std::string> texts;
     const auto add = [&](std::size_t at) {
-        std::string other = without;
+        std::string other = without_addition;
         other[at] = sign;
-        if (without[at] != sign && is_laid_out_as_others(other, at)) {
+        if (without_addition[at] != sign && is_laid_out_as_others(other, at)) {
             texts.push_back(std::move(other));
         }
     };
     if (sign == '\0') {
         return texts;
     }
-    const std::size_t before = added.begin == 0
-                                   ? std::string::npos
-                                   : without.find_last_not_of(kSignBlanks, added.begin - 1);
+    const std::size_t before =
+        added.begin == 0 ? std::string::npos
+                         : without_addition.find_last_not_of(kSignBlanks, added.begin - 1);
     if (before != std::string::npos) {
         add(before);
         // The same sign before this character may have been exchanged with it.
-        if (before > 0 && without[before - 1] == sign) {
-            std::string exchanged = without;
+        if (before > 0 && without_addition[before - 1] == sign) {
+            std::string exchanged = without_addition;
             std::swap(exchanged[before - 1], exchanged[before]);
             texts.push_back(std::move(exchanged));
         }
     }
-    const std::size_t after = without.find_first_not_of(kSignBlanks, added.begin);
+    const std::size_t after = without_addition.find_first_not_of(kSignBlanks, added.begin);
     if (after != std::string::npos) {
         add(after);
     }

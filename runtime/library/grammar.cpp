@@ -112,10 +112,10 @@ std::vector<PredictedSize> Grammar::predict(std::uint32_t generations) const {
     for (std::size_t i = 0; i < growth.low.size(); ++i) {
         const GenerationSize& low = growth.low[i];
         const GenerationSize& high = growth.high[i];
-        constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+        constexpr std::uint64_t kMaxBytes = std::numeric_limits<std::uint64_t>::max();
         sizes.push_back({rounded(low.modules), rounded(high.modules), rounded(low.segments),
                          rounded(high.segments),
-                         high.bytes.at_most(kMost) ? high.bytes.value.low : kMost});
+                         high.bytes.at_most(kMaxBytes) ? high.bytes.value.low : kMaxBytes});
     }
     return sizes;
 }

@@ -145,7 +145,7 @@ const FormatTraits* format_of(const ForestFileOptions& options) {
 void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
     std::vector<std::pair<std::string, std::string>> names;
     for (const Preset& preset : presets()) {
-        if (command == PresetCommand::Export || !preset.forests.empty()) {
+        if (command == PresetCommand::Export || !preset.forest_formats.empty()) {
             names.emplace_back(preset.name, preset.name);
         }
     }
@@ -272,8 +272,8 @@ void add_forest_form(CLI::App& app, ForestFileOptions& options) {
 }
 
 void add_forest_mesh(CLI::App& app, ForestFileOptions& options) {
-    constexpr std::uint64_t kMaxStages = 10'000;
-    add_parsed(app, "--frames", options.frames, integer(0, kMaxStages),
+    constexpr std::uint64_t kMaxFrames = 10'000;
+    add_parsed(app, "--frames", options.frames, integer(0, kMaxFrames),
                "Write N moments of a forest that grows, by domination or through its stages, as "
                "numbered files")
         ->type_name("N")

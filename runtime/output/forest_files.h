@@ -27,7 +27,7 @@ struct ForestTarget {
 /// Error: the extension is no format of forests.
 [[nodiscard]] Result<ForestTarget> target_of(const ForestFileOptions& options);
 
-/// A message about options that conflict; empty if none do. `rho`: of the overrides of the scene.
+/// A message about options that conflict; empty if none do. `rho`: value of SceneOverrides::rho.
 [[nodiscard]] std::string find_conflict(const ForestFileOptions& options,
                                         const ForestTarget& target,
                                         std::optional<float> rho);

@@ -32,8 +32,8 @@ struct OutputContext {
     const FileReceiver* receiver = nullptr;    // null: files on disk
     std::vector<std::string>* paths = nullptr; // if not null, gets the paths of the files
 
-    /// Whether `path` is, or will be, a regular file or goes to a receiver; otherwise no other files
-    /// can accompany it.
+    /// Whether other files can be written beside `path`: it is or will be a regular file, or a
+    /// receiver takes the files.
     [[nodiscard]] bool is_regular(const std::string& path) const;
 };
 

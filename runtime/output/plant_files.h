@@ -57,7 +57,7 @@ find_conflict(const PlantFileOptions& options, ExportFormat format, const Output
                                             PlantFileReport& report,
                                             Plant& last);
 
-/// Compiles the grammar with value `number` of a variant, and grows its plant.
+/// Compiles the grammar for entry `number` of the values of a variant, and grows its plant.
 using GrowVariant = std::function<ExitStatus(std::size_t number, Grammar& grammar, Plant& plant)>;
 /// Writes one plant for each of `values` into one file. `first` becomes the first plant.
 /// Precondition: no conflict; `file`: the path of the grammar.

@@ -38,7 +38,7 @@ constexpr std::array kOptions{
 };
 
 std::string_view formats_of(const Preset& preset, PresetCommand command) {
-    return command == PresetCommand::Export ? preset.plants : preset.forests;
+    return command == PresetCommand::Export ? preset.plant_formats : preset.forest_formats;
 }
 
 /// The words of a text, separated by blanks.

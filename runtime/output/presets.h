@@ -32,9 +32,9 @@ struct PresetOption {
 /// A row of presets.def.
 struct Preset {
     std::string_view name;
-    std::string_view use;     // programs that read the files
-    std::string_view plants;  // names of formats for `lsc export`, separated by blanks
-    std::string_view forests; // names of formats for `lsc forest`; empty: none
+    std::string_view use;            // programs that read the files
+    std::string_view plant_formats;  // names of formats for `lsc export`, separated by blanks
+    std::string_view forest_formats; // names of formats for `lsc forest`; empty: none
 };
 
 [[nodiscard]] std::span<const Preset> presets();

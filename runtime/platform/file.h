@@ -70,7 +70,8 @@ struct FileFacts {
 [[nodiscard]] Reason resolve_links(const std::string& path, std::string& real);
 [[nodiscard]] Reason set_permissions(const File& file, unsigned permissions);
 
-/// A number of bytes, or the reason of a failure. EINTR: a signal arrived before.
+/// A number of bytes, or the reason of a failure. EINTR: a signal arrived before any byte was read
+/// or written.
 struct ByteCount {
     std::size_t count = 0;
     Reason reason = 0;
@@ -95,7 +96,7 @@ void remove_file(const char* path) noexcept;
 /// Attributes of a file that change with its contents.
 struct FileStamp {
     bool exists = false;
-    std::int64_t seconds = 0;
+    std::int64_t seconds = 0; // time of the last modification
     std::int64_t nanoseconds = 0;
     std::int64_t size = 0;
     std::uint64_t node = 0; // number of the file in its file system; 0 if it has none

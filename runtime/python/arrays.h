@@ -31,7 +31,7 @@ inline py::array rows(std::span<const Item> items, const py::object& owner) {
                 items.data(), owner);
 }
 
-/// A type of numpy with named fields: names, formats and offsets.
+/// A field of a structured dtype of numpy.
 struct Field {
     const char* name;
     const char* format;

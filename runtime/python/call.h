@@ -53,13 +53,14 @@ struct CallOptions {
                                              bool smooth_joints,
                                              float min_width);
 
-/// Python's `threading.main_thread()` handles Ctrl-C.
+/// Whether this is Python's main thread (`threading.main_thread()`), which handles Ctrl-C.
 [[nodiscard]] bool is_main_thread();
-/// A value of Python as the contents of a file: bytes or text; an OSError has the reason of a failure.
+/// Calls read(path), which returns the contents of the file as bytes or text, or None for a missing
+/// file. An OSError becomes the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
-/// Makes a function of Python with the arguments (name, bytes, is_last) a receiver of files; the
-/// function ends the call by returning False. `receive` must outlive the receiver, which is called
-/// without the lock.
+/// A receiver of files that calls the Python function receive(name, bytes, is_last), which ends the
+/// call by returning False. `receive` must outlive the receiver. The caller of the receiver need not
+/// hold the lock.
 [[nodiscard]] lsys::FileReceiver receiver_of(const py::function& receive);
 /// Raises the exception for a call that has failed.
 [[noreturn]] void raise(lsys::Status status, const lsys::Messages& messages);
@@ -72,7 +73,7 @@ void wait_for_end_if_ending();
 /// Blocks the thread for good.
 [[noreturn]] void wait_for_end();
 
-/// Calls `work` with the interpreter's lock. If a thread requests the lock while the interpreter
+/// Calls `work` with the interpreter's lock (GIL). If a thread requests the lock while the interpreter
 /// ends, CPython unwinds the stack of the thread, which C++ code does not survive; with_lock()
 /// blocks the thread instead.
 template <typename Work>

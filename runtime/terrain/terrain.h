@@ -72,7 +72,7 @@ public:
 private:
     struct Octave {
         double frequency = 0.0; // noise cells per metre
-        double shift_x = 0.0;
+        double shift_x = 0.0;   // noise cells
         double shift_z = 0.0;
         float layer = 0.0F;     // third coordinate in the noise
         double amplitude = 0.0; // m

@@ -15,7 +15,7 @@ import sys
 MAX_LEVELS = 8
 
 
-def fitting(levels):
+def select_levels(levels):
     """The first levels and the last one, at most MAX_LEVELS."""
     return levels if len(levels) <= MAX_LEVELS else levels[: MAX_LEVELS - 1] + levels[-1:]
 
@@ -43,7 +43,7 @@ def import_mesh(unreal, path, folder):
 
 def import_levels(unreal, list_path, folder):
     with open(list_path, encoding="utf-8") as file:
-        levels = fitting(json.load(file)["levels"])
+        levels = select_levels(json.load(file)["levels"])
     beside = os.path.dirname(os.path.abspath(list_path))
     name = os.path.basename(list_path).split(".")[0]
     editor = unreal.get_editor_subsystem(unreal.StaticMeshEditorSubsystem)

@@ -126,14 +126,14 @@ double peak_megabytes() {
 void measure(const Kind& kind, std::uint32_t threads) {
     Forest forest;
     forest.key = 42;
-    const double filling = seconds([&] {
+    const double cache_seconds = seconds([&] {
         ForestSpecies& species = forest.species.emplace_back();
         species.name = kind.name;
         species.stages.push_back(stage_of(kind));
     });
     const InstanceCache& cache = forest.species[0].stages[0].cache;
     fmt::print("{}: cache of {} instances, {} segments, made in {:.1f} ms\n", kind.name,
-               cache.instances.size(), cache.skeleton.segments.size(), filling * 1e3);
+               cache.instances.size(), cache.skeleton.segments.size(), cache_seconds * 1e3);
     for (const std::uint32_t count : {10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
         std::vector<double> placing;
         std::vector<double> expanding;

@@ -41,11 +41,11 @@ PlainSystem weed_w2() {
 
 namespace {
 
-constexpr std::size_t kStore = 32;
+constexpr std::size_t kTemplateBytes = 32;
 
-/// The successor of every code, padded so that one copy of fixed length stores it.
+/// The successor of every code, padded so that a copy of fixed length writes it.
 struct Templates {
-    alignas(32) std::uint8_t text[256][kStore]{};
+    alignas(32) std::uint8_t text[256][kTemplateBytes]{};
     std::uint8_t length[256]{};
 };
 
@@ -55,7 +55,7 @@ std::size_t step_plain(const Templates& templates,
                        std::uint8_t* out) {
     std::uint8_t* cursor = out;
     for (std::size_t i = 0; i < count; ++i) {
-        std::memcpy(cursor, templates.text[in[i]], kStore);
+        std::memcpy(cursor, templates.text[in[i]], kTemplateBytes);
         cursor += templates.length[in[i]];
     }
     return static_cast<std::size_t>(cursor - out);

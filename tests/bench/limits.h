@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hand-written programs, each for one L-system: an upper bound of the speed that a general program
 // can reach on the machine. Each derives into the buffers of the caller and returns the number of
-// modules. tests/README.md names the systems W1 to W6.
+// modules. tests/README.md names the systems W1 to W7.
 #pragma once
 
 #include <cstddef>
@@ -57,7 +57,7 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
                                     std::uint8_t* b,
                                     float* parameters_a,
                                     float* parameters_b);
-/// W6 on `count` modules; returns the index of the only `b`.
+/// Derives W6 from `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 

@@ -116,7 +116,7 @@ void measure_plant(const Plant& plant) {
         });
     };
     const double tube = tubes_by(1);
-    const double tube_by_two = tubes_by(2);
+    const double tube_two_threads = tubes_by(2);
     Mesh mesh;
     static_cast<void>(make_mesh(skeleton, {}, mesh_options, mesh));
     const std::size_t vertices = mesh.positions.size();
@@ -144,8 +144,8 @@ void measure_plant(const Plant& plant) {
                rate(16 * segments, tube_small), rate(16 * segments, tube_huge),
                rate(vertices, line + tube),
                rate(vertices, line + tube) / rate(16 * segments, tube_huge),
-               rate(vertices, line + tube_by_two),
-               rate(vertices, line + tube_by_two) / rate(16 * segments, tube_huge),
+               rate(vertices, line + tube_two_threads),
+               rate(vertices, line + tube_two_threads) / rate(16 * segments, tube_huge),
                static_cast<double>(mesh.byte_count()) / static_cast<double>(vertices),
                static_cast<double>(bytes) / file / 1e6);
 }

@@ -19,7 +19,7 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { boxOfPlainGlb, forestReaders } from './forest_readers.mjs';
 
-const kMost = 1e-3; // max difference of a box as a fraction of its shortest side
+const kMaxDifference = 1e-3; // max difference of a box as a fraction of its shortest side
 const own = fileURLToPath(import.meta.url);
 const [given, ...rest] = process.argv.slice(2);
 const modules = resolve(given ?? '.');
@@ -139,7 +139,7 @@ for (const [form, { name, read }] of readers) {
         `${median(runs.map(run => run.seconds)).toFixed(2)} | ` +
         `${median(runs.map(run => run.processor)).toFixed(2)} | ${median(runs.map(run => run.megabytes)).toFixed(0)} | ` +
         `${(100 * off).toFixed(4)} % |`);
-    if (!(off <= kMost) || found.instances !== truth.instances) {
+    if (!(off <= kMaxDifference) || found.instances !== truth.instances) {
         console.log(`${name}: ${found.instances} instances of ${truth.instances}; ` +
             `box ${found.low} ${found.high}, not ${truth.low} ${truth.high}`);
         ++failures;

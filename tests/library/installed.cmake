@@ -57,7 +57,7 @@ if(NOT status EQUAL 1 OR NOT out MATCHES "^2:8-13 \\[unknown-name\\] unknown nam
   message(FATAL_ERROR "diagnostics ends with ${status} and prints\n${out}")
 endif()
 
-# By pkg-config, as in a Makefile.
+# Compiles an example with the flags of pkg-config, as a Makefile does.
 find_program(PKG_CONFIG pkg-config REQUIRED)
 set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBRARY_FOLDER}/pkgconfig")
 set(ENV{PKG_CONFIG_SYSROOT_DIR} "")

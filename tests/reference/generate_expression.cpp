@@ -186,7 +186,7 @@ Expr ExpressionMaker::leaf(const Scope& scope) {
 }
 
 Expr ExpressionMaker::range_of(const Scope& scope, int depth) {
-    // The width is exact, but the sum is rounded to max for many draws.
+    // Ranges whose width is exact, but where min + draw * width is rounded to max for many draws.
     static const std::vector<std::pair<float, float>> kNarrow = {{16777215.0F, 16777216.0F},
                                                                  {1.0F, 1.0000001F},
                                                                  {-1.0F, -0.99999994F},

@@ -625,7 +625,7 @@ private:
             const std::vector<std::string>& other = random_.pick(kOthers);
             add_setting(other[0], other[1], any_file());
         }
-        // `generate` gives the number of generations its value.
+        // A case without #n needs -n. generate() replaces the 0.
         if (!has_generations_ || random_.percent(20)) {
             case_.request.generations = 0;
         }

@@ -22,7 +22,8 @@ public:
     ProductionMaker(Random& random, const Plan& plan, const Constants& constants)
         : random_(random), plan_(plan), expressions_(random, constants), constants_(constants) {}
 
-    // `letters`: for a file with `#set names letters`. Labels are left empty.
+    // Makes a bundle (see the top of this file) with empty labels. `letters`: for a file with
+    // `#set names letters`.
     std::vector<Production> bundle(bool letters);
 
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);

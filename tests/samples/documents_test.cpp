@@ -206,14 +206,14 @@ TEST_CASE("Crankshaw 2019, 7.3: as printed, and with its bracket, module and sph
     CHECK(word_of("crankshaw-7-3", 1) ==
           "!(1.9599999)F(2.2)/(45)!(1.4)F(2)[&(22.5)F(2)A S(1)!(1.4)]/(112.5)"
           "[&(22.5)F(2)A S(1)!(1.4)]/(157.5)[&(22.5)F(2)A S(1)!(1.4)]\n");
-    const std::string mended = word_of("crankshaw-7-3", 6);
+    const std::string corrected = word_of("crankshaw-7-3", 6);
     const std::string printed = word_of("crankshaw-7-3-as-printed", 6);
-    for (const std::string& word : {mended, printed}) {
+    for (const std::string& word : {corrected, printed}) {
         // 1 + 4 (1 + 3 + ... + 243) segments.
         CHECK(occurrences(word, "F(") == 1457);
         CHECK(occurrences(word, "[") == 3 * 364);
     }
-    CHECK(occurrences(mended, "]") == 3 * 364);
+    CHECK(occurrences(corrected, "]") == 3 * 364);
     CHECK(occurrences(printed, "]") == 2 * 364);
     CHECK(occurrences(dump(sample("crankshaw-7-3"), {"--stage", "skeleton"}), " sphere ") ==
           3 * 364);

@@ -46,13 +46,13 @@ TEST_CASE("the command lines of samples succeed") {
 TEST_CASE("samples have the stated numbers of modules") {
     std::size_t counted = 0;
     for (const Sample& sample : all_samples()) {
-        if (sample.count_count == 0) {
+        if (sample.counts_size == 0) {
             continue;
         }
         ++counted;
         INFO(sample.file);
         const LscRun run = run_lsc({"dump", sample.file.string(), "--all", "--count", "-n",
-                                    std::to_string(sample.count_count - 1)},
+                                    std::to_string(sample.counts_size - 1)},
                                    "");
         CHECK(run.status == 0);
         CHECK(run.out == sample.counts);

@@ -44,7 +44,7 @@ public:
     }
 
     /// Symbols have the lowest codes, so all are declared before the first word.
-    void see_symbols(const std::string& modules) {
+    void declare_symbols(const std::string& modules) {
         for (const ModuleText& module : read_modules(modules)) {
             symbol(module.name, module.arguments.size());
         }
@@ -216,16 +216,16 @@ Bytecode BytecodeBuilder::build() const {
     Assembler assembler(fold, unused_);
     Bytecode& bytecode = assembler.bytecode();
     bytecode.settings = settings;
-    assembler.see_symbols(declared_);
-    assembler.see_symbols(axiom_);
+    assembler.declare_symbols(declared_);
+    assembler.declare_symbols(axiom_);
     std::vector<ProductionText> texts;
     for (const std::string& text : productions_) {
         texts.push_back(read_production(text));
         const ProductionText& production = texts.back();
-        assembler.see_symbols(production.left.value_or(""));
-        assembler.see_symbols(production.predecessor);
-        assembler.see_symbols(production.right.value_or(""));
-        assembler.see_symbols(production.successor);
+        assembler.declare_symbols(production.left.value_or(""));
+        assembler.declare_symbols(production.predecessor);
+        assembler.declare_symbols(production.right.value_or(""));
+        assembler.declare_symbols(production.successor);
     }
     for (BytecodeSymbol& symbol : bytecode.symbols) {
         for (const std::string& name : ignored_) {

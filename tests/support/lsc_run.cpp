@@ -102,7 +102,7 @@ std::vector<Sample> all_samples() {
                 run.insert(run.begin() + (run.empty() ? 0 : 1), path_text(sample.file));
                 sample.runs.push_back(std::move(run));
             } else if (key == "counts:") {
-                for (std::string word; words >> word; ++sample.count_count) {
+                for (std::string word; words >> word; ++sample.counts_size) {
                     sample.counts += word + "\n";
                 }
             }

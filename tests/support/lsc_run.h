@@ -48,7 +48,7 @@ struct Sample {
     std::filesystem::path file;
     std::vector<std::vector<std::string>> runs; // with the name of the file inserted
     std::string counts;                         // one per line, as printed by --all --count
-    std::size_t count_count = 0;
+    std::size_t counts_size = 0;                // number of counts
     bool declares_warnings = false;
 };
 [[nodiscard]] std::vector<Sample> all_samples();

@@ -10,7 +10,7 @@ namespace lsys::view {
 /// Width of the panel on the left, pixels; the picture is beside it.
 [[nodiscard]] float panel_width(float scale);
 
-/// Call between Window::begin_panels() and show(). `scale`: of text.
+/// Call between Window::begin_panels() and Window::present(). `scale`: of text.
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale);
 
 } // namespace lsys::view

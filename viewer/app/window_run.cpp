@@ -104,7 +104,7 @@ private:
         window_.begin_panels();
         View* const drawn = &switcher_.current();
         draw_panels(switcher_, panels_, window_.scale());
-        window_.show();
+        window_.present();
         if (drew && drawn == &switcher_.current()) {
             drawn->picture_shown(std::chrono::duration<double>(Clock::now() - start).count());
         }

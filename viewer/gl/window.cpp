@@ -273,9 +273,9 @@ std::uint32_t Window::height() const {
 }
 
 float Window::scale() const {
-    float across = 1.0F;
-    glfwGetWindowContentScale(state_->window, &across, nullptr);
-    return std::clamp(across, 1.0F, 4.0F);
+    float x_scale = 1.0F;
+    glfwGetWindowContentScale(state_->window, &x_scale, nullptr);
+    return std::clamp(x_scale, 1.0F, 4.0F);
 }
 
 void Window::set_title(const std::string& title) {
@@ -302,7 +302,7 @@ void Window::begin_panels() {
     ImGui::NewFrame();
 }
 
-void Window::show() {
+void Window::present() {
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

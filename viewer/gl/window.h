@@ -104,9 +104,9 @@ public:
     /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);
 
-    /// Draw ImGui windows between these two calls; show() presents the picture.
+    /// Draw ImGui windows between these two calls; present() draws them and shows the picture.
     void begin_panels();
-    void show();
+    void present();
 
 private:
     struct State;

@@ -95,7 +95,7 @@ float crown_sunlight(vec3 crown_position) {
 vec2 fog_to(vec3 world_position) {
     vec3 from_eye = world_position - frame.eye_time.xyz;
     float away = length(from_eye);
-    // sky_colour() just above the horizon.
+    // The wide glow around the sun, as in sky_colour() just above the horizon.
     float near_sun = max(dot(from_eye, frame.to_sun.xyz) / max(away, 1e-6), 0.0);
     near_sun *= near_sun;
     near_sun *= near_sun;

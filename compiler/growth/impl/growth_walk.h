@@ -18,7 +18,7 @@ namespace lsys::analysis {
 [[nodiscard]] bool same(const Count& a, const Count& b);
 [[nodiscard]] bool same(const GenerationSize& a, const GenerationSize& b);
 [[nodiscard]] bool less(const Count& a, const Count& b);
-/// The size of one module of a code.
+/// The size of a generation that is one module with this code.
 [[nodiscard]] GenerationSize size_of(const Bytecode& bytecode, Code code);
 
 class GrowthWalk {

@@ -30,7 +30,7 @@ struct ExpressionInputs {
 /// Runs expressions in the domain of known and unknown values (interpret.h).
 class Evaluator {
 public:
-    /// For code whose stack depth and number of slots are at most these.
+    /// `stack_depth`, `slots`: the max stack depth and number of slots of the code to run.
     explicit Evaluator(std::size_t stack_depth = kUsualStack, std::size_t slots = 0)
         : stack_(std::max<std::size_t>(stack_depth, 1)), slots_(slots) {}
 

@@ -226,7 +226,7 @@ KnownValue ModuleClasses::condition(std::uint32_t production,
     return value_of(production, bytecode_->productions[production].condition, parameters);
 }
 
-/// The value of the condition or weight of a production at `first`; 1 if it has none.
+/// The value of the condition or weight whose code begins at `first_instruction`; 1 if it is kNone.
 KnownValue ModuleClasses::value_of(std::uint32_t production,
                                    std::uint32_t first_instruction,
                                    std::span<const KnownValue> parameters) {

@@ -11,7 +11,7 @@ namespace lsys {
 
 void check_formal_names(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
-    // First production by group.
+    // Per group: its first stochastic production with formals.
     std::vector<std::uint32_t> first(program.context_group_count, kNone);
     std::vector<bool> noted(program.context_group_count);
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {

@@ -102,27 +102,27 @@ private:
     void check_unconditional(std::span<const std::uint32_t> productions) {
         std::uint32_t unconditional = kNone; // the first production without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>
-            first_in_group; // by group: the first production without condition
+            first_unconditional; // by group: the first production without condition
         std::unordered_map<std::uint32_t, std::uint32_t>
-            members; // by group: the first stochastic production
+            first_stochastic; // by group: the first stochastic production
         for (const std::uint32_t p : productions) {
             const std::uint32_t group = code(p).group;
             if (code(p).stochastic) {
-                members.emplace(group, p);
+                first_stochastic.emplace(group, p);
             }
             // A stochastic production is tried together with the first production of its group.
-            const std::uint32_t from = code(p).stochastic ? members.at(group) : p;
-            const auto own = first_in_group.find(group);
+            const std::uint32_t from = code(p).stochastic ? first_stochastic.at(group) : p;
+            const auto own = first_unconditional.find(group);
             std::uint32_t earlier =
                 unconditional != kNone && unconditional < from ? unconditional : kNone;
-            if (own != first_in_group.end() && own->second < from) {
+            if (own != first_unconditional.end() && own->second < from) {
                 earlier = std::min(earlier, own->second);
             }
             if (earlier != kNone && !same_choice(earlier, p)) {
                 report(p, earlier);
             }
             if (code(p).condition == kNone) {
-                first_in_group.emplace(group, p);
+                first_unconditional.emplace(group, p);
                 if (is_context_free(p) && unconditional == kNone) {
                     unconditional = p;
                 }
@@ -155,7 +155,7 @@ private:
             const std::uint32_t p = productions[row];
             bool holds_somewhere = false; // the condition holds at some point
             bool usable = false;          // holds at a point where no earlier condition does
-            std::vector<std::uint32_t> before;
+            std::vector<std::uint32_t> covering;
             for (std::uint64_t point = 0; point < table->points && !usable; ++point) {
                 if (!table->holds(row, point)) {
                     continue;
@@ -166,14 +166,15 @@ private:
                     ++first;
                 }
                 usable = first == row || adjustable[first] || same_choice(productions[first], p);
-                if (std::find(before.begin(), before.end(), productions[first]) == before.end()) {
-                    before.push_back(productions[first]);
+                if (std::find(covering.begin(), covering.end(), productions[first]) ==
+                    covering.end()) {
+                    covering.push_back(productions[first]);
                 }
             }
-            const bool is_explained = is_meant_as_probability(input_, production(p));
+            const bool is_probability = is_meant_as_probability(input_, production(p));
             if (holds_somewhere && !usable && !adjustable[row] && !is_reported(p) &&
-                !is_explained) {
-                report_covered(p, before);
+                !is_probability) {
+                report_covered(p, covering);
             }
         }
     }
@@ -225,15 +226,15 @@ private:
              false});
     }
 
-    void report_covered(std::uint32_t p, const std::vector<std::uint32_t>& before) {
+    void report_covered(std::uint32_t p, const std::vector<std::uint32_t>& covering) {
         constexpr std::size_t kMaxShown = 4;
         reported_.insert(p);
         Diagnostic& diagnostic = diagnostics_.add(
             DiagnosticCode::UnreachableProduction, production(p).name_span,
             fmt::format("{} is never used: earlier conditions hold wherever its own does",
                         quoted(input_.name(production(p).name))));
-        for (std::size_t i = 0; i < std::min(before.size(), kMaxShown); ++i) {
-            diagnostic.labels.push_back({production(before[i]).condition_span, "holds first"});
+        for (std::size_t i = 0; i < std::min(covering.size(), kMaxShown); ++i) {
+            diagnostic.labels.push_back({production(covering[i]).condition_span, "holds first"});
         }
         diagnostic.help.emplace_back(
             "productions are tried in the order of the file: move the more special one up");

@@ -14,7 +14,7 @@ namespace {
 /// the end of the statement or until visit() returns false.
 template <typename Visit>
 void for_each_significant(std::string_view text, std::size_t at, Visit&& visit) {
-    const std::size_t end = std::min<std::size_t>(text.size(), at + kMaxBracketSearch);
+    const std::size_t end = std::min<std::size_t>(text.size(), at + kMaxSearchedBytes);
     while (at < end && text[at] != ';') {
         if (text[at] == '`') {
             const std::size_t close = text.find_first_of("`\n", at + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Searches for brackets in the text around a mistake, without a scan. A search ends after
-// kMaxBracketSearch bytes, because a statement may be as long as a file; the text beyond counts as
+// kMaxSearchedBytes bytes, because a statement may be as long as a file; the text beyond counts as
 // correct.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kMaxBracketSearch = 4096;
+inline constexpr std::uint32_t kMaxSearchedBytes = 4096;
 /// Maximum number of searches in a text.
 inline constexpr std::uint32_t kMaxBracketSearches = 1000;
 

@@ -447,7 +447,7 @@ bool report_lost_close(ParseSession& session) {
         return false;
     }
     const std::size_t end = session.scanned.text.find(';', scan.begin);
-    if (end == std::string_view::npos || end - scan.begin > kMaxBracketSearch) {
+    if (end == std::string_view::npos || end - scan.begin > kMaxSearchedBytes) {
         return false;
     }
     std::uint32_t at = scan.begin;

@@ -825,15 +825,15 @@ private:
         }
         std::size_t begin = question;
         int depth = 0;
-        std::size_t floor = body_;
+        std::size_t min_begin = body_;
         if (keyword_ == Keyword::Function) {
-            floor = text().find(')', body_) + 1;
+            min_begin = text().find(')', body_) + 1;
         } else if (keyword_ == Keyword::Define) {
-            floor = skip_gaps(text(), body_);
-            floor += leading_word(text().substr(floor)).size();
+            min_begin = skip_gaps(text(), body_);
+            min_begin += leading_word(text().substr(min_begin)).size();
         }
         bool is_inside = false;
-        while (begin > floor) {
+        while (begin > min_begin) {
             const char c = char_at(begin - 1);
             if (c == ')' || c == '}') {
                 ++depth;

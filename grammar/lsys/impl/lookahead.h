@@ -17,8 +17,8 @@ namespace lsys {
 [[nodiscard]] std::string_view leading_word(std::string_view text);
 /// The end of the comment `/*` at `at`; the end of the text if it is not closed.
 [[nodiscard]] std::size_t comment_end(std::string_view text, std::size_t at);
-/// The first offset at or after `at` outside of blanks, line ends and comments of a statement, which
-/// are `/* */`.
+/// The first offset at or after `at` outside of blanks, line ends and `/* */` comments. For text
+/// within a statement, where `//` begins no comment.
 [[nodiscard]] std::size_t skip_gaps(std::string_view text, std::size_t at);
 /// skip_gaps() between statements, where `//` begins a comment too.
 [[nodiscard]] std::size_t skip_gaps_between_statements(std::string_view text, std::size_t at);

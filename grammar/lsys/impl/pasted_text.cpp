@@ -650,8 +650,8 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-/// The begin of a comment in a line of papers; npos if there is none. Slashes between modules are
-/// rolls.
+/// The begin of a `//` comment in a line in the notation of a paper; npos if there is none. Slashes
+/// between modules roll the turtle.
 std::size_t comment_in(std::string_view line) {
     for (std::size_t at = line.find("//"); at != std::string_view::npos;
          at = line.find("//", line.find_first_not_of('/', at))) {

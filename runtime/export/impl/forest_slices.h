@@ -16,7 +16,7 @@
 
 namespace lsys {
 
-/// Slices with fewer vertices than this have indices of 16 bits; glTF reserves the largest number.
+/// Slices with fewer vertices than this have indices of 16 bits. glTF reserves the index 65,535.
 inline constexpr std::uint64_t kMinWideVertices = 65536;
 
 /// The parts of a mesh that an instance draws.

@@ -65,15 +65,15 @@ private:
     /// The groups from number `first` on that fit into the window, at least one.
     [[nodiscard]] std::span<const ForestGroup> window_from(std::size_t first) const {
         const std::span<const ForestGroup> groups = plan_.groups().subspan(first);
-        std::size_t some = 1;
-        while (some < groups.size() &&
-               groups[some].first + groups[some].count - groups[0].first <= window_) {
-            ++some;
+        std::size_t count = 1;
+        while (count < groups.size() &&
+               groups[count].first + groups[count].count - groups[0].first <= window_) {
+            ++count;
         }
-        return groups.first(some);
+        return groups.first(count);
     }
 
-    /// Computes the floats of `groups`. `first`: number of the first group; `cell`: its cell.
+    /// Computes the transforms of `groups`. `first`: number of the first group; `cell`: its cell.
     void fill_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
@@ -84,9 +84,9 @@ private:
         }
         floats_.resize(kFloats * (groups.back().first + groups.back().count - groups[0].first));
         workers_.for_each(pieces.size(), [&](std::uint64_t number) {
-            const auto& [of, piece] = pieces[number];
-            const std::size_t from = std::max(first, of->first_group);
-            const std::size_t to = std::min(end, end_of(*of));
+            const auto& [owner, piece] = pieces[number];
+            const std::size_t from = std::max(first, owner->first_group);
+            const std::size_t to = std::min(end, end_of(*owner));
             fill(plan_.groups().subspan(from, to - from), *piece, groups[0].first);
         });
     }

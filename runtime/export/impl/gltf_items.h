@@ -116,9 +116,9 @@ void write_each(std::span<const std::uint32_t> vertices,
     using T = decltype(item_of(std::uint32_t{0}));
     std::vector<T> chunk(std::min(kChunk, vertices.size()));
     for (std::size_t first = 0; first < vertices.size(); first += kChunk) {
-        const auto some = vertices.subspan(first, std::min(kChunk, vertices.size() - first));
-        std::transform(some.begin(), some.end(), chunk.begin(), item_of);
-        write(std::as_bytes(std::span<const T>(chunk).first(some.size())));
+        const auto source = vertices.subspan(first, std::min(kChunk, vertices.size() - first));
+        std::transform(source.begin(), source.end(), chunk.begin(), item_of);
+        write(std::as_bytes(std::span<const T>(chunk).first(source.size())));
     }
 }
 

@@ -69,7 +69,7 @@ struct Card {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Returns nothing for a triangle without area in texture coordinates.
+/// The card of a triangle; nothing if the triangle has no area in texture coordinates.
 std::optional<Card> card_of(const UserMesh& mesh, const Triangle& corners) {
     const auto& t = mesh.texture_coordinates;
     const auto& p = mesh.positions;

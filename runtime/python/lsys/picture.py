@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 
 _LIGHT = np.array([0.35, 0.8, 0.5]) / np.linalg.norm([0.35, 0.8, 0.5])
-_MOST_SAMPLES = 4_000_000
+_MAX_SAMPLES = 4_000_000
 
 
 def colours_of(mesh):
@@ -35,8 +35,8 @@ def draw(mesh, width=320, height=400):
     area = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]) / 2
     # Triangles are drawn as points, about four for each pixel that they cover.
     counts = np.ceil(4 * area).astype(np.int64) + 1
-    if counts.sum() > _MOST_SAMPLES:
-        counts = np.maximum(counts * _MOST_SAMPLES // counts.sum(), 1)
+    if counts.sum() > _MAX_SAMPLES:
+        counts = np.maximum(counts * _MAX_SAMPLES // counts.sum(), 1)
     triangle = np.repeat(np.arange(len(corners)), counts)
     number = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
     # A low-discrepancy sequence, folded into the triangle.

@@ -28,13 +28,14 @@ def stone_at(x, y):
             dx = u - (i + 0.2 + 0.6 * random_unit(*cell, 1))
             dy = v - (j + 0.2 + 0.6 * random_unit(*cell, 2))
             radius = 0.25 + 0.35 * random_unit(*cell, 3)
-            rise = 1 - (dx * dx + dy * dy) / (radius * radius)
-            if rise > 0:
-                best = max(best, (radius * rise**0.5, (j % CELLS) * CELLS + i % CELLS))
+            square = 1 - (dx * dx + dy * dy) / (radius * radius)
+            if square > 0:
+                best = max(best, (radius * square**0.5, (j % CELLS) * CELLS + i % CELLS))
     return best
 
 
 def grain(x, y, salt):
+    """A random number in [0, 1) for a pixel."""
     return random_unit(x % SIZE * SIZE + y % SIZE, 0, salt)
 
 
@@ -50,18 +51,18 @@ def colour_at(x, y):
 
 
 def normals(x, y):
-    def rise(dx, dy):
+    def slope(dx, dy):
         ahead = HEIGHTS[(y + dy) % SIZE][(x + dx) % SIZE][0]
         behind = HEIGHTS[(y - dy) % SIZE][(x - dx) % SIZE][0]
         return 0.5 * (ahead - behind) * SIZE / CELLS
 
-    right, up = rise(1, 0), rise(0, -1)
+    right, up = slope(1, 0), slope(0, -1)
     length = (right * right + up * up + 1) ** 0.5
     return tuple(round(127.5 + 127.5 * c / length) for c in (-right, -up, 1.0))
 
 
 def blade(x, y):
-    """A leaf of 64 pixels, with its base at the bottom."""
+    """Colour and opacity of a pixel of a leaf, which is 64 pixels high and has its base at the bottom."""
     along = 1 - (y + 0.5) / 64
     aside = abs((x + 0.5) / 64 - 0.5)
     half = 1.7 * along * (1 - along) * (1.15 - 0.6 * along)

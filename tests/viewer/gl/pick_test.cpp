@@ -170,7 +170,8 @@ TEST_CASE("a picked branch is the first one on the ray through the middle of the
             const bool is_branch = picked.value().kind == PickedKind::Branch &&
                                    picked.value().tree.number == first.tree;
             if (!is_hit || second.distance - first.distance < 0.02F) {
-                // Skip farther trees, which have a coarser level, and places with two surfaces.
+                // Skip farther trees, which have a coarser level, and pixels where a second surface is
+                // less than 2 cm behind the first.
                 continue;
             }
             ++branches;

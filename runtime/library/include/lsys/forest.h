@@ -131,8 +131,8 @@ make_instances(const Forest& forest, const MeshOptions& mesh = {}, const Project
 /// Writes `path`, whose extension sets the format (json: statistics), and the pictures beside it. All
 /// files appear when they are complete, or none. Returns their paths. Options are those of `lsc
 /// forest` for files: preset, compress, expand, bake, instances, viewpoint, unit, pivot, collision,
-/// up, cell, frames and those of meshes. With `instances` `trees` or `lods` and with `frames` the
-/// forest is grown again.
+/// up, cell, frames, and the options of meshes. {"instances", "trees"}, {"instances", "lods"} and
+/// `frames` grow the forest again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_forest(const Forest& forest,
                                                                      const std::string& path,
                                                                      const Options& options = {},

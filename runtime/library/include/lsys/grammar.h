@@ -19,8 +19,8 @@ namespace lsys::LSYS_INTERFACE {
 struct GrammarOptions {
     /// "lsys", "cpfg" ...; empty: detected from the contents, else from the extension of the name.
     std::string dialect;
-    std::string system; // name in a file with several systems; empty: the only system
-    bool bug_compatible = false;
+    std::string system;          // name in a file with several systems; empty: the only system
+    bool bug_compatible = false; // reproduces bugs of the original program of the dialect
     /// Values of constants (`#define`, `#param`) by name.
     std::vector<std::pair<std::string, float>> definitions;
     /// Values of `#set` statements by key, in the syntax of `#set`: {"angle", "22.5"}.
