@@ -26,7 +26,7 @@ double max_error(double limit, const Mine& mine, const Exact& exact) {
 
 } // namespace
 
-TEST_CASE("sine and cosine of physics are those of the standard library") {
+TEST_CASE("sine and cosine are those of the standard library") {
     for (const double limit : {1e-3, 0.8, 3.2, 100.0, 1e5}) {
         CAPTURE(limit);
         CHECK(max_error(
@@ -40,7 +40,7 @@ TEST_CASE("sine and cosine of physics are those of the standard library") {
     CHECK(sine_cosine(0.0).cosine == 1.0);
 }
 
-TEST_CASE("arc tangent and arc sine of physics are those of the standard library") {
+TEST_CASE("arc tangent and arc sine are those of the standard library") {
     for (const double x : {0.0, 1e-9, 0.1, 1.0, 7.0, 1e9}) {
         CAPTURE(x);
         CHECK(max_error(
