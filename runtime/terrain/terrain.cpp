@@ -168,6 +168,43 @@ float Terrain::height(float x, float z) const {
     return static_cast<float>(exact_height(static_cast<double>(x), static_cast<double>(z)));
 }
 
+double Terrain::mesh_error(double cell) const {
+    // A triangle with legs of `cell` along the axes is off by at most cell^2 / 8 times
+    // |f_xx| + 2 |f_xz| + |f_zz|.
+    double error = 0.0;
+    for (const Octave& octave : octaves_) {
+        constexpr double kNoiseBend = 3.3; // an eighth of this sum for the noise; measured: 3.14
+        const double part = cell * octave.frequency;
+        error += octave.amplitude * std::min(kNoiseBend * part * part, 2.0);
+    }
+    if (!map_) {
+        return error;
+    }
+    const auto value = [&](std::uint32_t column, std::uint32_t row) {
+        return static_cast<double>(map_->values[std::size_t{row} * map_->columns + column]);
+    };
+    double bend = 0.0; // the largest such sum of differences of pixels
+    const auto [low, high] = std::minmax_element(map_->values.begin(), map_->values.end());
+    for (std::uint32_t row = 0; row + 1 < map_->rows; ++row) {
+        for (std::uint32_t column = 0; column + 1 < map_->columns; ++column) {
+            const double here = value(column, row);
+            const double right = value(column + 1, row);
+            const double below = value(column, row + 1);
+            double sum = 2.0 * std::abs(here - right - below + value(column + 1, row + 1));
+            sum += column == 0 ? 0.0 : std::abs(value(column - 1, row) - 2.0 * here + right);
+            sum += row == 0 ? 0.0 : std::abs(value(column, row - 1) - 2.0 * here + below);
+            bend = std::max(bend, sum);
+        }
+    }
+    const double pixel =
+        std::min(region_.width / (map_->columns - 1), region_.depth / (map_->rows - 1));
+    const double part = cell / pixel;
+    // Between pixels a bilinear surface has creases, whose error is linear in the cell.
+    const double bent = bend * std::max(part, part * part) / 2.0;
+    const double range = filter_ == HeightFilter::Bicubic ? 1.25 : 1.0; // it may overshoot
+    return std::abs(map_scale_) * std::min(bent, range * static_cast<double>(*high - *low));
+}
+
 std::array<double, 2> Terrain::gradient(float x, float z) const {
     if (!map_ && octaves_.empty()) {
         return {0.0, 0.0};

@@ -66,6 +66,10 @@ public:
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run, by the finite differences of normal(): 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;
+    /// An upper bound, in m, of the vertical distance between the ground and a mesh of it with square
+    /// cells of `cell` m (make_terrain_mesh()), from the second derivatives of the ground. Of a
+    /// height map the time is linear in its pixels.
+    [[nodiscard]] double mesh_error(double cell) const;
     /// Distance in m over which slopes are measured, in proportion to the finest feature.
     [[nodiscard]] double slope_step() const { return slope_step_; }
 

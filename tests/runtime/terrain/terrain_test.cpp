@@ -278,3 +278,56 @@ TEST_CASE("messages about invalid terrains have the reason") {
     CHECK_FALSE(make_terrain_mesh(terrain, {65'536, 65'536, 0.0, 1, {}, false}));
     CHECK_FALSE(make_terrain_mesh(terrain, {5, 5, nan, 1, {}, false}));
 }
+
+TEST_CASE("a mesh of the ground is nowhere farther from it than its error") {
+    NoiseOptions noise;
+    noise.octaves = 5;
+    noise.feature = 80.0;
+    noise.height = 40.0;
+    std::vector<std::uint16_t> values;
+    std::uint32_t state = 7;
+    for (int i = 0; i < 40 * 25; ++i) {
+        state = state * 1664525U + 1013904223U;
+        values.push_back(static_cast<std::uint16_t>(state >> 16U));
+    }
+    std::vector<Terrain> grounds;
+    grounds.push_back(Terrain::noise(kGround, noise).value());
+    for (const HeightFilter filter : {HeightFilter::Bilinear, HeightFilter::Bicubic}) {
+        HeightMapOptions options;
+        options.highest = 30.0;
+        options.filter = filter;
+        grounds.push_back(Terrain::height_map(kGround, map_of(40, 25, values), options).value());
+    }
+    for (const Terrain& ground : grounds) {
+        for (const double cell : {0.5, 4.0, 12.0, 60.0}) {
+            const double bound = ground.mesh_error(cell);
+            double worst = 0.0;
+            for (int i = 0; i < 4000; ++i) {
+                state = state * 1664525U + 1013904223U;
+                const auto column = static_cast<float>(state >> 24U);
+                state = state * 1664525U + 1013904223U;
+                const auto row = static_cast<float>(state >> 24U);
+                const auto side = static_cast<float>(cell);
+                const float x = -500.0F + std::fmod(column * side, 900.0F);
+                const float z = -300.0F + std::fmod(row * side, 500.0F);
+                // The middles of the two legs and of the diagonal.
+                const float corner = ground.height(x, z);
+                const float right = ground.height(x + side, z);
+                const float below = ground.height(x, z + side);
+                const float across = ground.height(x + side, z + side);
+                const auto off = [&](float a, float b, float part_x, float part_z) {
+                    const float there = ground.height(x + part_x * side, z + part_z * side);
+                    worst = std::max(worst, std::abs(static_cast<double>(0.5F * (a + b) - there)));
+                };
+                off(corner, right, 0.5F, 0.0F);
+                off(corner, below, 0.0F, 0.5F);
+                off(corner, across, 0.5F, 0.5F);
+                off(right, below, 0.5F, 0.5F);
+            }
+            INFO(cell);
+            CHECK(worst <= bound + 1e-4); // heights are binary32
+            CHECK(worst > 0.002 * bound);
+        }
+    }
+    CHECK(Terrain::flat(kGround, 3.0).value().mesh_error(100.0) == 0.0);
+}
