@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Functions and curves of a grammar, derived by all methods.
-#include "tests/compiler/compile_text.h"
-#include "tests/support/derived.h"
+#include "tests/runtime/derive/derived_text.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,20 +8,8 @@
 
 namespace lsys {
 
-namespace {
-
-Bytecode compiled(const std::string& text) {
-    test::Compiled c = test::compile_text(text);
-    CAPTURE(text, c.reports());
-    REQUIRE(c.outcome.bytecode);
-    return std::move(*c.outcome.bytecode);
-}
-
-std::string word_of(const std::string& text, std::uint32_t generations) {
-    return test::derived_every_way(compiled(text), generations, 7);
-}
-
-} // namespace
+using test::compiled;
+using test::word_of;
 
 TEST_CASE("a call stands for the body with its arguments") {
     CHECK(word_of("#function f(x, y) x*10 + y;\n#w : F(f(1, 2)) A(3);\n"

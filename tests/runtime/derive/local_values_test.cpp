@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Local values and choices, derived by all methods.
-#include "tests/compiler/compile_text.h"
-#include "tests/support/derived.h"
+#include "tests/runtime/derive/derived_text.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,20 +8,8 @@
 
 namespace lsys {
 
-namespace {
-
-Bytecode compiled(const std::string& text) {
-    test::Compiled c = test::compile_text(text);
-    CAPTURE(text, c.reports());
-    REQUIRE(c.outcome.bytecode);
-    return std::move(*c.outcome.bytecode);
-}
-
-std::string word_of(const std::string& text, std::uint32_t generations) {
-    return test::derived_every_way(compiled(text), generations, 7);
-}
-
-} // namespace
+using test::compiled;
+using test::word_of;
 
 TEST_CASE("one draw of a local value serves twice") {
     const std::string once = word_of("#w : A A;\n#p : A : * : let r = {1, 2} : F(r) G(r);\n", 1);
