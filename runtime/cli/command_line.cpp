@@ -2,6 +2,7 @@
 #include "runtime/cli/command_line.h"
 
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/number_chars.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/output/file_option_parsers.h"
@@ -282,6 +283,75 @@ void add_forest(CLI::App& app, ForestCommand& command) {
         "tile.glb");
 }
 
+/// Parses `9.7,47.2,430`: degrees and metres, the height may be left out.
+Result<GeoPlace> parse_geo_place(const std::string& text) {
+    // In binary64: degrees in binary32 are off by up to a metre.
+    const auto part = [&text](std::size_t from, double bound) -> Result<double> {
+        const std::string word = text.substr(from, text.find(',', from) - from);
+        double value = 0.0;
+        const auto [end, error] = number_from_chars(word.data(), word.data() + word.size(), value);
+        if (error != std::errc() || end != word.data() + word.size() ||
+            !(value >= -bound && value <= bound)) {
+            return Error{fmt::format("`{}` is not a number from {} to {}", word, -bound, bound)};
+        }
+        return value;
+    };
+    const std::size_t first = text.find(',');
+    const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
+    if (first == std::string::npos ||
+        (second != std::string::npos && text.find(',', second + 1) != std::string::npos)) {
+        return Error{fmt::format("`{}` is not LONGITUDE,LATITUDE,HEIGHT", text)};
+    }
+    const Result<double> longitude = part(0, 180.0);
+    const Result<double> latitude = part(first + 1, 90.0);
+    const Result<double> height =
+        second == std::string::npos ? Result<double>(0.0) : part(second + 1, 1e5);
+    for (const Result<double>* each : {&longitude, &latitude, &height}) {
+        if (!*each) {
+            return each->error();
+        }
+    }
+    return GeoPlace{longitude.value(), latitude.value(), height.value()};
+}
+
+void add_tiles(CLI::App& app, TilesCommand& command) {
+    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
+        ->required();
+    app.add_option("-o,--output", command.output, "Folder of the tileset; it is made if missing")
+        ->required()
+        ->type_name("FOLDER");
+    app.add_flag("-f,--force", command.force,
+                 "Write into a folder that has files; files of the same names are replaced");
+    add_parsed(
+        app, "--origin", command.tiles.origin, parse_geo_place,
+        "Place of the scene's origin on the Earth, in degrees and metres above the ellipsoid "
+        "of WGS 84; +X points east, -Z north (default: the tileset has coordinates of its "
+        "own)")
+        ->type_name("LONGITUDE,LATITUDE[,HEIGHT]");
+    constexpr std::uint64_t kMinTriangles = 10'000;
+    constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
+    add_parsed(app, "--triangles", command.tiles.triangles, integer(kMinTriangles, kMaxTriangles),
+               "Maximum number of triangles of a tile, on average (default 2000000)")
+        ->type_name("N");
+    app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
+    add_scene_overrides(app, command.overrides, "--size");
+    add_tree_height(app, command.overrides.height);
+    add_mesh(app, command.tiles.mesh);
+    add_grammar(app, command.overrides.grammar, command.run);
+    add_seed(app, command.overrides.seed);
+    add_run_limits(app, command.run);
+    add_message_options(app, command.messages);
+    add_levels(app, command.messages);
+    app.footer("Writes 3D Tiles 1.1: tileset.json, which is written last, tilesets of four levels "
+               "each, GLB tiles,\n"
+               "and the meshes and pictures that the tiles share. Each tree is one of the --heroes "
+               "of its species.\n"
+               "Geometric errors are in metres: viewers choose tiles by them.\n"
+               "Examples: lsc tiles wood.toml -o wood\n"
+               "          lsc tiles wood.toml --origin 9.7,47.2,430 -o wood\n"
+               "          lsc tiles oak.lsys --count 100000 --size 3000 --stats -o oaks");
+}
+
 void add_import(CLI::App& app, ImportCommand& command) {
     app.add_option("FILE", command.file, "A grammar of another dialect; `-` is standard input");
     app.add_option("--all", command.folder, "Import all grammars of a folder")->type_name("FOLDER");
@@ -543,6 +613,7 @@ void add_commands(CLI::App& app,
     add("forest", "Generate a forest of instanced plants", add_forest);
     add("import", "Convert a grammar of another program to .lsys", add_import);
     add("stats", "Predict the size of each generation", add_stats);
+    add("tiles", "Write a forest as 3D Tiles for Cesium and other viewers", add_tiles);
     add("trace", "Explain what becomes of a module, and why", add_trace);
     add("fmt", "Format grammars", add_format);
     add("explain", "Explain a diagnostic, with examples", add_explain);

@@ -26,6 +26,7 @@ using CommandLine = std::variant<PrintText,
                                  ForestCommand,
                                  ImportCommand,
                                  StatsCommand,
+                                 TilesCommand,
                                  TraceCommand,
                                  FormatCommand,
                                  ExplainCommand>;

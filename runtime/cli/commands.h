@@ -15,6 +15,7 @@ namespace lsys::lsc {
 [[nodiscard]] ExitStatus run_command(const ForestCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const ImportCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const StatsCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const TilesCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const TraceCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const FormatCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const ExplainCommand& command, const Console& console);

@@ -8,6 +8,7 @@
 #include "runtime/pipeline/scene_overrides.h"
 #include "runtime/program/message_options.h"
 #include "runtime/program/run_options.h"
+#include "runtime/tiles/tiles.h"
 
 #include <cstdint>
 #include <optional>
@@ -92,6 +93,17 @@ struct ForestCommand : ForestFileOptions {
     RunOptions run;
     bool check = false;
     bool stats = false;
+};
+
+struct TilesCommand {
+    MessageOptions messages;
+    std::vector<std::string> files; // one scene, or one or more grammars
+    SceneOverrides overrides;
+    RunOptions run;
+    std::string output; // folder
+    bool force = false; // also into a folder that has files
+    bool stats = false;
+    TileOptions tiles;
 };
 
 struct StatsCommand {

@@ -65,7 +65,8 @@ bool write_file(const Case& motion, const fs::path& path, const std::vector<std:
     arguments.insert(arguments.end(), options.begin(), options.end());
     const LscRun run = run_lsc(arguments, motion.grammar);
     if (run.status != 0) {
-        std::fprintf(stderr, "%s: status %d\n%s", path.string().c_str(), run.status, run.err.c_str());
+        std::fprintf(stderr, "%s: status %d\n%s", path.string().c_str(), run.status,
+                     run.err.c_str());
     }
     return run.status == 0;
 }

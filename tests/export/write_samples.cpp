@@ -34,7 +34,8 @@ long occurrences(const std::string& text, const std::string& part) {
 
 bool failed(const Sample& sample, const LscRun& run) {
     if (run.status != 0) {
-        std::fprintf(stderr, "%s: status %d\n%s", sample.file.string().c_str(), run.status, run.err.c_str());
+        std::fprintf(stderr, "%s: status %d\n%s", sample.file.string().c_str(), run.status,
+                     run.err.c_str());
     }
     return run.status != 0;
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Canopy: ground and crowns as one surface, for tiles with too many trees to show them one by one.
+// Trees are added up in square cells; a coarser level has the sums of four cells, so that all levels
+// have the same mean.
+#pragma once
+
+#include "runtime/tiles/impl/crown.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+inline constexpr std::uint32_t kCanopyCells = 64; // along a side of a tile
+
+/// The crowns over a place, as means of its surroundings.
+struct CanopyPoint {
+    double cover = 0.0;     // part of the ground that is covered, 0 to 1
+    double height = 0.0;    // m, mean height of the surface above the ground, gaps included
+    glm::dvec3 colour{0.0}; // linear, of the crowns
+};
+
+/// The cells of one level.
+class Canopy {
+public:
+    /// `side`: number of cells along X and Z. `cell`: m.
+    Canopy(std::uint32_t side, double cell);
+
+    /// Adds a tree of the given scale in a cell.
+    void add(std::uint32_t column, std::uint32_t row, const Crown& crown, double scale);
+    /// The next coarser level. Precondition: side() is even.
+    [[nodiscard]] Canopy coarser() const;
+    /// Means of the up to four cells at the corner (column, row), 0 to side().
+    [[nodiscard]] CanopyPoint at_corner(std::int64_t column, std::int64_t row) const;
+    [[nodiscard]] std::uint32_t side() const { return side_; }
+
+private:
+    struct Cell {
+        std::uint32_t trees = 0;
+        float area = 0.0F;      // m2, of crowns, overlaps counted twice
+        float volume = 0.0F;    // m3, area times height
+        glm::vec3 colour{0.0F}; // area times colour
+    };
+
+    std::uint32_t side_;
+    double cell_;
+    std::vector<Cell> cells_;
+};
+
+} // namespace lsys

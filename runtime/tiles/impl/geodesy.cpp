@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tiles/impl/geodesy.h"
+
+#include "runtime/base/trigonometry.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace lsys {
+
+namespace {
+
+constexpr double kA = 6378137.0;           // m, half of the major axis of WGS 84
+constexpr double kF = 1.0 / 298.257223563; // flattening
+constexpr double kB = kA * (1.0 - kF);     // m, half of the minor axis
+constexpr double kE2 = kF * (2.0 - kF);    // square of the eccentricity
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The angle of the point (x, y) above the X axis, -pi to pi.
+double angle_of(double y, double x) {
+    if (x >= 0.0) {
+        return arc_tangent(y, x);
+    }
+    const double mirrored = arc_tangent(y, -x);
+    return (y < 0.0 ? -std::numbers::pi : std::numbers::pi) - mirrored;
+}
+
+} // namespace
+
+glm::dvec3 earth_fixed(const GeoPlace& place) {
+    const auto [sin_lat, cos_lat] = sine_cosine(place.latitude * kDegree);
+    const auto [sin_lon, cos_lon] = sine_cosine(place.longitude * kDegree);
+    const double normal = kA / std::sqrt(1.0 - kE2 * sin_lat * sin_lat);
+    return {(normal + place.height) * cos_lat * cos_lon,
+            (normal + place.height) * cos_lat * sin_lon,
+            (normal * (1.0 - kE2) + place.height) * sin_lat};
+}
+
+GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double distance) {
+    if (distance == 0.0) {
+        return start;
+    }
+    const auto [sin_lat, cos_lat] = sine_cosine(start.latitude * kDegree);
+    // Reduced latitude of the start.
+    const double length =
+        std::sqrt((1.0 - kF) * (1.0 - kF) * sin_lat * sin_lat + cos_lat * cos_lat);
+    const double sin_u = (1.0 - kF) * sin_lat / length;
+    const double cos_u = cos_lat / length;
+    const double sigma_1 = angle_of(sin_u, cos_u * north);
+    const double sin_alpha = cos_u * east; // of the geodesic at the equator
+    const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
+    const double u2 = cos2_alpha * (kA * kA - kB * kB) / (kB * kB);
+    const double a = 1.0 + u2 / 16384.0 * (4096.0 + u2 * (-768.0 + u2 * (320.0 - 175.0 * u2)));
+    const double b = u2 / 1024.0 * (256.0 + u2 * (-128.0 + u2 * (74.0 - 47.0 * u2)));
+    double sigma = distance / (kB * a);
+    SineCosine at;
+    double cos_2m = 0.0;      // of twice the angle from the equator to the middle of the line
+    constexpr int kSteps = 8; // the correction shrinks by a factor of 300 in each
+    for (int i = 0; i < kSteps; ++i) {
+        at = sine_cosine(sigma);
+        cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;
+        const double square = cos_2m * cos_2m;
+        const double change = b * at.sine *
+                              (cos_2m + b / 4.0 *
+                                            (at.cosine * (2.0 * square - 1.0) -
+                                             b / 6.0 * cos_2m * (4.0 * at.sine * at.sine - 3.0) *
+                                                 (4.0 * square - 3.0)));
+        sigma = distance / (kB * a) + change;
+    }
+    at = sine_cosine(sigma);
+    cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;
+    const double across = sin_u * at.sine - cos_u * at.cosine * north;
+    const double latitude =
+        angle_of(sin_u * at.cosine + cos_u * at.sine * north,
+                 (1.0 - kF) * std::sqrt(sin_alpha * sin_alpha + across * across));
+    const double lambda = angle_of(at.sine * east, cos_u * at.cosine - sin_u * at.sine * north);
+    const double c = kF / 16.0 * cos2_alpha * (4.0 + kF * (4.0 - 3.0 * cos2_alpha));
+    const double turn =
+        lambda -
+        (1.0 - c) * kF * sin_alpha *
+            (sigma + c * at.sine * (cos_2m + c * at.cosine * (2.0 * cos_2m * cos_2m - 1.0)));
+    return {start.longitude + turn / kDegree, latitude / kDegree, start.height};
+}
+
+GeoPlace GroundFrame::geographic(double x, double z) const {
+    const double distance = std::sqrt(x * x + z * z);
+    return distance == 0.0 ? *origin_
+                           : along_geodesic(*origin_, x / distance, -z / distance, distance);
+}
+
+glm::dvec3 GroundFrame::place(double x, double y, double z) const {
+    if (!origin_) {
+        return {x, -z, y};
+    }
+    GeoPlace at = geographic(x, z);
+    at.height += y;
+    return earth_fixed(at);
+}
+
+glm::dmat4 GroundFrame::frame(double x, double z) const {
+    glm::dmat4 axes(1.0);
+    if (!origin_) {
+        axes[3] = glm::dvec4(x, -z, 0.0, 1.0);
+        return axes;
+    }
+    const GeoPlace at = geographic(x, z);
+    const auto [sin_lat, cos_lat] = sine_cosine(at.latitude * kDegree);
+    const auto [sin_lon, cos_lon] = sine_cosine(at.longitude * kDegree);
+    axes[0] = {-sin_lon, cos_lon, 0.0, 0.0};
+    axes[1] = {-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat, 0.0};
+    axes[2] = {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat, 0.0};
+    axes[3] = glm::dvec4(earth_fixed(at), 1.0);
+    return axes;
+}
+
+glm::dmat4 inverse_of_frame(const glm::dmat4& frame) {
+    const glm::dmat3 turned = glm::transpose(glm::dmat3(frame));
+    glm::dmat4 inverse(turned);
+    inverse[3] = glm::dvec4(-(turned * glm::dvec3(frame[3])), 1.0);
+    return inverse;
+}
+
+} // namespace lsys

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Places of a scene on the Earth: the WGS 84 ellipsoid (NGA.STND.0036), without a map projection.
+#pragma once
+
+#include "runtime/tiles/tiles.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
+
+namespace lsys {
+
+/// Earth-centred, Earth-fixed coordinates in m.
+[[nodiscard]] glm::dvec3 earth_fixed(const GeoPlace& place);
+/// The place at the end of the geodesic of `distance` m that leaves `start` with the direction
+/// (east, north), of length 1. Same height. The error is below 0.1 mm for 1,000 km. Source: Vincenty
+/// 1975, "Direct and inverse solutions of geodesics on the ellipsoid", direct formula.
+[[nodiscard]] GeoPlace
+along_geodesic(const GeoPlace& start, double east, double north, double distance);
+
+/// Maps the scene (x east, y up, z south, in m) to the coordinates of the tileset, which has +Z up.
+class GroundFrame {
+public:
+    /// `origin`: the place of the scene's (0, 0, 0), at its ellipsoidal height; the scene's ground
+    /// follows the ellipsoid: distances and directions from the origin are those of geodesics. None:
+    /// the tileset has the scene's coordinates, turned to +Z up.
+    explicit GroundFrame(const std::optional<GeoPlace>& origin) : origin_(origin) {}
+
+    /// The point (x, y, z) of the scene.
+    [[nodiscard]] glm::dvec3 place(double x, double y, double z) const;
+    /// Axes east, north and up at (x, 0, z), and this point. Local coordinates of a tile are in such
+    /// a frame.
+    [[nodiscard]] glm::dmat4 frame(double x, double z) const;
+
+private:
+    [[nodiscard]] GeoPlace geographic(double x, double z) const;
+
+    std::optional<GeoPlace> origin_;
+};
+
+/// The inverse of a frame, whose axes are perpendicular and of length 1.
+[[nodiscard]] glm::dmat4 inverse_of_frame(const glm::dmat4& frame);
+
+} // namespace lsys

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tiles/impl/ground_patch.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsys {
+
+Mesh make_patch(const PatchPlan& plan) {
+    const std::uint32_t cells = plan.cells;
+    const std::uint32_t side = cells + 1;
+    Mesh mesh;
+    const auto place = [&](double x, double y, double z) {
+        return y_up(glm::dvec3(plan.to_tile * glm::dvec4(plan.earth.place(x, y, z), 1.0)));
+    };
+    for (std::uint32_t row = 0; row < side; ++row) {
+        for (std::uint32_t column = 0; column < side; ++column) {
+            const double x = plan.region.x + plan.region.width * column / cells;
+            const double z = plan.region.z + plan.region.depth * row / cells;
+            const PatchPoint point = plan.point(column, row, x, z);
+            mesh.positions.push_back(glm::vec3(place(x, point.height, z)));
+            mesh.normals.push_back(point.normal);
+            mesh.texture_coordinates.push_back(point.texture);
+        }
+    }
+    // Triangles are counter-clockwise seen from above; diagonals alternate, as on the ground of
+    // make_terrain_mesh().
+    LargeVector<std::uint32_t> indices;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices.push_back(a);
+        indices.push_back(b);
+        indices.push_back(c);
+    };
+    for (std::uint32_t row = 0; row < cells; ++row) {
+        for (std::uint32_t column = 0; column < cells; ++column) {
+            const std::uint32_t corner = row * side + column;
+            const std::uint32_t below = corner + side;
+            if (((row + column) & 1U) == 0) {
+                add(corner, below, below + 1);
+                add(corner, below + 1, corner + 1);
+            } else {
+                add(corner, below, corner + 1);
+                add(corner + 1, below, below + 1);
+            }
+        }
+    }
+    // The border, counter-clockwise seen from above: along the south, east, north and west.
+    std::vector<std::uint32_t> border(std::size_t{4} * cells);
+    for (std::uint32_t i = 0; i < cells; ++i) {
+        border[i] = cells * side + i;
+        border[cells + i] = (cells - i) * side + cells;
+        border[2 * cells + i] = cells - i;
+        border[3 * cells + i] = i * side;
+    }
+    const auto first_low = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const std::uint32_t vertex : border) {
+        glm::vec3 low = mesh.positions[vertex];
+        low.y -= static_cast<float>(plan.skirt);
+        mesh.positions.push_back(low);
+        mesh.normals.push_back(mesh.normals[vertex]);
+        mesh.texture_coordinates.push_back(mesh.texture_coordinates[vertex]);
+    }
+    for (std::uint32_t i = 0; i < border.size(); ++i) {
+        const auto next = static_cast<std::uint32_t>((i + 1) % border.size());
+        add(border[i], first_low + i, border[next]);
+        add(border[next], first_low + i, first_low + next);
+    }
+    mesh.indices = TriangleList(std::move(indices));
+    mesh.materials.push_back(plan.material);
+    mesh.parts.push_back({0, 0, mesh.indices.size()});
+    return mesh;
+}
+
+} // namespace lsys

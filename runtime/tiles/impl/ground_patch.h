@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// GroundPatch: the surface of a tile as a grid, with skirts that hang down at its border and hide the
+// gaps between tiles of different levels.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "runtime/terrain/region.h"
+#include "runtime/tiles/impl/geodesy.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <functional>
+
+namespace lsys {
+
+/// A vertex of the patch.
+struct PatchPoint {
+    double height = 0.0;                // m, altitude in the scene
+    glm::vec3 normal{0.0F, 1.0F, 0.0F}; // in the axes of the scene
+    glm::vec2 texture{0.0F};
+};
+
+struct PatchPlan {
+    std::uint32_t cells = 1; // along each side
+    Region region;           // of the scene
+    const GroundFrame& earth;
+    glm::dmat4 to_tile; // from the coordinates of the tileset to those of the tile
+    double skirt = 0.0; // m, its depth
+    Material material;
+    /// The point at column and row, 0 to `cells`, whose place in the scene is (x, z).
+    std::function<PatchPoint(std::uint32_t column, std::uint32_t row, double x, double z)> point;
+};
+
+/// The mesh in the frame of the tile, with +Y up.
+[[nodiscard]] Mesh make_patch(const PatchPlan& plan);
+
+/// From east, north, up to east, up, south: glTF has +Y up.
+[[nodiscard]] inline glm::dvec3 y_up(const glm::dvec3& z_up) {
+    return {z_up.x, z_up.z, -z_up.y};
+}
+/// The reverse of y_up().
+[[nodiscard]] inline glm::dvec3 z_up(const glm::dvec3& y_up) {
+    return {y_up.x, -y_up.z, y_up.y};
+}
+
+} // namespace lsys

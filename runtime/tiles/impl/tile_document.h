@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// TileDocument: a GLB of a tile, composed of glTF documents: one with the surface of the ground, whose
+// buffer goes into the file, and those of the heroes, whose buffers and pictures are files of their
+// own. Adds the trees as instances (EXT_mesh_gpu_instancing) with a table of their properties
+// (EXT_instance_features, EXT_structural_metadata).
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// A glTF document of one mesh, and the place of its buffer.
+struct MeshDocument {
+    nlohmann::ordered_json json;  // of export_mesh(), with one stored buffer
+    std::string data;             // the buffer, if it goes into the tile
+    std::string uri;              // else the file with the buffer, relative to the tile
+    std::uint64_t file_bytes = 0; // size of this file
+    std::uint64_t offset = 0;     // of the buffer in the file
+};
+
+/// A tree of a tile, with its transform from the coordinates of its hero.
+struct TileTree {
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 translation{}; // m, in the frame of the tile with +Y up
+    float scale = 1.0F;
+    float height = 0.0F; // m
+    std::uint32_t number = 0;
+    std::uint16_t species = 0;
+    std::uint16_t age = 0; // years; 0: full-grown
+};
+
+class TileDocument {
+public:
+    /// `generator`: the program and its version.
+    explicit TileDocument(const std::string& generator);
+
+    /// Adds a node with the mesh of a document.
+    void add_surface(const MeshDocument& surface);
+    /// Adds `trees` as instances of the mesh of a document.
+    void add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees);
+    /// The file. `species`: names, for the table of properties. Call it once.
+    [[nodiscard]] std::string write(const std::vector<std::string>& species);
+
+private:
+    using Json = nlohmann::ordered_json;
+
+    /// A stored buffer, and the buffer of decoded items of EXT_meshopt_compression that belongs to it
+    /// (the fallback, which is not stored).
+    struct Buffer {
+        std::string uri; // empty: the buffer of the GLB
+        std::uint64_t bytes = 0;
+        std::uint64_t decoded_bytes = 0; // of the fallback; 0: there is none
+        std::size_t fallback = 0;        // its number, if it exists
+    };
+    /// A mesh with quantised positions, which are low + step * item.
+    struct DrawnMesh {
+        std::size_t number = 0;
+        glm::vec3 low{0.0F};
+        float step = 1.0F;
+    };
+    struct Group {
+        DrawnMesh mesh;
+        std::vector<TileTree> trees;
+    };
+
+    DrawnMesh add_mesh(const MeshDocument& part);
+    std::size_t add_buffer(const MeshDocument& part);
+    /// Room for `bytes` decoded items of a buffer; returns their offset in its fallback.
+    std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
+    std::size_t add_view(std::string_view bytes);
+    std::size_t add_packed_view(const std::string& items, std::size_t stride);
+    std::size_t add_accessor(
+        std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count);
+    void put_groups();
+    void put_table(const std::vector<std::string>& species);
+    void put_buffers();
+    void use_extension(const std::string& name, bool required);
+
+    Json json_;
+    std::string data_; // of the GLB
+    std::vector<Buffer> buffers_;
+    std::vector<Group> groups_;
+};
+
+} // namespace lsys

@@ -1,0 +1,821 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tiles/tiles.h"
+
+#include "grammar/base/contract.h"
+#include "grammar/base/hash.h"
+#include "runtime/base/workers.h"
+#include "runtime/export/export.h"
+#include "runtime/forest/instance_meshes.h"
+#include "runtime/meshing/looks.h"
+#include "runtime/meshing/texture.h"
+#include "runtime/pipeline/hero_levels.h"
+#include "runtime/tiles/impl/canopy.h"
+#include "runtime/tiles/impl/geodesy.h"
+#include "runtime/tiles/impl/ground_patch.h"
+#include "runtime/tiles/impl/tile_document.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kSubtreeLevels = 4; // of a tileset file
+constexpr double kMinTileTrees = 4.0;       // mean number in a tile that is not divided further
+constexpr double kGroundError = 0.05;       // m, that the surface of any tile may have
+// Mean colour of the ground without a picture, as of make_terrain_mesh().
+constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
+
+std::string bytes_of(const std::function<Outcome<void>(const ByteSink&)>& write) {
+    std::string bytes;
+    const Outcome<void> done = write([&bytes](std::string_view piece) {
+        bytes += piece;
+        return true;
+    });
+    LSYS_CHECK(done.ok(), bytes.size()); // writers stop only at limits that a tile cannot reach
+    return bytes;
+}
+
+/// The name of a species as part of a path: letters, digits, `-` and `_`.
+std::string path_part(const std::string& name) {
+    std::string part;
+    for (const char c : name) {
+        const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '-' || c == '_';
+        part += fits ? c : '_';
+    }
+    return part;
+}
+
+/// The number of a cell on a curve that visits all cells of a square before the next square, for
+/// squares of every power of two (Morton 1966).
+std::uint64_t curve_number(std::uint32_t column, std::uint32_t row) {
+    std::uint64_t number = 0;
+    for (unsigned bit = 0; bit <= kMaxTileLevel; ++bit) {
+        number |= std::uint64_t{column >> bit & 1U} << 2 * bit;
+        number |= std::uint64_t{row >> bit & 1U} << (2 * bit + 1);
+    }
+    return number;
+}
+
+std::uint8_t srgb_byte(double linear) {
+    // The byte whose linear value is nearest; a table is the same on every machine.
+    static const std::array<float, 255> kBetween = [] {
+        std::array<float, 255> between{};
+        for (std::size_t i = 0; i < between.size(); ++i) {
+            between[i] = 0.5F * (linear_of_srgb(static_cast<float>(i) / 255.0F) +
+                                 linear_of_srgb(static_cast<float>(i + 1) / 255.0F));
+        }
+        return between;
+    }();
+    const auto at = std::lower_bound(kBetween.begin(), kBetween.end(), static_cast<float>(linear));
+    return static_cast<std::uint8_t>(at - kBetween.begin());
+}
+
+/// Widens the box of a tile by a point of its frame with +Y up.
+void widen(TileContent& content, const glm::vec3& point) {
+    const glm::dvec3 at = z_up(glm::dvec3(point));
+    for (int axis = 0; axis < 3; ++axis) {
+        double& low = content.low[static_cast<std::size_t>(axis)];
+        double& high = content.high[static_cast<std::size_t>(axis)];
+        low = std::min(low, at[axis]);
+        high = std::max(high, at[axis]);
+    }
+}
+
+} // namespace
+
+struct TileForest::State {
+    Scene scene;
+    GrownForest grown;
+    TileOptions options;
+    GroundFrame earth{std::nullopt};
+    Region square; // of level 0
+    std::vector<TileLevel> levels;
+    std::uint32_t first_trees = 0;     // the first level with single trees
+    std::vector<double> ground_errors; // by level
+    std::vector<std::uint32_t> cells;  // of the surface along each side of a tile, by level
+
+    std::vector<Hero> heroes;
+    std::vector<std::size_t> first_hero;           // by kind, a species and stage
+    std::vector<std::size_t> first_kind;           // by species
+    std::vector<std::size_t> hero_of_instance;     // by kind and instance, see hero_of()
+    std::vector<std::size_t> first_instance;       // by kind
+    std::vector<std::vector<std::size_t>> detail;  // by level and hero: its level of detail
+    std::vector<std::vector<MeshDocument>> models; // by level and hero
+    std::vector<std::vector<Bounds>> hero_bounds;  // by level and hero
+    std::vector<TileFile> files;
+    std::map<std::string, std::string> ground_pictures; // path by name in a document
+
+    std::vector<std::uint64_t> order_keys; // curve_number() of the trees in order
+    std::vector<std::uint32_t> order;      // trees by curve_number()
+    std::vector<std::size_t> hero_of_tree; // by tree
+    std::vector<Canopy> canopies;          // by level without trees
+    double tallest = 0.0;                  // m
+    glm::dvec3 ground_colour = kGroundColour;
+
+    [[nodiscard]] std::size_t kind_of(std::uint16_t species, std::uint32_t stage) const {
+        return first_kind[species] + stage;
+    }
+    [[nodiscard]] std::uint32_t finest() const {
+        return static_cast<std::uint32_t>(levels.size()) - 1;
+    }
+    [[nodiscard]] Region region_of(const TileId& tile) const {
+        const double side = levels[tile.level].side;
+        const double x = square.x + side * tile.column;
+        const double z = square.z + side * tile.row;
+        const Region& ground = scene.terrain.region;
+        const double right = std::min(x + side, ground.x + ground.width);
+        const double front = std::min(z + side, ground.z + ground.depth);
+        return {x, z, right - x, front - z};
+    }
+    [[nodiscard]] glm::dmat4 frame_of(const TileId& tile) const {
+        const double half = levels[tile.level].side / 2.0;
+        return earth.frame(square.x + 2.0 * half * tile.column + half,
+                           square.z + 2.0 * half * tile.row + half);
+    }
+
+    void find_heroes();
+    void sort_trees();
+    void plan_levels();
+    [[nodiscard]] Outcome<void> make_models(const Project& project);
+    void make_ground();
+    [[nodiscard]] ExportInfo info_of(const std::string& name) const;
+    [[nodiscard]] Json
+    gltf_of(const Mesh& mesh, const std::string& name, std::string& buffer) const;
+    [[nodiscard]] std::vector<PictureFile> pictures_of(const Mesh& mesh) const;
+    [[nodiscard]] MeshDocument
+    model_of(const Mesh& mesh, const std::string& name, std::string& buffer);
+    [[nodiscard]] std::string picture_path(const std::string& bytes);
+    [[nodiscard]] MeshDocument
+    ground_of(const TileId& tile, const glm::dmat4& to_tile, TileContent& content) const;
+    void add_trees(const TileId& tile,
+                   const glm::dmat4& to_tile,
+                   TileDocument& document,
+                   TileContent& content) const;
+};
+
+TileForest::TileForest(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TileForest::TileForest(TileForest&& other) noexcept = default;
+TileForest& TileForest::operator=(TileForest&& other) noexcept = default;
+TileForest::~TileForest() = default;
+
+const std::vector<TileLevel>& TileForest::levels() const {
+    return state_->levels;
+}
+const std::vector<TileFile>& TileForest::files() const {
+    return state_->files;
+}
+std::string TileForest::path_of(const TileId& tile) {
+    return fmt::format("{}/{}/{}.glb", tile.level, tile.column, tile.row);
+}
+
+std::vector<TileId> TileForest::tiles(std::uint32_t level) const {
+    std::vector<TileId> list;
+    const std::uint32_t side = 1U << level;
+    for (std::uint32_t row = 0; row < side; ++row) {
+        for (std::uint32_t column = 0; column < side; ++column) {
+            const Region region = state_->region_of({level, column, row});
+            if (region.width > 0.0 && region.depth > 0.0) {
+                list.push_back({level, column, row});
+            }
+        }
+    }
+    return list;
+}
+
+/// Numbers the heroes of each kind, and finds the hero of every tree.
+void TileForest::State::find_heroes() {
+    std::size_t kinds = 0;
+    std::size_t instances = 0;
+    for (const ForestSpecies& species : grown.forest.species) {
+        first_kind.push_back(kinds);
+        kinds += species.stages.size();
+        for (const ForestStage& stage : species.stages) {
+            first_instance.push_back(instances);
+            instances += stage.cache.instances.size();
+        }
+    }
+    hero_of_instance.resize(instances);
+    for (std::size_t i = 0; i < heroes.size(); ++i) {
+        const Hero& hero = heroes[i];
+        const std::size_t kind = first_kind[hero.species] + hero.stage;
+        hero_of_instance[first_instance[kind] + hero.instance] = i;
+    }
+    hero_of_tree.reserve(grown.forest.trees.size());
+    for (const Tree& tree : grown.forest.trees) {
+        TreeExpander expander(grown.forest.cache_of(tree), grown.forest.key);
+        const std::size_t kind = kind_of(tree.species, grown.forest.stage_of(tree));
+        const std::size_t hero =
+            hero_of_instance[first_instance[kind] + expander.root_instance(tree)];
+        hero_of_tree.push_back(hero);
+        tallest = std::max(tallest, static_cast<double>(tree.scale * heroes[hero].extent()));
+    }
+}
+
+void TileForest::State::sort_trees() {
+    const auto& trees = grown.forest.trees;
+    const std::uint32_t side = 1U << finest();
+    const auto cell = [&](double at) {
+        const double number = std::floor(at / levels.back().side);
+        return static_cast<std::uint32_t>(std::clamp(number, 0.0, static_cast<double>(side - 1)));
+    };
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+    keyed.reserve(trees.size());
+    for (std::uint32_t i = 0; i < trees.size(); ++i) {
+        const glm::dvec3 at(trees[i].position);
+        keyed.emplace_back(curve_number(cell(at.x - square.x), cell(at.z - square.z)), i);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    for (const auto& [key, tree] : keyed) {
+        order_keys.push_back(key);
+        order.push_back(tree);
+    }
+}
+
+void TileForest::State::plan_levels() {
+    const Region& ground = scene.terrain.region;
+    square = {ground.x, ground.z, std::max(ground.width, ground.depth),
+              std::max(ground.width, ground.depth)};
+    const double density = static_cast<double>(grown.forest.trees.size()) / ground.area();
+    // Trees of a hero with the same share each.
+    const auto triangles_of = [&](const auto& level_of) {
+        double sum = 0.0;
+        for (const Hero& hero : heroes) {
+            sum += static_cast<double>(hero.levels.levels[level_of(hero)].triangles);
+        }
+        return sum / static_cast<double>(std::max<std::size_t>(heroes.size(), 1));
+    };
+    const double budget = static_cast<double>(options.triangles);
+    const double finest_triangles = triangles_of([](const Hero&) { return std::size_t{0}; });
+    const double coarsest_triangles =
+        triangles_of([](const Hero& hero) { return hero.levels.levels.size() - 1; });
+    std::uint32_t depth = 0;
+    const auto mean_trees = [&](std::uint32_t level) {
+        const double side = square.width / static_cast<double>(1U << level);
+        return density * std::min(side * side, ground.area());
+    };
+    while (depth < kMaxTileLevel && mean_trees(depth) * finest_triangles > budget &&
+           mean_trees(depth + 1) >= kMinTileTrees) {
+        ++depth;
+    }
+    levels.resize(depth + 1);
+    detail.resize(depth + 1);
+    std::vector<float> max_scales(heroes.size(), 0.0F);
+    for (std::size_t i = 0; i < hero_of_tree.size(); ++i) {
+        float& scale = max_scales[hero_of_tree[i]];
+        scale = std::max(scale, grown.forest.trees[i].scale);
+    }
+    ground_errors.resize(depth + 1);
+    cells.resize(depth + 1);
+    double error = 0.0;
+    for (std::uint32_t up = 0; up <= depth; ++up) {
+        const std::uint32_t number = depth - up;
+        TileLevel& level = levels[number];
+        level.side = square.width / static_cast<double>(1U << number);
+        level.trees = mean_trees(number);
+        level.has_trees = up == 0 || (levels[number + 1].has_trees &&
+                                      level.trees <= static_cast<double>(kMaxTileTrees) &&
+                                      level.trees * coarsest_triangles <= budget);
+        const auto plan_ground = [&](double other_error) {
+            std::uint32_t& count = cells[number];
+            // Not much finer than the trees are.
+            for (count = kCanopyCells; count > 1; count /= 2) {
+                const double coarser = grown.terrain->mesh_error(2.0 * level.side / count);
+                if (coarser > std::max(0.5 * other_error, kGroundError)) {
+                    break;
+                }
+            }
+            ground_errors[number] = grown.terrain->mesh_error(level.side / count);
+            error = std::max({error, other_error, ground_errors[number]});
+        };
+        if (!level.has_trees) {
+            // A surface may be off by the height of a tree, and shows no colours of less than a cell.
+            cells[number] = kCanopyCells;
+            ground_errors[number] = grown.terrain->mesh_error(level.side / kCanopyCells);
+            error =
+                std::max({error, tallest, ground_errors[number], level.side / kCanopyCells / 2.0});
+            level.error = error;
+            continue;
+        }
+        first_trees = number;
+        std::vector<std::size_t>& chosen = detail[number];
+        double tree_error = 0.0;
+        for (std::size_t i = 0; i < heroes.size(); ++i) {
+            const std::vector<DetailLevel>& chain = heroes[i].levels.levels;
+            std::size_t k = up == 0 ? 0 : detail[number + 1][i];
+            while (up != 0 && k + 1 < chain.size() &&
+                   static_cast<double>(chain[k].triangles) * level.trees > budget) {
+                ++k;
+            }
+            chosen.push_back(k);
+            heroes[i].in_use[k] = true;
+            level.triangles += chain[k].triangles;
+            tree_error = std::max(tree_error, static_cast<double>(chain[k].error * max_scales[i]));
+        }
+        plan_ground(tree_error);
+        level.triangles /= std::max<std::size_t>(heroes.size(), 1);
+        level.error = error;
+    }
+}
+
+ExportInfo TileForest::State::info_of(const std::string& name) const {
+    ExportInfo info;
+    info.name = name;
+    info.generator = options.generator;
+    info.compression = ExportCompression::Meshopt;
+    info.buffer_name = "buffer";
+    info.picture_prefix = "picture";
+    info.threads = 1;
+    return info;
+}
+
+/// The document of a mesh, with a buffer and pictures beside it; appends the buffer to `buffer`.
+Json TileForest::State::gltf_of(const Mesh& mesh,
+                                const std::string& name,
+                                std::string& buffer) const {
+    const ExportInfo info = info_of(name);
+    const Skeleton none;
+    Json json = Json::parse(bytes_of([&](const ByteSink& sink) {
+        return export_mesh(mesh, none, ExportFormat::Gltf, info, sink);
+    }));
+    buffer +=
+        bytes_of([&](const ByteSink& sink) { return write_gltf_buffer(mesh, none, info, sink); });
+    buffer.resize((buffer.size() + 7) / 8 * 8, '\0');
+    return json;
+}
+
+std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const {
+    Outcome<std::vector<PictureFile>> pictures =
+        make_picture_files(mesh, ExportFormat::Gltf, info_of(""));
+    LSYS_CHECK(pictures.ok(), mesh.materials.size());
+    return std::move(pictures.value());
+}
+
+std::string TileForest::State::picture_path(const std::string& bytes) {
+    const std::string path =
+        fmt::format("pictures/{:016x}.png", mix64(combine_bytes(0x6C616E6473636170, bytes)));
+    const bool is_known = std::any_of(files.begin(), files.end(),
+                                      [&](const TileFile& file) { return file.path == path; });
+    if (!is_known) {
+        files.push_back({path, bytes});
+    }
+    return path;
+}
+
+/// The document of a mesh, whose pictures become shared files; appends its buffer to `buffer`.
+MeshDocument
+TileForest::State::model_of(const Mesh& mesh, const std::string& name, std::string& buffer) {
+    MeshDocument document;
+    document.offset = buffer.size();
+    document.json = gltf_of(mesh, name, buffer);
+    for (const PictureFile& picture : pictures_of(mesh)) {
+        const std::string path = "../../" + picture_path(picture.bytes);
+        for (Json& image : document.json["images"]) {
+            if (image["uri"] == picture.name) {
+                image = {{"uri", path}};
+            }
+        }
+    }
+    return document;
+}
+
+Outcome<void> TileForest::State::make_models(const Project& project) {
+    Step step(project);
+    if (!step.take(mesh_heroes(grown, options.mesh, project, heroes))) {
+        return step.end();
+    }
+    models.resize(levels.size());
+    hero_bounds.resize(levels.size());
+    for (std::uint32_t level = first_trees; level < levels.size(); ++level) {
+        models[level].resize(heroes.size());
+        hero_bounds[level].resize(heroes.size());
+        for (std::size_t first = 0; first < heroes.size();) {
+            const auto is_same_kind = [&](const Hero& hero) {
+                return hero.species == heroes[first].species && hero.stage == heroes[first].stage;
+            };
+            std::size_t end = first;
+            std::string buffer;
+            const ForestSpecies& species = grown.forest.species[heroes[first].species];
+            const std::string stage =
+                species.stages.size() == 1
+                    ? std::string()
+                    : fmt::format("-n{}", species.stages[heroes[first].stage].generations);
+            for (; end < heroes.size() && is_same_kind(heroes[end]); ++end) {
+                const std::string name = fmt::format("{}{} {}", species.name, stage, end - first);
+                const Mesh& mesh = heroes[end].meshes[detail[level][end]];
+                if (mesh.positions.empty()) {
+                    continue;
+                }
+                models[level][end] = model_of(mesh, name, buffer);
+                for (const glm::vec3& position : mesh.positions) {
+                    hero_bounds[level][end].add(position);
+                }
+            }
+            const std::string path = fmt::format("models/{}-{}{}-{}.bin", heroes[first].species,
+                                                 path_part(species.name), stage, level);
+            for (std::size_t i = first; i < end; ++i) {
+                models[level][i].uri = "../../" + path;
+                models[level][i].file_bytes = buffer.size();
+            }
+            files.push_back({path, std::move(buffer)});
+            first = end;
+        }
+    }
+    return step.done();
+}
+
+/// Makes the pictures of the ground, and the canopies.
+void TileForest::State::make_ground() {
+    std::vector<Crown> crowns;
+    for (const Hero& hero : heroes) {
+        crowns.push_back(crown_of(hero.meshes[detail[finest()][crowns.size()]]));
+    }
+    if (grown.ground.colour != nullptr) {
+        ground_colour = glm::dvec3(mean_colour(*grown.ground.colour));
+        Mesh sample; // pictures are those of materials in use
+        sample.positions = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}};
+        sample.normals.assign(3, {0.0F, 1.0F, 0.0F});
+        sample.texture_coordinates = {{0.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 0.0F}};
+        LargeVector<std::uint32_t> indices{0, 1, 2};
+        sample.indices = TriangleList(std::move(indices));
+        Material material;
+        material.name = "ground";
+        material.textured = true;
+        material.picture = grown.ground.colour;
+        sample.materials.push_back(material);
+        sample.parts.push_back({0, 0, 3});
+        for (const PictureFile& picture : pictures_of(sample)) {
+            ground_pictures[picture.name] = "../../" + picture_path(picture.bytes);
+        }
+    }
+    if (first_trees == 0) {
+        return;
+    }
+    const std::uint32_t across = kCanopyCells << (first_trees - 1);
+    const double cell = square.width / across;
+    Canopy canopy(across, cell);
+    const auto number = [&](double at) {
+        return static_cast<std::uint32_t>(
+            std::clamp(std::floor(at / cell), 0.0, static_cast<double>(across - 1)));
+    };
+    for (std::size_t i = 0; i < hero_of_tree.size(); ++i) {
+        const Tree& tree = grown.forest.trees[i];
+        const glm::dvec3 at(tree.position);
+        canopy.add(number(at.x - square.x), number(at.z - square.z), crowns[hero_of_tree[i]],
+                   static_cast<double>(tree.scale));
+    }
+    canopies.push_back(std::move(canopy));
+    while (canopies.size() < first_trees) {
+        canopies.push_back(canopies.back().coarser());
+    }
+    std::reverse(canopies.begin(), canopies.end());
+}
+
+MeshDocument TileForest::State::ground_of(const TileId& tile,
+                                          const glm::dmat4& to_tile,
+                                          TileContent& content) const {
+    const TileLevel& level = levels[tile.level];
+    const Region region = region_of(tile);
+    const Terrain& terrain = *grown.terrain;
+    Material material;
+    material.name = "ground";
+    PatchPlan plan{cells[tile.level], region, earth, to_tile, 0.0, material, {}};
+    // As deep as the surfaces of this level and of the coarser one beside it may be apart.
+    plan.skirt = ground_errors[tile.level] + ground_errors[tile.level - std::min(tile.level, 1U)];
+    plan.skirt = std::max(plan.skirt, level.has_trees ? 0.0 : tallest) + level.side / 1000.0;
+    Texture colours;
+    const GroundPictures& pictures = grown.ground;
+    if (level.has_trees) {
+        const bool tiled = pictures.colour != nullptr;
+        plan.material.textured = tiled;
+        plan.material.picture = pictures.colour;
+        plan.material.relief = nullptr;
+        plan.material.colour = glm::vec4(tiled ? glm::vec3(1.0F) : glm::vec3(ground_colour), 1.0F);
+        const double width = tiled ? pictures.width : region.width;
+        const double depth = tiled ? pictures.depth : region.depth;
+        const double first_u = std::floor((region.x - pictures.origin_x) / width);
+        const double first_v = std::floor((region.z - pictures.origin_z) / depth);
+        plan.point = [&, width, depth, first_u, first_v](std::uint32_t, std::uint32_t, double x,
+                                                         double z) {
+            const auto fx = static_cast<float>(x);
+            const auto fz = static_cast<float>(z);
+            return PatchPoint{static_cast<double>(terrain.height(fx, fz)), terrain.normal(fx, fz),
+                              glm::vec2((x - pictures.origin_x) / width - first_u,
+                                        (z - pictures.origin_z) / depth - first_v)};
+        };
+    } else {
+        const Canopy& canopy = canopies[tile.level];
+        const double cell = level.side / kCanopyCells;
+        const auto canopy_at = [&, cell](double x, double z) {
+            return canopy.at_corner(std::llround((x - square.x) / cell),
+                                    std::llround((z - square.z) / cell));
+        };
+        const auto height = [&terrain, canopy_at](double x, double z) {
+            return static_cast<double>(
+                       terrain.height(static_cast<float>(x), static_cast<float>(z))) +
+                   canopy_at(x, z).height;
+        };
+        static constexpr std::uint32_t kSide = kCanopyCells + 1;
+        colours = {kSide, kSide, std::vector<std::uint8_t>(std::size_t{4} * kSide * kSide)};
+        plan.material.textured = true;
+        plan.material.roughness = 1.0F;
+        plan.point = [&, canopy_at, height, cell](std::uint32_t column, std::uint32_t row, double x,
+                                                  double z) {
+            const CanopyPoint crowns = canopy_at(x, z);
+            const glm::dvec3 colour = glm::mix(ground_colour, crowns.colour, crowns.cover);
+            std::uint8_t* const texel = &colours.texels[4 * (std::size_t{row} * kSide + column)];
+            for (int i = 0; i < 3; ++i) {
+                texel[i] = srgb_byte(colour[i]);
+            }
+            texel[3] = 255;
+            const glm::dvec3 slope((height(x - cell, z) - height(x + cell, z)) / (2.0 * cell), 1.0,
+                                   (height(x, z - cell) - height(x, z + cell)) / (2.0 * cell));
+            const auto part = [](std::uint32_t at) {
+                return (static_cast<float>(at) + 0.5F) / static_cast<float>(kSide);
+            };
+            return PatchPoint{
+                height(x, z), glm::vec3(glm::normalize(slope)), {part(column), part(row)}};
+        };
+    }
+    Mesh mesh = make_patch(plan);
+    if (!level.has_trees) {
+        mesh.materials.front().picture = std::make_shared<const Texture>(std::move(colours));
+    }
+    for (const glm::vec3& position : mesh.positions) {
+        widen(content, position);
+    }
+    MeshDocument document;
+    document.json = gltf_of(mesh, level.has_trees ? "ground" : "forest", document.data);
+    if (document.json.contains("images")) {
+        for (Json& image : document.json["images"]) {
+            if (level.has_trees) {
+                image["uri"] = ground_pictures.at(image["uri"].get<std::string>());
+            } else { // a picture of this tile alone
+                const std::string png = pictures_of(mesh).front().bytes;
+                const std::size_t view = document.json["bufferViews"].size();
+                document.json["bufferViews"].push_back({{"buffer", 0},
+                                                        {"byteOffset", document.data.size()},
+                                                        {"byteLength", png.size()}});
+                document.data += png;
+                image = {{"bufferView", view}, {"mimeType", "image/png"}};
+            }
+        }
+    }
+    return document;
+}
+
+void TileForest::State::add_trees(const TileId& tile,
+                                  const glm::dmat4& to_tile,
+                                  TileDocument& document,
+                                  TileContent& content) const {
+    const unsigned shift = 2 * (finest() - tile.level);
+    const std::uint64_t number = curve_number(tile.column, tile.row);
+    const auto first = std::lower_bound(order_keys.begin(), order_keys.end(), number << shift);
+    const auto end = std::lower_bound(first, order_keys.end(), (number + 1) << shift);
+    std::map<std::size_t, std::vector<TileTree>> groups; // by hero
+    for (auto at = first; at != end; ++at) {
+        const std::uint32_t index = order[static_cast<std::size_t>(at - order_keys.begin())];
+        const Tree& tree = grown.forest.trees[index];
+        const std::size_t hero = hero_of_tree[index];
+        if (models[tile.level][hero].json.is_null()) {
+            continue; // draws nothing
+        }
+        // Placed at the origin first: binary32 is too coarse for places far from it.
+        Tree here = tree;
+        here.position = glm::vec3(0.0F);
+        const InstanceCache& cache = grown.forest.cache_of(tree);
+        InstancePose pose;
+        TreeExpander(cache, grown.forest.key).expand(here, [&](const BranchInstance& branch) {
+            pose = pose_of(branch, cache.instances[branch.instance]);
+        });
+        const glm::dvec3 place(tree.position);
+        const glm::vec3 foot(
+            y_up(glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y, place.z), 1.0))));
+        const glm::vec3 above(y_up(
+            glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y + 1.0, place.z), 1.0))));
+        // Trees stand upright at their place, not at the middle of the tile.
+        const glm::vec3 up = glm::normalize(above - foot);
+        const glm::quat tilt =
+            glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // from +Y to `up`
+        const float height = static_cast<float>(tree.scale) *
+                             (heroes[hero].bounds.high.y - heroes[hero].bounds.low.y);
+        const TileTree placed{tilt * pose.rotation,
+                              foot + tilt * pose.translation,
+                              pose.scale,
+                              height,
+                              tree.number,
+                              tree.species,
+                              tree.age};
+        groups[hero].push_back(placed);
+        const Bounds& box = hero_bounds[tile.level][hero];
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const glm::vec3 point((corner & 1U) != 0 ? box.high.x : box.low.x,
+                                  (corner & 2U) != 0 ? box.high.y : box.low.y,
+                                  (corner & 4U) != 0 ? box.high.z : box.low.z);
+            widen(content, placed.translation + placed.scale * (placed.rotation * point));
+        }
+        ++content.trees;
+    }
+    for (const auto& [hero, trees] : groups) {
+        document.add_trees(models[tile.level][hero], trees);
+    }
+}
+
+TileContent TileForest::content(const TileId& tile) const {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    TileContent content;
+    content.low.fill(kInfinite);
+    content.high.fill(-kInfinite);
+    const glm::dmat4 to_tile = inverse_of_frame(state_->frame_of(tile));
+    TileDocument document(state_->options.generator);
+    document.add_surface(state_->ground_of(tile, to_tile, content));
+    if (state_->levels[tile.level].has_trees) {
+        state_->add_trees(tile, to_tile, document, content);
+    }
+    std::vector<std::string> species;
+    for (const ForestSpecies& each : state_->grown.forest.species) {
+        species.push_back(each.name);
+    }
+    content.bytes = document.write(species);
+    return content;
+}
+
+namespace {
+
+/// A box along the axes of a frame.
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
+
+/// A number of a tileset: rounded to a multiple of 2^-20, a micrometre.
+double rounded(double value) {
+    constexpr double kSteps = 1 << 20;
+    return std::floor(value * kSteps + 0.5) / kSteps;
+}
+
+/// The matrix in the order of a tileset. Axes have 12 digits: their error is below the diameter of
+/// the Earth times 1e-12.
+Json json_of(const glm::dmat4& matrix) {
+    Json numbers = Json::array();
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            constexpr double kSteps = 1e12;
+            const double value = matrix[column][row];
+            numbers.push_back(column == 3 ? rounded(value)
+                                          : std::floor(value * kSteps + 0.5) / kSteps + 0.0);
+        }
+    }
+    return numbers;
+}
+
+Json json_of(const Box& box) {
+    const glm::dvec3 middle = 0.5 * (box.low + box.high);
+    // A millimetre more, because numbers of tiles and tilesets are rounded.
+    const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
+    return {rounded(middle.x),
+            rounded(middle.y),
+            rounded(middle.z),
+            rounded(half.x),
+            0.0,
+            0.0,
+            0.0,
+            rounded(half.y),
+            0.0,
+            0.0,
+            0.0,
+            rounded(half.z)};
+}
+
+std::string tileset_path(const TileId& tile) {
+    return tile.level == 0 ? "tileset.json"
+                           : fmt::format("{}/{}/{}.json", tile.level, tile.column, tile.row);
+}
+
+} // namespace
+
+std::vector<TileFile>
+TileForest::tilesets(const std::vector<std::vector<TileContent>>& contents) const {
+    const State& state = *state_;
+    std::vector<TileFile> files;
+    struct Node {
+        glm::dmat4 frame{1.0};
+        Box box;   // of the tile and all below it, in its frame
+        Json json; // without a transform
+    };
+    std::vector<std::map<std::pair<std::uint32_t, std::uint32_t>, const TileContent*>> places(
+        contents.size());
+    for (std::uint32_t level = 0; level < contents.size(); ++level) {
+        const std::vector<TileId> ids = tiles(level);
+        LSYS_CHECK(ids.size() == contents[level].size(), level);
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            places[level][{ids[i].row, ids[i].column}] = &contents[level][i];
+        }
+    }
+    const auto write = [&](const TileId& tile, const Node& node, bool is_root) {
+        Json root = node.json;
+        if (is_root) {
+            root["transform"] = json_of(node.frame);
+        }
+        Json tileset;
+        tileset["asset"] = {{"version", "1.1"},
+                            {"extras", {{"generator", state.options.generator}}}};
+        tileset["geometricError"] =
+            rounded(is_root ? state.square.width : state.levels[tile.level].error);
+        tileset["root"] = std::move(root);
+        files.push_back({tileset_path(tile), tileset.dump() + "\n"});
+    };
+    // `from`: level of the root of the file that holds the node, for relative paths.
+    const std::function<Node(const TileId&, std::uint32_t)> visit =
+        [&](const TileId& tile, std::uint32_t from) -> Node {
+        Node node;
+        node.frame = state.frame_of(tile);
+        const TileContent& content = *places[tile.level].at({tile.row, tile.column});
+        node.box.add({content.low[0], content.low[1], content.low[2]});
+        node.box.add({content.high[0], content.high[1], content.high[2]});
+        const bool is_file = tile.level % kSubtreeLevels == 0;
+        const std::uint32_t own_from = is_file ? tile.level : from;
+        const glm::dmat4 to_node = inverse_of_frame(node.frame);
+        Json children = Json::array();
+        for (std::uint32_t i = 0; i < 4 && tile.level + 1 < contents.size(); ++i) {
+            const TileId below{tile.level + 1, 2 * tile.column + (i & 1U), 2 * tile.row + i / 2};
+            if (!places[below.level].contains({below.row, below.column})) {
+                continue;
+            }
+            Node child = visit(below, own_from);
+            const glm::dmat4 transform = to_node * child.frame;
+            for (unsigned corner = 0; corner < 8; ++corner) {
+                const glm::dvec4 point((corner & 1U) != 0 ? child.box.high.x : child.box.low.x,
+                                       (corner & 2U) != 0 ? child.box.high.y : child.box.low.y,
+                                       (corner & 4U) != 0 ? child.box.high.z : child.box.low.z,
+                                       1.0);
+                node.box.add(glm::dvec3(transform * point));
+            }
+            child.json["transform"] = json_of(transform);
+            children.push_back(std::move(child.json));
+        }
+        const double error = state.levels[tile.level].error;
+        const std::string up = own_from == 0 ? "" : "../../";
+        node.json["boundingVolume"]["box"] = json_of(node.box);
+        node.json["geometricError"] = rounded(error);
+        node.json["refine"] = "REPLACE";
+        node.json["content"]["uri"] = up + path_of(tile);
+        if (!children.empty()) {
+            node.json["children"] = std::move(children);
+        }
+        if (is_file) {
+            write(tile, node, tile.level == 0);
+            const std::string back = from == 0 ? "" : "../../";
+            node.json = {{"boundingVolume", {{"box", json_of(node.box)}}},
+                         {"geometricError", rounded(error)},
+                         {"content", {{"uri", back + tileset_path(tile)}}}};
+        }
+        return node;
+    };
+    visit({}, 0);
+    return files;
+}
+
+Outcome<TileForest> make_tile_forest(const Scene& scene,
+                                     GrownForest grown,
+                                     const TileOptions& options,
+                                     const Project& project) {
+    Step step(project);
+    auto state = std::make_unique<TileForest::State>();
+    state->scene = scene;
+    state->options = options;
+    state->earth = GroundFrame(options.origin);
+    state->grown = std::move(grown);
+    if (!step.take(plan_heroes(state->grown, options.mesh, project), state->heroes)) {
+        return step.end();
+    }
+    state->find_heroes();
+    state->plan_levels();
+    state->sort_trees();
+    if (!step.take(state->make_models(project))) {
+        return step.end();
+    }
+    state->make_ground();
+    return step.done(TileForest(std::move(state)));
+}
+
+} // namespace lsys

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene. Near
+// tiles hold the ground and the trees as instances of whole heroes; coarser tiles hold fewer
+// triangles per tree; tiles with too many trees hold one surface of ground and crowns. Meshes of
+// heroes are files that all tiles share. Every tile is a function of the forest and its place, so
+// tiles can be made in any order. Made by make_tile_forest(); used by `lsc tiles`.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/forest.h"
+#include "runtime/pipeline/project.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// A place on the Earth: degrees, and metres above the ellipsoid of WGS 84.
+struct GeoPlace {
+    double longitude = 0.0;
+    double latitude = 0.0;
+    double height = 0.0;
+};
+
+inline constexpr std::uint32_t kMaxTileLevel = 24;
+inline constexpr std::uint64_t kTileTriangles = 2'000'000;
+/// Max number of trees of a tile that shows single trees.
+inline constexpr std::uint64_t kMaxTileTrees = 16'384;
+
+struct TileOptions {
+    /// Place of the scene's origin at altitude 0; +X points east and -Z north. None: the tileset has
+    /// coordinates of its own.
+    std::optional<GeoPlace> origin;
+    std::uint64_t triangles = kTileTriangles; // max of a tile, for its mean number of trees
+    MeshOptions mesh;
+    std::string generator; // the program and its version
+};
+
+/// A square of the quadtree. Level 0 is the whole square of the scene; column and row run along +X
+/// and +Z.
+struct TileId {
+    std::uint32_t level = 0;
+    std::uint32_t column = 0;
+    std::uint32_t row = 0;
+
+    friend bool operator==(const TileId&, const TileId&) = default;
+};
+
+/// One level of the quadtree.
+struct TileLevel {
+    double side = 0.0;           // m
+    double error = 0.0;          // m, of its tiles against the forest; 0 for the finest level
+    bool has_trees = false;      // single trees, else one surface of ground and crowns
+    double trees = 0.0;          // mean number in a tile
+    std::uint64_t triangles = 0; // mean number per tree
+};
+
+/// A file that tiles refer to: meshes or a picture.
+struct TileFile {
+    std::string path; // relative to the folder of the tileset, with `/`
+    std::string bytes;
+};
+
+/// The contents of a tile: a GLB, and its box in the frame of the tile.
+struct TileContent {
+    std::string bytes;           // empty: there is nothing in the tile
+    std::array<double, 3> low{}; // m; east, north, up
+    std::array<double, 3> high{};
+    std::uint64_t trees = 0; // that it shows one by one
+};
+
+class TileForest {
+public:
+    TileForest(TileForest&& other) noexcept;
+    TileForest& operator=(TileForest&& other) noexcept;
+    ~TileForest();
+
+    /// From the root to the finest level.
+    [[nodiscard]] const std::vector<TileLevel>& levels() const;
+    /// The files that tiles share.
+    [[nodiscard]] const std::vector<TileFile>& files() const;
+    /// The tiles of a level that meet the ground, by row and column.
+    [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
+    /// Makes a tile. May be called from several threads. Throws std::bad_alloc.
+    [[nodiscard]] TileContent content(const TileId& tile) const;
+    /// The tilesets, as files: "tileset.json" and one for each subtree of kSubtreeLevels levels.
+    /// `contents`: of all tiles of all levels, in the order of tiles(); their bytes are not read.
+    [[nodiscard]] std::vector<TileFile>
+    tilesets(const std::vector<std::vector<TileContent>>& contents) const;
+    /// The path of the content of a tile: "3/5/2.glb".
+    [[nodiscard]] static std::string path_of(const TileId& tile);
+
+private:
+    friend Outcome<TileForest> make_tile_forest(const Scene& scene,
+                                                GrownForest grown,
+                                                const TileOptions& options,
+                                                const Project& project);
+    struct State;
+    explicit TileForest(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Plans the tiles of a forest whose trees are placed, and makes the shared files. Precondition:
+/// `grown` has been grown with rho 0. Stops as mesh_forest(); Failed: nothing to draw.
+[[nodiscard]] Outcome<TileForest> make_tile_forest(const Scene& scene,
+                                                   GrownForest grown,
+                                                   const TileOptions& options,
+                                                   const Project& project);
+
+} // namespace lsys
