@@ -113,7 +113,7 @@ Result<void> write_tiles(const TileForest& forest,
                     !written) {
                     return written;
                 }
-                made[i].bytes = {};
+                std::string().swap(made[i].bytes); // frees the memory
             }
         }
     }

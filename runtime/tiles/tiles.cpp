@@ -110,10 +110,11 @@ struct TileForest::State {
     std::vector<std::uint32_t> cells;  // of the surface along each side of a tile, by level
 
     std::vector<Hero> heroes;
-    std::vector<std::size_t> first_hero;           // by kind, a species and stage
-    std::vector<std::size_t> first_kind;           // by species
-    std::vector<std::size_t> hero_of_instance;     // by kind and instance, see hero_of()
-    std::vector<std::size_t> first_instance;       // by kind
+    // A kind is a species and stage.
+    std::vector<std::size_t> first_kind;       // by species
+    std::vector<std::size_t> hero_of_instance; // the hero of an instance, kind by kind
+    std::vector<std::size_t>
+        first_instance; // by kind: index of its first instance in `hero_of_instance`
     std::vector<std::vector<std::size_t>> detail;  // by level and hero: its level of detail
     std::vector<std::vector<MeshDocument>> models; // by level and hero
     std::vector<std::vector<Bounds>> hero_bounds;  // by level and hero
@@ -493,7 +494,10 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
     const Terrain& terrain = *grown.terrain;
     Material material;
     material.name = "ground";
-    PatchPlan plan{cells[tile.level], region, earth, to_tile, 0.0, material, {}};
+    PatchPlan plan{cells[tile.level], region, earth, to_tile, 0.0, material, {}, {}};
+    const auto bare = [&terrain](double x, double z) {
+        return static_cast<double>(terrain.height(static_cast<float>(x), static_cast<float>(z)));
+    };
     // As deep as the surfaces of this level and of the coarser one beside it may be apart.
     plan.skirt = ground_errors[tile.level] + ground_errors[tile.level - std::min(tile.level, 1U)];
     plan.skirt = std::max(plan.skirt, level.has_trees ? 0.0 : tallest) + level.side / 1000.0;
@@ -509,13 +513,11 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
         const double depth = tiled ? pictures.depth : region.depth;
         const double first_u = std::floor((region.x - pictures.origin_x) / width);
         const double first_v = std::floor((region.z - pictures.origin_z) / depth);
-        plan.point = [&, width, depth, first_u, first_v](std::uint32_t, std::uint32_t, double x,
-                                                         double z) {
-            const auto fx = static_cast<float>(x);
-            const auto fz = static_cast<float>(z);
-            return PatchPoint{static_cast<double>(terrain.height(fx, fz)), terrain.normal(fx, fz),
-                              glm::vec2((x - pictures.origin_x) / width - first_u,
-                                        (z - pictures.origin_z) / depth - first_v)};
+        plan.height = bare;
+        plan.texture = [&, width, depth, first_u, first_v](std::uint32_t, std::uint32_t, double x,
+                                                           double z) {
+            return glm::vec2((x - pictures.origin_x) / width - first_u,
+                             (z - pictures.origin_z) / depth - first_v);
         };
     } else {
         const Canopy& canopy = canopies[tile.level];
@@ -524,17 +526,14 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
             return canopy.at_corner(std::llround((x - square.x) / cell),
                                     std::llround((z - square.z) / cell));
         };
-        const auto height = [&terrain, canopy_at](double x, double z) {
-            return static_cast<double>(
-                       terrain.height(static_cast<float>(x), static_cast<float>(z))) +
-                   canopy_at(x, z).height;
+        plan.height = [bare, canopy_at](double x, double z) {
+            return bare(x, z) + canopy_at(x, z).height;
         };
         static constexpr std::uint32_t kSide = kCanopyCells + 1;
         colours = {kSide, kSide, std::vector<std::uint8_t>(std::size_t{4} * kSide * kSide)};
         plan.material.textured = true;
         plan.material.roughness = 1.0F;
-        plan.point = [&, canopy_at, height, cell](std::uint32_t column, std::uint32_t row, double x,
-                                                  double z) {
+        plan.texture = [&, canopy_at](std::uint32_t column, std::uint32_t row, double x, double z) {
             const CanopyPoint crowns = canopy_at(x, z);
             const glm::dvec3 colour = glm::mix(ground_colour, crowns.colour, crowns.cover);
             std::uint8_t* const texel = &colours.texels[4 * (std::size_t{row} * kSide + column)];
@@ -542,13 +541,10 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
                 texel[i] = srgb_byte(colour[i]);
             }
             texel[3] = 255;
-            const glm::dvec3 slope((height(x - cell, z) - height(x + cell, z)) / (2.0 * cell), 1.0,
-                                   (height(x, z - cell) - height(x, z + cell)) / (2.0 * cell));
             const auto part = [](std::uint32_t at) {
                 return (static_cast<float>(at) + 0.5F) / static_cast<float>(kSide);
             };
-            return PatchPoint{
-                height(x, z), glm::vec3(glm::normalize(slope)), {part(column), part(row)}};
+            return glm::vec2(part(column), part(row));
         };
     }
     Mesh mesh = make_patch(plan);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/impl/ground_patch.h"
 
+#include <glm/geometric.hpp>
+
 #include <cstddef>
 #include <vector>
 
@@ -13,14 +15,27 @@ Mesh make_patch(const PatchPlan& plan) {
     const auto place = [&](double x, double y, double z) {
         return y_up(glm::dvec3(plan.to_tile * glm::dvec4(plan.earth.place(x, y, z), 1.0)));
     };
+    const double step_x = plan.region.width / cells;
+    const double step_z = plan.region.depth / cells;
+    // Heights of the vertices and of a border of one cell.
+    const std::uint32_t wide = side + 2;
+    std::vector<double> heights;
+    for (std::uint32_t row = 0; row < wide; ++row) {
+        for (std::uint32_t column = 0; column < wide; ++column) {
+            heights.push_back(plan.height(plan.region.x + step_x * (column - 1.0),
+                                          plan.region.z + step_z * (row - 1.0)));
+        }
+    }
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
-            const double x = plan.region.x + plan.region.width * column / cells;
-            const double z = plan.region.z + plan.region.depth * row / cells;
-            const PatchPoint point = plan.point(column, row, x, z);
-            mesh.positions.push_back(glm::vec3(place(x, point.height, z)));
-            mesh.normals.push_back(point.normal);
-            mesh.texture_coordinates.push_back(point.texture);
+            const double x = plan.region.x + step_x * column;
+            const double z = plan.region.z + step_z * row;
+            const std::size_t at = std::size_t{row + 1} * wide + column + 1;
+            mesh.positions.push_back(glm::vec3(place(x, heights[at], z)));
+            const glm::dvec3 normal((heights[at - 1] - heights[at + 1]) / (2.0 * step_x), 1.0,
+                                    (heights[at - wide] - heights[at + wide]) / (2.0 * step_z));
+            mesh.normals.push_back(glm::vec3(glm::normalize(normal)));
+            mesh.texture_coordinates.push_back(plan.texture(column, row, x, z));
         }
     }
     // Triangles are counter-clockwise seen from above; diagonals alternate, as on the ground of

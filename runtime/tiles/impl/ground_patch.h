@@ -16,13 +16,6 @@
 
 namespace lsys {
 
-/// A vertex of the patch.
-struct PatchPoint {
-    double height = 0.0;                // m, altitude in the scene
-    glm::vec3 normal{0.0F, 1.0F, 0.0F}; // in the axes of the scene
-    glm::vec2 texture{0.0F};
-};
-
 struct PatchPlan {
     std::uint32_t cells = 1; // along each side
     Region region;           // of the scene
@@ -30,8 +23,10 @@ struct PatchPlan {
     glm::dmat4 to_tile; // from the coordinates of the tileset to those of the tile
     double skirt = 0.0; // m, its depth
     Material material;
-    /// The point at column and row, 0 to `cells`, whose place in the scene is (x, z).
-    std::function<PatchPoint(std::uint32_t column, std::uint32_t row, double x, double z)> point;
+    /// Altitude in m at (x, z) of the scene, also one cell beyond the region, for normals.
+    std::function<double(double x, double z)> height;
+    /// Texture coordinates at column and row, 0 to `cells`, whose place in the scene is (x, z).
+    std::function<glm::vec2(std::uint32_t column, std::uint32_t row, double x, double z)> texture;
 };
 
 /// The mesh in the frame of the tile, with +Y up.
