@@ -73,7 +73,7 @@ std::uint64_t curve_number(std::uint32_t column, std::uint32_t row) {
 
 std::uint8_t srgb_byte(double linear) {
     // The byte whose linear value is nearest; a table is the same on every machine.
-    static const std::array<float, 255> kBetween = [] {
+    static const std::array<float, 255> between_bytes = [] {
         std::array<float, 255> between{};
         for (std::size_t i = 0; i < between.size(); ++i) {
             between[i] = 0.5F * (linear_of_srgb(static_cast<float>(i) / 255.0F) +
@@ -81,8 +81,9 @@ std::uint8_t srgb_byte(double linear) {
         }
         return between;
     }();
-    const auto at = std::lower_bound(kBetween.begin(), kBetween.end(), static_cast<float>(linear));
-    return static_cast<std::uint8_t>(at - kBetween.begin());
+    const auto at =
+        std::lower_bound(between_bytes.begin(), between_bytes.end(), static_cast<float>(linear));
+    return static_cast<std::uint8_t>(at - between_bytes.begin());
 }
 
 /// Widens the box of a tile by a point of its frame with +Y up.
@@ -367,7 +368,7 @@ std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const 
 }
 
 std::string TileForest::State::picture_path(const std::string& bytes) {
-    const std::string path =
+    std::string path =
         fmt::format("pictures/{:016x}.png", mix64(combine_bytes(0x6C616E6473636170, bytes)));
     const bool is_known = std::any_of(files.begin(), files.end(),
                                       [&](const TileFile& file) { return file.path == path; });

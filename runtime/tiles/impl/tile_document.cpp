@@ -250,6 +250,7 @@ void TileDocument::put_groups() {
     std::string rotations;
     std::string scales;
     std::string ids;
+    std::uint32_t row = 0; // of the table of properties
     for (const Group& group : groups_) {
         for (const TileTree& tree : group.trees) {
             const glm::vec3 at = tree.translation + tree.scale * (tree.rotation * group.mesh.low);
@@ -260,7 +261,7 @@ void TileDocument::put_groups() {
             for (int axis = 0; axis < 3; ++axis) {
                 append(scales, shortened(tree.scale * group.mesh.step));
             }
-            append(ids, static_cast<float>(ids.size() / sizeof(float)));
+            append(ids, static_cast<float>(row++));
         }
     }
     const std::size_t translation_view = add_packed_view(translations, kVector);
