@@ -5,13 +5,15 @@
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
+import { pathToFileURL } from 'node:url';
 
 const [, , modules, folder, treeCount] = process.argv;
 const require = createRequire(path.join(path.resolve(modules), 'x.js'));
 const validator = require('gltf-validator');
 const { NodeIO } = require('@gltf-transform/core');
 const { ALL_EXTENSIONS } = require('@gltf-transform/extensions');
-const { MeshoptDecoder } = require('meshoptimizer');
+const { MeshoptDecoder } = await import(
+    pathToFileURL(path.resolve(modules, 'three/examples/jsm/libs/meshopt_decoder.module.js')));
 
 let failures = 0;
 const check = (holds, what) => {
