@@ -33,10 +33,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t kSubtreeLevels = 4; // of a tileset file
-constexpr double kMinTileTrees = 4.0;       // mean number in a tile that is not divided further
-constexpr double kGroundError = 0.05;       // m, that the surface of any tile may have
-// Mean colour of the ground without a picture, as of make_terrain_mesh().
+constexpr std::uint32_t kSubtreeLevels = 4;                // levels per tileset file
+constexpr std::uint64_t kPictureHash = 0x6C616E6473636170; // initial state of the hash
+constexpr double kMinTileTrees = 4.0; // mean number in a tile that is not divided further
+constexpr double kGroundError = 0.05; // m, tolerated error of the ground in every tile
+// Mean colour of the ground without a picture, as in make_terrain_mesh().
 constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
 
 std::string bytes_of(const std::function<Outcome<void>(const ByteSink&)>& write) {
@@ -60,9 +61,9 @@ std::string path_part(const std::string& name) {
     return part;
 }
 
-/// The number of a cell on a curve that visits all cells of a square before the next square, for
-/// squares of every power of two (Morton 1966).
-std::uint64_t curve_number(std::uint32_t column, std::uint32_t row) {
+/// The position of a cell on the Z-order curve (Morton 1966). The cells of a tile are consecutive, at
+/// every level of the quadtree.
+std::uint64_t morton_code(std::uint32_t column, std::uint32_t row) {
     std::uint64_t number = 0;
     for (unsigned bit = 0; bit <= kMaxTileLevel; ++bit) {
         number |= std::uint64_t{column >> bit & 1U} << 2 * bit;
@@ -72,7 +73,7 @@ std::uint64_t curve_number(std::uint32_t column, std::uint32_t row) {
 }
 
 std::uint8_t srgb_byte(double linear) {
-    // The byte whose linear value is nearest; a table is the same on every machine.
+    // The byte whose linear value is nearest. A table, because std::pow differs between machines.
     static const std::array<float, 255> between_bytes = [] {
         std::array<float, 255> between{};
         for (std::size_t i = 0; i < between.size(); ++i) {
@@ -106,9 +107,9 @@ struct TileForest::State {
     GroundFrame earth{std::nullopt};
     Region square; // of level 0
     std::vector<TileLevel> levels;
-    std::uint32_t first_trees = 0;     // the first level with single trees
-    std::vector<double> ground_errors; // by level
-    std::vector<std::uint32_t> cells;  // of the surface along each side of a tile, by level
+    std::uint32_t first_tree_level = 0; // the first level with single trees
+    std::vector<double> ground_errors;  // by level
+    std::vector<std::uint32_t> cells;   // of the surface along each side of a tile, by level
 
     std::vector<Hero> heroes;
     // A kind is a species and stage.
@@ -122,8 +123,8 @@ struct TileForest::State {
     std::vector<TileFile> files;
     std::map<std::string, std::string> ground_pictures; // path by name in a document
 
-    std::vector<std::uint64_t> order_keys; // curve_number() of the trees in order
-    std::vector<std::uint32_t> order;      // trees by curve_number()
+    std::vector<std::uint64_t> order_keys; // morton_code() of the trees in order
+    std::vector<std::uint32_t> order;      // trees by morton_code()
     std::vector<std::size_t> hero_of_tree; // by tree
     std::vector<Canopy> canopies;          // by level without trees
     double tallest = 0.0;                  // m
@@ -239,7 +240,7 @@ void TileForest::State::sort_trees() {
     keyed.reserve(trees.size());
     for (std::uint32_t i = 0; i < trees.size(); ++i) {
         const glm::dvec3 at(trees[i].position);
-        keyed.emplace_back(curve_number(cell(at.x - square.x), cell(at.z - square.z)), i);
+        keyed.emplace_back(morton_code(cell(at.x - square.x), cell(at.z - square.z)), i);
     }
     std::sort(keyed.begin(), keyed.end());
     for (const auto& [key, tree] : keyed) {
@@ -253,8 +254,8 @@ void TileForest::State::plan_levels() {
     square = {ground.x, ground.z, std::max(ground.width, ground.depth),
               std::max(ground.width, ground.depth)};
     const double density = static_cast<double>(grown.forest.trees.size()) / ground.area();
-    // Trees of a hero with the same share each.
-    const auto triangles_of = [&](const auto& level_of) {
+    // Triangles per tree, if all heroes have the same number of trees.
+    const auto mean_triangles = [&](const auto& level_of) {
         double sum = 0.0;
         for (const Hero& hero : heroes) {
             sum += static_cast<double>(hero.levels.levels[level_of(hero)].triangles);
@@ -262,9 +263,9 @@ void TileForest::State::plan_levels() {
         return sum / static_cast<double>(std::max<std::size_t>(heroes.size(), 1));
     };
     const double budget = static_cast<double>(options.triangles);
-    const double finest_triangles = triangles_of([](const Hero&) { return std::size_t{0}; });
+    const double finest_triangles = mean_triangles([](const Hero&) { return std::size_t{0}; });
     const double coarsest_triangles =
-        triangles_of([](const Hero& hero) { return hero.levels.levels.size() - 1; });
+        mean_triangles([](const Hero& hero) { return hero.levels.levels.size() - 1; });
     std::uint32_t depth = 0;
     const auto mean_trees = [&](std::uint32_t level) {
         const double side = square.width / static_cast<double>(1U << level);
@@ -294,7 +295,8 @@ void TileForest::State::plan_levels() {
                                       level.trees * coarsest_triangles <= budget);
         const auto plan_ground = [&](double other_error) {
             std::uint32_t& count = cells[number];
-            // Not much finer than the trees are.
+            // The coarsest grid whose error is at most half of `other_error`, or kGroundError if that
+            // is more.
             for (count = kCanopyCells; count > 1; count /= 2) {
                 const double coarser = grown.terrain->mesh_error(2.0 * level.side / count);
                 if (coarser > std::max(0.5 * other_error, kGroundError)) {
@@ -305,7 +307,7 @@ void TileForest::State::plan_levels() {
             error = std::max({error, other_error, ground_errors[number]});
         };
         if (!level.has_trees) {
-            // A surface may be off by the height of a tree, and shows no colours of less than a cell.
+            // A canopy may be off by the height of a tree, and its colours by half a cell.
             cells[number] = kCanopyCells;
             ground_errors[number] = grown.terrain->mesh_error(level.side / kCanopyCells);
             error =
@@ -313,7 +315,7 @@ void TileForest::State::plan_levels() {
             level.error = error;
             continue;
         }
-        first_trees = number;
+        first_tree_level = number;
         std::vector<std::size_t>& chosen = detail[number];
         double tree_error = 0.0;
         for (std::size_t i = 0; i < heroes.size(); ++i) {
@@ -369,7 +371,7 @@ std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const 
 
 std::string TileForest::State::picture_path(const std::string& bytes) {
     std::string path =
-        fmt::format("pictures/{:016x}.png", mix64(combine_bytes(0x6C616E6473636170, bytes)));
+        fmt::format("pictures/{:016x}.png", mix64(combine_bytes(kPictureHash, bytes)));
     const bool is_known = std::any_of(files.begin(), files.end(),
                                       [&](const TileFile& file) { return file.path == path; });
     if (!is_known) {
@@ -402,7 +404,7 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
     }
     models.resize(levels.size());
     hero_bounds.resize(levels.size());
-    for (std::uint32_t level = first_trees; level < levels.size(); ++level) {
+    for (std::uint32_t level = first_tree_level; level < levels.size(); ++level) {
         models[level].resize(heroes.size());
         hero_bounds[level].resize(heroes.size());
         for (std::size_t first = 0; first < heroes.size();) {
@@ -448,7 +450,7 @@ void TileForest::State::make_ground() {
     }
     if (grown.ground.colour != nullptr) {
         ground_colour = glm::dvec3(mean_colour(*grown.ground.colour));
-        Mesh sample; // pictures are those of materials in use
+        Mesh sample; // a triangle, because only materials in use have picture files
         sample.positions = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}};
         sample.normals.assign(3, {0.0F, 1.0F, 0.0F});
         sample.texture_coordinates = {{0.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 0.0F}};
@@ -464,24 +466,24 @@ void TileForest::State::make_ground() {
             ground_pictures[picture.name] = "../../" + picture_path(picture.bytes);
         }
     }
-    if (first_trees == 0) {
+    if (first_tree_level == 0) {
         return;
     }
-    const std::uint32_t across = kCanopyCells << (first_trees - 1);
+    const std::uint32_t across = kCanopyCells << (first_tree_level - 1);
     const double cell = square.width / across;
     Canopy canopy(across, cell);
-    const auto number = [&](double at) {
+    const auto cell_index = [&](double at) {
         return static_cast<std::uint32_t>(
             std::clamp(std::floor(at / cell), 0.0, static_cast<double>(across - 1)));
     };
     for (std::size_t i = 0; i < hero_of_tree.size(); ++i) {
         const Tree& tree = grown.forest.trees[i];
         const glm::dvec3 at(tree.position);
-        canopy.add(number(at.x - square.x), number(at.z - square.z), crowns[hero_of_tree[i]],
-                   static_cast<double>(tree.scale));
+        canopy.add(cell_index(at.x - square.x), cell_index(at.z - square.z),
+                   crowns[hero_of_tree[i]], static_cast<double>(tree.scale));
     }
     canopies.push_back(std::move(canopy));
-    while (canopies.size() < first_trees) {
+    while (canopies.size() < first_tree_level) {
         canopies.push_back(canopies.back().coarser());
     }
     std::reverse(canopies.begin(), canopies.end());
@@ -496,10 +498,10 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
     Material material;
     material.name = "ground";
     PatchPlan plan{cells[tile.level], region, earth, to_tile, 0.0, material, {}, {}};
-    const auto bare = [&terrain](double x, double z) {
+    const auto ground_height = [&terrain](double x, double z) {
         return static_cast<double>(terrain.height(static_cast<float>(x), static_cast<float>(z)));
     };
-    // As deep as the surfaces of this level and of the coarser one beside it may be apart.
+    // Max vertical distance between this surface and that of a neighbour of the next coarser level.
     plan.skirt = ground_errors[tile.level] + ground_errors[tile.level - std::min(tile.level, 1U)];
     plan.skirt = std::max(plan.skirt, level.has_trees ? 0.0 : tallest) + level.side / 1000.0;
     Texture colours;
@@ -514,7 +516,7 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
         const double depth = tiled ? pictures.depth : region.depth;
         const double first_u = std::floor((region.x - pictures.origin_x) / width);
         const double first_v = std::floor((region.z - pictures.origin_z) / depth);
-        plan.height = bare;
+        plan.height = ground_height;
         plan.texture = [&, width, depth, first_u, first_v](std::uint32_t, std::uint32_t, double x,
                                                            double z) {
             return glm::vec2((x - pictures.origin_x) / width - first_u,
@@ -527,8 +529,8 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
             return canopy.at_corner(std::llround((x - square.x) / cell),
                                     std::llround((z - square.z) / cell));
         };
-        plan.height = [bare, canopy_at](double x, double z) {
-            return bare(x, z) + canopy_at(x, z).height;
+        plan.height = [ground_height, canopy_at](double x, double z) {
+            return ground_height(x, z) + canopy_at(x, z).height;
         };
         static constexpr std::uint32_t kSide = kCanopyCells + 1;
         colours = {kSide, kSide, std::vector<std::uint8_t>(std::size_t{4} * kSide * kSide)};
@@ -542,10 +544,10 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
                 texel[i] = srgb_byte(colour[i]);
             }
             texel[3] = 255;
-            const auto part = [](std::uint32_t at) {
+            const auto texel_centre = [](std::uint32_t at) {
                 return (static_cast<float>(at) + 0.5F) / static_cast<float>(kSide);
             };
-            return glm::vec2(part(column), part(row));
+            return glm::vec2(texel_centre(column), texel_centre(row));
         };
     }
     Mesh mesh = make_patch(plan);
@@ -580,7 +582,7 @@ void TileForest::State::add_trees(const TileId& tile,
                                   TileDocument& document,
                                   TileContent& content) const {
     const unsigned shift = 2 * (finest() - tile.level);
-    const std::uint64_t number = curve_number(tile.column, tile.row);
+    const std::uint64_t number = morton_code(tile.column, tile.row);
     const auto first = std::lower_bound(order_keys.begin(), order_keys.end(), number << shift);
     const auto end = std::lower_bound(first, order_keys.end(), (number + 1) << shift);
     std::map<std::size_t, std::vector<TileTree>> groups; // by hero
@@ -664,14 +666,14 @@ struct Box {
     }
 };
 
-/// A number of a tileset: rounded to a multiple of 2^-20, a micrometre.
+/// `value` rounded to a multiple of 2^-20, about a micrometre, for a tileset.
 double rounded(double value) {
     constexpr double kSteps = 1 << 20;
     return std::floor(value * kSteps + 0.5) / kSteps;
 }
 
-/// The matrix in the order of a tileset. Axes have 12 digits: their error is below the diameter of
-/// the Earth times 1e-12.
+/// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less
+/// than 1e-12 of the diameter of the Earth.
 Json json_of(const glm::dmat4& matrix) {
     Json numbers = Json::array();
     for (int column = 0; column < 4; ++column) {
@@ -687,7 +689,7 @@ Json json_of(const glm::dmat4& matrix) {
 
 Json json_of(const Box& box) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
-    // A millimetre more, because numbers of tiles and tilesets are rounded.
+    // One millimetre larger, because numbers of tiles and tilesets are rounded.
     const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
     return {rounded(middle.x),
             rounded(middle.y),
@@ -741,7 +743,7 @@ TileForest::tilesets(const std::vector<std::vector<TileContent>>& contents) cons
         tileset["root"] = std::move(root);
         files.push_back({tileset_path(tile), tileset.dump() + "\n"});
     };
-    // `from`: level of the root of the file that holds the node, for relative paths.
+    // `from`: level of the root tile of the tileset file that lists the tile, for relative paths.
     const std::function<Node(const TileId&, std::uint32_t)> visit =
         [&](const TileId& tile, std::uint32_t from) -> Node {
         Node node;
@@ -771,20 +773,20 @@ TileForest::tilesets(const std::vector<std::vector<TileContent>>& contents) cons
             children.push_back(std::move(child.json));
         }
         const double error = state.levels[tile.level].error;
-        const std::string up = own_from == 0 ? "" : "../../";
+        const std::string to_root = own_from == 0 ? "" : "../../";
         node.json["boundingVolume"]["box"] = json_of(node.box);
         node.json["geometricError"] = rounded(error);
         node.json["refine"] = "REPLACE";
-        node.json["content"]["uri"] = up + path_of(tile);
+        node.json["content"]["uri"] = to_root + path_of(tile);
         if (!children.empty()) {
             node.json["children"] = std::move(children);
         }
         if (is_file) {
             write(tile, node, tile.level == 0);
-            const std::string back = from == 0 ? "" : "../../";
+            const std::string parent_to_root = from == 0 ? "" : "../../";
             node.json = {{"boundingVolume", {{"box", json_of(node.box)}}},
                          {"geometricError", rounded(error)},
-                         {"content", {{"uri", back + tileset_path(tile)}}}};
+                         {"content", {{"uri", parent_to_root + tileset_path(tile)}}}};
         }
         return node;
     };

@@ -2,8 +2,8 @@
 // TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene. Near
 // tiles hold the ground and the trees as instances of whole heroes; coarser tiles hold fewer
 // triangles per tree; tiles with too many trees hold one surface of ground and crowns. Meshes of
-// heroes are files that all tiles share. Every tile is a function of the forest and its place, so
-// tiles can be made in any order. Made by make_tile_forest(); used by `lsc tiles`.
+// heroes are files that all tiles share. A tile depends only on the forest and its place, so tiles
+// can be made in any order. Made by make_tile_forest(); used by `lsc tiles`.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -38,7 +38,7 @@ struct TileOptions {
     /// Place of the scene's origin at altitude 0; +X points east and -Z north. None: the tileset has
     /// coordinates of its own.
     std::optional<GeoPlace> origin;
-    std::uint64_t triangles = kTileTriangles; // max of a tile, for its mean number of trees
+    std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
     MeshOptions mesh;
     std::string generator; // the program and its version
 };
@@ -73,7 +73,7 @@ struct TileContent {
     std::string bytes;           // empty: there is nothing in the tile
     std::array<double, 3> low{}; // m; east, north, up
     std::array<double, 3> high{};
-    std::uint64_t trees = 0; // that it shows one by one
+    std::uint64_t trees = 0; // number of single trees
 };
 
 class TileForest {
@@ -86,12 +86,12 @@ public:
     [[nodiscard]] const std::vector<TileLevel>& levels() const;
     /// The files that tiles share.
     [[nodiscard]] const std::vector<TileFile>& files() const;
-    /// The tiles of a level that meet the ground, by row and column.
+    /// The tiles of a level that overlap the ground, row by row.
     [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
     /// Makes a tile. May be called from several threads. Throws std::bad_alloc.
     [[nodiscard]] TileContent content(const TileId& tile) const;
     /// The tilesets, as files: "tileset.json" and one for each subtree of kSubtreeLevels levels.
-    /// `contents`: of all tiles of all levels, in the order of tiles(); their bytes are not read.
+    /// contents[level]: the contents of tiles(level), in the same order; their bytes are not read.
     [[nodiscard]] std::vector<TileFile>
     tilesets(const std::vector<std::vector<TileContent>>& contents) const;
     /// The path of the content of a tile: "3/5/2.glb".
@@ -108,7 +108,7 @@ private:
 };
 
 /// Plans the tiles of a forest whose trees are placed, and makes the shared files. Precondition:
-/// `grown` has been grown with rho 0. Stops as mesh_forest(); Failed: nothing to draw.
+/// `grown` has been grown with rho 0. Stops for the reasons of mesh_forest(); Failed: nothing to draw.
 [[nodiscard]] Outcome<TileForest> make_tile_forest(const Scene& scene,
                                                    GrownForest grown,
                                                    const TileOptions& options,

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-/// `base` to the power of `exponent`. The power of the C library is not the same on every machine.
+/// `base` to the power of `exponent`. std::pow differs between machines.
 double power(double base, std::uint64_t exponent) {
     double result = 1.0;
     for (; exponent != 0; exponent /= 2) {
@@ -66,10 +66,11 @@ CanopyPoint Canopy::at_corner(std::int64_t column, std::int64_t row) const {
     }
     CanopyPoint point;
     if (area > 0.0) {
-        // Each tree stands anywhere in the cells, independently of the others. On average this does
-        // not depend on the size of the cells: over a Poisson process it is 1 - exp(-area / ground).
-        const double part = area / static_cast<double>(trees) / (count * cell_ * cell_);
-        point.cover = 1.0 - power(std::max(0.0, 1.0 - part), trees);
+        // Expected cover if each tree stands anywhere in the cells, independently of the others. Its
+        // mean is the same for cells of any size: 1 - exp(-area of crowns / area of ground) for a
+        // Poisson process.
+        const double cover_of_tree = area / static_cast<double>(trees) / (count * cell_ * cell_);
+        point.cover = 1.0 - power(std::max(0.0, 1.0 - cover_of_tree), trees);
         point.height = point.cover * volume / area;
         point.colour = colour / area;
     }

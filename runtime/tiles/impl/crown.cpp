@@ -16,10 +16,10 @@ namespace lsys {
 
 namespace {
 
-/// What a material adds to a picture from above.
+/// Mean appearance of a material.
 struct Shade {
     glm::dvec3 colour{1.0};
-    double opacity = 1.0; // part of the area of its triangles
+    double opacity = 1.0; // opaque fraction of the area of its triangles
 };
 
 double opacity_of(const Texture& picture) {
@@ -114,7 +114,7 @@ Crown crown_of(const Mesh& mesh) {
                                                            w2 * (at[2].y - at[0].y));
                     Sample& sample = samples[static_cast<std::size_t>(row) * kCrownLines +
                                              static_cast<std::size_t>(column)];
-                    // Triangles with holes cover a part of the sample, whatever lies below.
+                    // A triangle with holes covers the same fraction of what others leave uncovered.
                     sample.cover = 1.0 - (1.0 - sample.cover) * (1.0 - shade.opacity);
                     if (height > sample.height) {
                         sample.height = height;

@@ -50,7 +50,7 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
     const double sin_u = (1.0 - kF) * sin_lat / length;
     const double cos_u = cos_lat / length;
     const double sigma_1 = angle_of(sin_u, cos_u * north);
-    const double sin_alpha = cos_u * east; // of the geodesic at the equator
+    const double sin_alpha = cos_u * east; // of the azimuth at the equator
     const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
     const double u2 = cos2_alpha * (kA * kA - kB * kB) / (kB * kB);
     const double a = 1.0 + u2 / 16384.0 * (4096.0 + u2 * (-768.0 + u2 * (320.0 - 175.0 * u2)));
@@ -58,7 +58,7 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
     double sigma = distance / (kB * a);
     SineCosine at;
     double cos_2m = 0.0;      // of twice the angle from the equator to the middle of the line
-    constexpr int kSteps = 8; // the correction shrinks by a factor of 300 in each
+    constexpr int kSteps = 8; // each makes the correction 300 times smaller
     for (int i = 0; i < kSteps; ++i) {
         at = sine_cosine(sigma);
         cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;

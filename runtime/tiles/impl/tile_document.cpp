@@ -15,7 +15,7 @@ namespace lsys {
 namespace {
 
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
-constexpr std::size_t kAlignment = 8; // of views: EXT_structural_metadata wants this for its tables
+constexpr std::size_t kAlignment = 8; // of buffer views, required for EXT_structural_metadata
 constexpr int kShort = 5122;
 constexpr int kFloat = 5126;
 
@@ -34,7 +34,7 @@ float rounded(float value) {
     return std::floor(value * kSteps + 0.5F) / kSteps;
 }
 
-/// `value` with its 8 lowest bits of 24 cleared, which compresses better.
+/// `value` rounded to 16 of its 24 significant bits, which compresses better.
 float shortened(float value) {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
@@ -106,7 +106,8 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
     const auto count_of = [&](const char* name) {
         return json_.contains(name) ? json_[name].size() : 0;
     };
-    /// Adds the items that are not there yet, with their references renumbered; returns all numbers.
+    /// Adds the items that are not there yet, with their references renumbered; returns the index of
+    /// each item.
     const auto add_missing = [&](const char* name, const auto& renumber) {
         std::vector<std::size_t> numbers;
         for (Json& item : list(name)) {
@@ -131,7 +132,8 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
         from["buffers"].size() > 1
             ? reserve_decoded(buffer, from["buffers"][1]["byteLength"].get<std::uint64_t>())
             : 0;
-    // The number of a fallback is known when all buffers are; until then a view names its buffer.
+    // Fallbacks get their indices in put_buffers(); until then a view has the index of its stored
+    // buffer.
     for (Json& view : list("bufferViews")) {
         Json* stored = &view;
         if (view.contains("extensions") && view["extensions"].contains(kMeshopt)) {

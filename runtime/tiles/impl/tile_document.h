@@ -58,7 +58,7 @@ private:
         std::string uri; // empty: the buffer of the GLB
         std::uint64_t bytes = 0;
         std::uint64_t decoded_bytes = 0; // of the fallback; 0: there is none
-        std::size_t fallback = 0;        // its number, if it exists
+        std::size_t fallback = 0;        // its index in the document, if it exists
     };
     /// A mesh with quantised positions, which are low + step * item.
     struct DrawnMesh {
@@ -73,7 +73,7 @@ private:
 
     DrawnMesh add_mesh(const MeshDocument& part);
     std::size_t add_buffer(const MeshDocument& part);
-    /// Room for `bytes` decoded items of a buffer; returns their offset in its fallback.
+    /// Reserves `bytes` bytes of decoded items in the fallback of a buffer; returns their offset.
     std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
     std::size_t add_view(std::string_view bytes);
     std::size_t add_packed_view(const std::string& items, std::size_t stride);
