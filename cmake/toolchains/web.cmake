@@ -10,7 +10,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# Missing memory is an exception, which libraries catch (runtime/README.md, Memory).
+# -fexceptions: running out of memory throws an exception, which the libraries catch (runtime/README.md, Memory).
 set(CMAKE_CXX_FLAGS_INIT "-fexceptions -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
   "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sENVIRONMENT=node")

@@ -13,10 +13,11 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# Windows 10: the names of long paths, the escape codes of consoles. Moves of vectors accept any address, because g++
-# aligns the stack to 16 bytes only, and spilled vectors of AVX2 have 32 (GCC bug 54412).
+# 0x0A00 is Windows 10, which has long paths and escape codes in consoles. The assembler replaces aligned moves of
+# vectors by unaligned ones, because g++ aligns the stack to 16 bytes only and spilled AVX2 vectors need 32 (GCC bug
+# 54412).
 set(CMAKE_CXX_FLAGS_INIT "-D_WIN32_WINNT=0x0A00 -DUNICODE -D_UNICODE -DWIN32_LEAN_AND_MEAN -DNOMINMAX -Wa,-muse-unaligned-vector-move")
-# Deep tests have the stack that they have on Linux.
+# A stack of 8 MiB as on Linux, for tests of deep nesting.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--stack,8388608")
 find_program(LSYS_WINE NAMES wine64 wine PATHS /usr/lib/wine)
 if(LSYS_WINE)
