@@ -89,7 +89,7 @@ void add_fix(Diagnostic& diagnostic,
              bool is_machine_applicable);
 /// Whether a fix of the diagnostic is machine applicable.
 [[nodiscard]] bool has_certain_fix(const Diagnostic& diagnostic);
-/// Makes all fixes of the diagnostic offers.
+/// Turns all fixes of the diagnostic into offers.
 void offer_fixes(Diagnostic& diagnostic);
 
 /// A diagnostic with its code's usual severity.
@@ -120,9 +120,9 @@ public:
     void sort_by_place();
     /// Whether an error from index `first` on has no certain fix.
     [[nodiscard]] bool has_doubtful_error_from(std::size_t first) const;
-    /// Makes the fixes of all diagnostics from index `first` on offers.
+    /// Turns the fixes of all diagnostics from index `first` on into offers.
     void offer_fixes_from(std::size_t first);
-    /// Makes the fixes of the diagnostics that satisfy `is_doubtful` offers.
+    /// Turns the fixes of the diagnostics that satisfy `is_doubtful` into offers.
     template <typename Predicate>
     void offer_fixes_where(const Predicate& is_doubtful) {
         for (Diagnostic& diagnostic : all_) {

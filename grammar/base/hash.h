@@ -88,12 +88,13 @@ template <typename Bytes>
     bits = xorshift_multiply(bits, 15, 0x846CA68BU);
     return bits ^ bits >> 16;
 }
-/// Hash of the coordinates of a lattice point, in one of many layers.
+/// Last step of lattice32(), from the combined coordinates.
 [[nodiscard]] constexpr std::uint32_t mix_lattice(std::uint32_t coordinates) {
     coordinates = xorshift_multiply(coordinates, 15, 0x2C1B3C6DU);
     coordinates = xorshift_multiply(coordinates, 12, 0x297A2D39U);
     return coordinates ^ coordinates >> 15;
 }
+/// Hash of a lattice point; with `layer`, of a point in one of many lattices.
 [[nodiscard]] constexpr std::uint32_t lattice32(std::uint32_t x, std::uint32_t y) {
     return mix_lattice(golden_multiple(x) ^ y * 0x85EBCA77U);
 }
