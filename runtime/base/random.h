@@ -91,7 +91,7 @@ public:
     DrawSource(std::uint64_t seed, std::uint32_t generation, std::uint64_t position)
         : seed_(seed), position_(position), generation_(generation) {}
 
-    /// Draw `number` as u in [0, 1): word number mod 4 of block number / 4.
+    /// Draw `number` as u in [0, 1): word `number` % 4 of block `number` / 4.
     [[nodiscard]] float draw(std::uint64_t number);
 
 private:

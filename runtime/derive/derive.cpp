@@ -45,7 +45,8 @@ struct Derivation::State {
         return Stop::Diagnosed;
     }
 
-    /// Records the size of a next word that may not fit: modules, and bytes held with it.
+    /// Sets the values to report in case the next word does not fit: its modules, and the bytes held
+    /// with it.
     void report_limit(LimitKind kind, std::uint64_t modules, std::uint64_t bytes) {
         end.limit = {kind, age, word.module_count(), modules, bytes};
     }

@@ -28,7 +28,7 @@ struct HeightTable {
 /// Measures trees of one cache at scale 1. Use one for each thread.
 class TreeMeasure {
 public:
-    /// `key`: of the forest. Precondition: `cache` and `table` outlive the measure.
+    /// `key`: the forest's key. Precondition: `cache` and `table` outlive the measure.
     TreeMeasure(const InstanceCache& cache, const HeightTable& table, std::uint64_t key)
         : cache_(cache), table_(table), expander_(cache, key) {}
 

@@ -271,9 +271,9 @@ std::uint16_t Domination::age_of(const ForestPlant& plant, const TreeMaker& make
     if (species.stages <= 1 || plant.number >= options_.count) {
         return plant.age;
     }
-    const float ahead =
+    const float start_age =
         static_cast<float>(maker.start_of(plant.number, plant.species)) * species.years_of_stage;
-    return static_cast<std::uint16_t>(plant.age + static_cast<std::uint32_t>(std::ceil(ahead)));
+    return static_cast<std::uint16_t>(plant.age + static_cast<std::uint32_t>(std::ceil(start_age)));
 }
 
 LargeVector<Tree> Domination::trees() const {

@@ -172,7 +172,8 @@ private:
         return term;
     }
 
-    /// The negation of `x` if it is a single comparison, else unknown. Sides are never NaN.
+    /// The negation of `x` if it is a single comparison, else unknown. The sides of a comparison are
+    /// never NaN, so exactly one of <, = and > holds.
     Term complement(const Term& x) {
         if (x.kind != ShapeKind::Comparisons || x.comparison_count != 1) {
             return {};

@@ -101,7 +101,8 @@ template <typename C, typename R>
     run = at;
 }
 
-/// Leaves the parameters of a general entry to its batch, or evaluates them.
+/// Adds the parameters of a general entry to its batch, which computes them later, or evaluates them
+/// now. Returns false if one has no finite value.
 template <typename C>
 [[gnu::noinline]] bool write_general(const Plan& plan,
                                      const PassKeys& keys,

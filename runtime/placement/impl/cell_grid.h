@@ -33,7 +33,8 @@ public:
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;
     }
-    /// Max distance in m from the origin of cells with a number, minus `cells` cells.
+    /// Distance in m from the origin to the border of the numbered cells, along X or Z, less `cells`
+    /// cells.
     [[nodiscard]] double reach(std::int64_t cells) const {
         return side_ * static_cast<double>(half_ - cells);
     }

@@ -14,17 +14,17 @@ namespace lsys {
 /// from 0, and from the reserved numbers of docs/language.md sections 6 and 9.
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
-/// Blocks at a tree's number.
+/// Blocks whose position is a tree's number.
 inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
 inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
 inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death, stage at the start
-/// Blocks at a cell's number, kCellBlock to kCellBlock + 3: the count of places
+/// Blocks kCellBlock to kCellBlock + 3, whose position is a cell's number: the count of places
 /// (UniformCells), or the random order of 16 places (DensityCells).
 inline constexpr std::uint32_t kCellBlock = 8;
-/// Blocks at a step of PoissonDisk: one for the active point, then one per two attempts.
+/// Blocks whose position is a step of PoissonDisk: one for the active point, then one per two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;
-/// Blocks at a plant's number: kMaxSeeds per year, the first for the number of seeds, then one per
-/// seed.
+/// Blocks whose position is a plant's number: kMaxSeeds per year, the first for the number of seeds,
+/// then one per seed.
 inline constexpr std::uint32_t kSeedBlock = 0x80000000u;
 inline constexpr std::uint32_t kMaxSeeds = 256; // blocks per plant and year
 
