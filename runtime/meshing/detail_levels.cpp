@@ -745,7 +745,7 @@ private:
         level.options.*option = low;
     }
 
-    /// Changes to tubes without relief of the bark and without smooth joints.
+    /// Changes `options` to tubes without relief of the bark and without smooth joints.
     static void make_plain(MeshOptions& options) {
         options.method = MeshMethod::Tubes;
         options.bark_noise = 0.0F;

@@ -300,7 +300,7 @@ private:
                 extent.y += half * std::abs(glm::dot(cut, side.up));
                 rise += half * std::abs(part);
             }
-            glm::vec2 room = kRoomOfOpening * halves;
+            glm::vec2 room = kMaxOpening * halves;
             if (here.size() > 2) { // a quarter of the side
                 room *= 0.5F * kInnerPart;
             } else if (here.size() == 2) { // a half, as divide() cuts it

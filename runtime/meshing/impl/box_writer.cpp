@@ -149,8 +149,8 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     BoxOpening opening;
     for (int axis = 0; axis < 2; ++axis) {
         const float extent = 0.5F * (high[axis] - low[axis]);
-        const float size = extent > kRoomOfOpening ? kRoomOfOpening / extent : 1.0F;
-        const float room = std::max(kRoomOfOpening - size * extent, 0.0F);
+        const float size = extent > kMaxOpening ? kMaxOpening / extent : 1.0F;
+        const float room = std::max(kMaxOpening - size * extent, 0.0F);
         const float from = 0.5F * (low[axis] + high[axis]);
         const float to = std::clamp(from, -room, room);
         opening.moved = opening.moved || std::abs(to - from) > kMinVisibleOffset;

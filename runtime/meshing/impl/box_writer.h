@@ -40,9 +40,9 @@ struct BoxOpening {
     float size = 1.0F;  // relative to the cross-section of the segment; 1 if there is room
     bool moved = false; // its middle is not on the axis of the segment
 };
-/// Part of a side of a joint, or of one of its tiles, that an opening may take.
-inline constexpr float kRoomOfOpening = 0.94F;
-/// Part of a divided side that its tiles take.
+/// Max size of an opening, as a fraction of the side of the joint or of the tile that it is in.
+inline constexpr float kMaxOpening = 0.94F;
+/// Fraction of a divided side that its tiles take.
 inline constexpr float kInnerPart = 0.85F;
 
 /// The axes of the socket, turned by the smallest angle until perpendicular to `direction` (unit).

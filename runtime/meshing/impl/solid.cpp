@@ -21,7 +21,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMinSolidSides = 9; // fewer would lose thin parts
-/// Edge of a cell per radius, times the sides of a cross-section.
+/// The edge of a cell is kCellSides * radius / number of sides of a cross-section.
 constexpr double kCellSides = 7.2;
 /// Width of the thinnest part, as a fraction of the largest extent of the plant.
 constexpr double kMinWidth = 1.0 / 150.0;
