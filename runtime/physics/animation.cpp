@@ -115,7 +115,7 @@ public:
         }
     }
 
-    /// Corrects a frame.
+    /// Raises segments of a frame, whose poses are `places`.
     void raise(const Skeleton& plant, std::span<SegmentPlace> places) const {
         if (arms_.empty()) {
             return;

@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest plant
 constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
 constexpr double kMinGrowth = 3.0;       // min ratio
-// A plant with larger twigs is nearly a chain: most of its weight would be at the end of the kept
-// bodies. Such a plant is cut into runs instead. See Coarsening::relative_twig_size().
+// Max of Coarsening::relative_twig_size(). A plant with larger twigs is nearly a chain: most of its
+// weight would be at the end of the kept bodies. Such a plant is cut into runs instead.
 constexpr double kMaxRelativeTwig = 32.0;
 
 /// m^2, area of the segment in the wind, mean over all directions.
