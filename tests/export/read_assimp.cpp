@@ -162,7 +162,7 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
 
 /// Bounds of the corners, sum of the corners, total area and number of triangles: none depends on the
 /// order of the triangles.
-struct Whole {
+struct MeshTotals {
     std::array<double, 3> low{1e30, 1e30, 1e30};
     std::array<double, 3> high{-1e30, -1e30, -1e30};
     std::array<double, 3> sum{};
@@ -188,8 +188,8 @@ struct Whole {
     }
 };
 
-Whole whole_of(const aiScene& scene) {
-    Whole whole;
+MeshTotals totals_of(const aiScene& scene) {
+    MeshTotals whole;
     std::vector<std::pair<const aiNode*, aiMatrix4x4>> pending{
         {scene.mRootNode, scene.mRootNode->mTransformation}};
     while (!pending.empty()) {
@@ -222,8 +222,8 @@ void compare_forest(const std::filesystem::path& path, const Triangles& baked) {
         fail(path, importer.GetErrorString());
         return;
     }
-    const Whole found = whole_of(*scene);
-    Whole wanted;
+    const MeshTotals found = totals_of(*scene);
+    MeshTotals wanted;
     for (std::size_t i = 0; i + 2 < baked.corners.size(); i += 3) {
         std::array<aiVector3D, 3> corners;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -271,7 +271,7 @@ int print_box(const std::filesystem::path& path) {
     }
     rusage use{};
     getrusage(RUSAGE_SELF, &use);
-    Whole box;
+    MeshTotals box;
     std::uint64_t nodes = 0;
     std::vector<std::pair<const aiNode*, aiMatrix4x4>> pending{
         {scene->mRootNode, scene->mRootNode->mTransformation}};

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Codes without annotation in any case.
+/// Prints the codes that no case has an annotation of. Returns the exit status: 1 if there are any.
 int list_missing_codes(const lsys::tests::UiOutcome& outcome) {
     int missing = 0;
     for (std::uint32_t i = 0; i < lsys::diagnostic_code_count(); ++i) {
