@@ -108,7 +108,7 @@ struct BranchRun {
 struct DrawLists {
     std::vector<BranchEntry> branches; // grouped by run
     std::vector<BranchRun> runs;
-    // Both sorted: entries with the whole range before blended ones.
+    // In `trees` and `clusters`, entries with the whole blend range precede blended ones.
     std::vector<DrawEntry> trees;    // impostors; index: see ForestLod::lod_tree()
     std::vector<DrawEntry> clusters; // index: cell
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
