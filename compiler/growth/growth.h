@@ -90,7 +90,8 @@ struct FixedPoint {
     bool is_empty = false; // the word has no modules
 };
 
-/// What ends the growth before the requested generation; both are unset if growth is not known.
+/// The limit or the fixed point that the words reach before the requested generation. Neither is set
+/// if growth is not known.
 struct GrowthEnd {
     /// Set if not all requested generations fit. If the axiom is too large, largest_fitting is 0 and
     /// at_largest is at_next.
